@@ -170,6 +170,7 @@ impl CheckArguments {
             again: None,
             times: Vec::new(),
             left_changed: Vec::new(),
+            ended: None,
         };
         let report = Report::new(about, &outcomes, &left_out);
         let extracted = match self.extract(&checked) {

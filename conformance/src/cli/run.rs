@@ -463,6 +463,7 @@ impl Run {
             again: Some(again(std::env::args_os().skip(1).map(lossy))),
             times: Vec::new(),
             left_changed: Vec::new(),
+            ended: None,
         }
     }
 

@@ -378,7 +378,9 @@ fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
         format!("{}: {counts}", one.subject)
     });
     let totals = totals.collect::<Vec<_>>().join("; ");
-    writeln!(out, "{}  {totals}", display.paint(color, verdict))
+    let ended = report.ended.iter().map(|why| format!("; ended early: {why}"));
+    let ended: String = ended.collect();
+    writeln!(out, "{}  {totals}{ended}", display.paint(color, verdict))
 }
 
 /// Requirements that follow from one that this run does not judge.

@@ -40,7 +40,7 @@ pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// What the verdict of the run means; of a failure the requirements.
-fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
+fn meaning(report: &Report) -> (String, Vec<FailedView>) {
     let failed: Vec<FailedView> = report
         .subjects
         .iter()
@@ -65,7 +65,8 @@ fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
         Exit::Stale => "Nothing fails, but a waiver no longer holds.",
         Exit::Internal => "The suite itself failed.",
     };
-    (words, failed)
+    let ended = report.ended.as_ref().map(|why| format!(" The run ended early: {why}."));
+    (words.to_owned() + ended.as_deref().unwrap_or_default(), failed)
 }
 
 /// A requirement that fails.
@@ -101,7 +102,7 @@ struct ReportView<'r> {
     report: Report,
     cases: usize,
     passed: bool,
-    meaning: &'static str,
+    meaning: String,
     failed: Vec<FailedView>,
     causes: Vec<CauseView>,
     /// Whether the seed has ordered the cases: a capture has no order.

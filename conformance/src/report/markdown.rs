@@ -24,6 +24,9 @@ pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     for why in &report.rejected {
         writeln!(out, "**Rejected for safety: {}**\n", plain(why))?;
     }
+    if let Some(why) = &report.ended {
+        writeln!(out, "**Ended early: {}**\n", plain(why))?;
+    }
     writeln!(out, "## ads-cnc: {} {verdict}\n", plain(&target.name))?;
     writeln!(out, "| | |\n|---|---|")?;
     let profile = profile.as_ref().map(|profile| profile.name.clone());

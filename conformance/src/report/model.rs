@@ -61,6 +61,9 @@ pub struct Report {
     pub exit_code: u8,
     pub checks: usize,
     pub frames: usize,
+    /// Why the run ended before all its cases were run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ended: Option<String>,
     /// Number of cases that were not selected; they are not in `cases`.
     pub left_out: usize,
     /// Codec, target, testee or client, each by itself.

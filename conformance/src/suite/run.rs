@@ -48,6 +48,9 @@ pub fn run(
         let run = TRIES.get(case.id.as_str()).copied();
         let outcome = CaseOutcome::timed(|| one(case, run, target.as_deref_mut()));
         progress::step(outcome.verdict().fails_run());
+        if let Some(target) = target.as_deref_mut() {
+            target.end_in(&outcome.case.id);
+        }
         outcome
     }));
     if let Some(target) = target.as_deref_mut() {
@@ -189,6 +192,20 @@ mod tests {
             let outcomes = run(vec![case.unwrap()], Some(&mut target), None, 1);
             assert_eq!(outcomes[0].verdict(), verdict, "{defect:?} {name}: {outcomes:?}");
         }
+    }
+
+    /// The case in which the target stops answering is named.
+    #[test]
+    fn the_case_in_which_the_target_is_gone_is_noted() {
+        let (server, mut target) = target(None, NAME);
+        let cases: Vec<Case> =
+            crate::suite::cases().into_iter().filter(|one| one.needs == Needs::Queries).collect();
+        run(cases[..1].to_vec(), Some(&mut target), None, 1);
+        assert_eq!(target.ended(), None);
+        drop(server);
+        run(cases[1..].to_vec(), Some(&mut target), None, 1);
+        let ended = target.ended().unwrap();
+        assert!(ended.starts_with("the target stopped answering in "), "{ended}");
     }
 
     /// A case that panics restores its values, and the next case runs.

@@ -169,8 +169,9 @@ impl Run {
         let (outcomes, left_out) = plan.finish(outcomes);
         let (left_changed, written) = (session.changes().left(), session.changes().written());
         let written = if allow { written } else { Vec::new() };
+        let ended = session.ended().map(str::to_owned);
         let (frames, profile) = (session.frames, Some(session.profile));
-        let about = About { frames, profile, times, left_changed, ..about };
+        let about = About { frames, profile, times, left_changed, ended, ..about };
         Ok(Report::new(about, &outcomes, &left_out).with_writes(rejected, written))
     }
 
