@@ -312,3 +312,16 @@ fn a_bad_file_of_waivers_is_refused_with_its_line() {
     }
     assert_eq!(ads_cnc(&["run", "--waivers", "/no/such/file"]).status.code(), Some(2));
 }
+
+/// The cases after the last allowed failure are not run, and the last line counts them.
+#[test]
+fn a_run_stops_after_so_many_failures() {
+    let defect = ["--defect", "variable-description.size.flip", "--only", "VAR", "--seed", "1"];
+    let output = ads_cnc(&[&["run", "--max-fail", "1"], &defect[..]].concat());
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    let last = shown.lines().last().unwrap();
+    assert!(last.contains("; ended early: ") && last.contains(" (--max-fail)"), "{last}");
+    let passed = ads_cnc(&["run", "-q", "--max-fail", "1", "--only", "com-count"]);
+    assert!(!String::from_utf8(passed.stdout).unwrap().contains("ended early"));
+}

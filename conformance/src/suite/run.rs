@@ -24,6 +24,9 @@ use crate::testee::{self, Terms};
 static TRIES: LazyLock<HashMap<&str, Try>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
+/// The note of a case after the last failed one that was allowed.
+pub const ENOUGH: &str = "enough cases had failed before";
+
 /// Runs the cases: those of the codec against the codec, all others against a target.
 ///
 /// `defect` changes the codec's input and output, to show that its cases can fail.
@@ -50,6 +53,8 @@ pub fn run(
         progress::step(outcome.verdict().fails_run());
         if let Some(target) = target.as_deref_mut() {
             target.end_in(&outcome.case.id);
+            let failed = usize::from(outcome.verdict().is_failure());
+            target.failures_left = target.failures_left.map(|left| left.saturating_sub(failed));
         }
         outcome
     }));
@@ -81,6 +86,9 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
     // Cases about frames judge the frames so far, even if the target is gone.
     if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
         return CaseOutcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
+    }
+    if target.failures_left == Some(0) && case.needs != Needs::Frames {
+        return CaseOutcome::untried(case, Verdict::NotRun, ENOUGH);
     }
     let late = target.deadline.filter(|_| case.needs != Needs::Frames);
     if let Some(deadline) = late.filter(Deadline::is_over) {

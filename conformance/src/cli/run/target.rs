@@ -137,13 +137,19 @@ impl Run {
         let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
             plan.cases.iter().cloned().partition(|case| case.needs == Needs::Codec);
         let mut times = Vec::new();
-        let mut outcomes = Vec::new();
+        let mut outcomes: Vec<CaseOutcome> = Vec::new();
         {
             let _watch = Watch::start("cases");
             for (subject, cases) in
                 [(CaseSubject::Codec, of_codec), (CaseSubject::Target, of_target)]
             {
                 let begin = Instant::now();
+                if let Some(most) = self.max_fail {
+                    let failed = outcomes.iter().filter(|one| one.verdict().is_failure()).count();
+                    session.stop_after(
+                        usize::try_from(most).unwrap_or(usize::MAX).saturating_sub(failed),
+                    );
+                }
                 let target = (subject == CaseSubject::Target).then_some(&mut session);
                 outcomes.extend(suite::run(cases, target, defect, about.seed));
                 times.push((subject, begin.elapsed()));
@@ -169,7 +175,15 @@ impl Run {
         let (outcomes, left_out) = plan.finish(outcomes);
         let (left_changed, written) = (session.changes().left(), session.changes().written());
         let written = if allow { written } else { Vec::new() };
-        let ended = session.ended().map(str::to_owned);
+        let unrun =
+            outcomes.iter().filter(|one| one.note.as_deref() == Some(suite::ENOUGH)).count();
+        let ended = match self.max_fail {
+            Some(most) if unrun > 0 => {
+                let most = plural(most, "failed case");
+                Some(format!("{} not run after {most} (--max-fail)", plural(unrun, "case")))
+            }
+            _ => session.ended().map(str::to_owned),
+        };
         let (frames, profile) = (session.frames, Some(session.profile));
         let about = About { frames, profile, times, left_changed, ended, ..about };
         Ok(Report::new(about, &outcomes, &left_out).with_writes(rejected, written))

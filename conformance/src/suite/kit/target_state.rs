@@ -47,6 +47,8 @@ pub struct TargetState {
     pub(in crate::suite) gone: Option<String>,
     /// In which case the target stopped answering, and after how many requests.
     pub(in crate::suite) ended: Option<String>,
+    /// After how many more failed cases the rest is not run; `None` for all.
+    pub(in crate::suite) failures_left: Option<usize>,
     /// Violations of the frames' headers.
     pub(in crate::suite) broken: Record,
     /// The checks of all replies.
@@ -87,6 +89,7 @@ impl TargetState {
             silences: 0,
             gone: None,
             ended: None,
+            failures_left: None,
             broken: Record::default(),
             rules: RuleBook::of_run(),
             deadline: None,
@@ -110,6 +113,11 @@ impl TargetState {
     /// The values that are changed at the moment.
     pub const fn changes(&self) -> &Changes {
         &self.changes
+    }
+
+    /// Sets after how many failed cases the rest is not run.
+    pub const fn stop_after(&mut self, failures: usize) {
+        self.failures_left = Some(failures);
     }
 
     /// Why no more requests were sent to the target, if it stopped answering.
