@@ -2,11 +2,12 @@
 
 use std::io::Read;
 
-use pcap_parser::pcapng::Block;
+use pcap_parser::pcapng::{Block, OptionCode};
 use pcap_parser::traits::PcapNGPacketBlock as _;
 use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
 use super::time::Time;
+use super::writer::SUITE;
 use crate::text::plural;
 
 /// Initial size of the read buffer in bytes.
@@ -28,6 +29,8 @@ pub(super) struct Packet<'p> {
     pub(super) bytes: &'p [u8],
     /// Bytes that were not captured.
     pub(super) missing: usize,
+    /// Whether the suite is the client, as it notes in its captures.
+    pub(super) is_of_suite: bool,
 }
 
 /// How a file ended.
@@ -68,6 +71,7 @@ struct Interfaces {
     /// The interfaces of the current pcapng section.
     all: Vec<CaptureInterface>,
     packets: u64,
+    is_of_suite: bool,
 }
 
 /// Calls a function with every packet of a file.
@@ -168,7 +172,13 @@ impl Interfaces {
 
     fn block(&mut self, block: &Block<'_>, each: &mut impl FnMut(Packet<'_>)) {
         match block {
-            Block::SectionHeader(_) => self.all.clear(),
+            Block::SectionHeader(header) => {
+                self.all.clear();
+                let mut options = header.options.iter();
+                self.is_of_suite = options.any(|option| {
+                    option.code == OptionCode::Comment && option.as_bytes() == Ok(SUITE.as_bytes())
+                });
+            }
             Block::InterfaceDescription(interface) if self.all.len() < INTERFACES_MAX => {
                 self.all.push(CaptureInterface {
                     link: interface.linktype,
@@ -207,6 +217,13 @@ impl Interfaces {
         let link = self.all.get(interface).map_or(Linktype(-1), |interface| interface.link);
         let original = usize::try_from(original).unwrap_or(usize::MAX);
         let missing = original.saturating_sub(bytes.len());
-        each(Packet { number: self.packets, time, link, bytes, missing });
+        each(Packet {
+            number: self.packets,
+            time,
+            link,
+            bytes,
+            missing,
+            is_of_suite: self.is_of_suite,
+        });
     }
 }

@@ -71,7 +71,7 @@ pub(super) fn packets(
             Err(why) => return Ok(FileEnd::Cut(format!("packet {number}: {why}"))),
             Ok((time, link, original)) => {
                 let missing = original.saturating_sub(bytes.len());
-                each(Packet { number, time, link, bytes: &bytes, missing });
+                each(Packet { number, time, link, bytes: &bytes, missing, is_of_suite: false });
             }
         }
     }

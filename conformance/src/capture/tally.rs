@@ -26,6 +26,8 @@ const SHOWN: usize = 8;
 pub struct CaptureTally {
     /// Packets of the file.
     pub packets: u64,
+    /// Those of connections in which the suite is the client.
+    pub of_suite: u64,
     /// IP fragments.
     pub fragments: u64,
     /// Packets with a header that is cut or wrong.
@@ -115,6 +117,11 @@ impl CaptureTally {
             format!("{gaps}: what they touch is inconclusive")
         });
         cut.into_iter().chain(gaps).collect()
+    }
+
+    /// Whether the suite sent all the requests.
+    pub const fn is_of_suite(&self) -> bool {
+        self.packets > 0 && self.of_suite == self.packets
     }
 
     /// One line for each group of counters: what the capture has, and which part of it was not

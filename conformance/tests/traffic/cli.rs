@@ -129,14 +129,18 @@ fn a_capture_goes_to_a_folder_that_exists() {
     assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
 }
 
-/// The suite itself, which sends what no client should: the CNC passes, the client does not.
+/// The suite itself, which sends what no client should: only the CNC is judged, unless both are
+/// asked for.
 #[test]
 fn the_suite_is_no_model_of_a_client() {
     let folder = Folder::new("suite");
     let (file, report) = (folder.file("run.pcapng"), folder.file("report.json"));
     let run = ads_cnc(&["run", "--only", "VAR", "--only", "COM", "--capture", &file]);
     assert_eq!(run.status.code(), Some(0));
-    let checked = ads_cnc(&["check", "--any-port", &file, "--json", &report]);
+    let checked = ads_cnc(&["check", "--any-port", &file]);
+    assert_eq!(checked.status.code(), Some(0), "{checked:?}");
+    assert!(text(&checked.stderr).contains("the requests are the suite's own"), "{checked:?}");
+    let checked = ads_cnc(&["check", "--any-port", &file, "--own-requests", "--json", &report]);
     assert_eq!(checked.status.code(), Some(1));
     let report: Value = serde_json::from_str(&fs::read_to_string(&report).unwrap()).unwrap();
     let totals = |subject: &str| {

@@ -30,7 +30,7 @@ impl Run {
         changes: &Changes,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let target = self.target.clone().with_timeout(profile.timeout);
+        let target = self.target.clone().of_suite().with_timeout(profile.timeout);
         let deadline = self.deadline.begin();
         let session = target.with_malformed(self.malformed).open()?;
         let mut session = session.with_deadline(deadline);
@@ -102,7 +102,7 @@ impl Run {
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let faulty = Faulty::new(Cnc::new(model.map_err(internal)?), defect.as_ref());
         let session = session::Session::simulated_to_try(faulty)?;
-        let mut session = self.target.recorded(session)?;
+        let mut session = self.target.clone().of_suite().recorded(session)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs until `_running` is dropped.
         let (client, _running) = session.into_parts();
