@@ -92,6 +92,6 @@ fn a_cnc_need_not_have_geo() {
     let found = call(cnc(Only::Nobody), &["browse", "--of", "*controller*"]);
     assert_eq!(found.status.code(), Some(3));
     let said = text(&found.stderr);
-    assert!(said.contains("position controller: none is there, as the SDA task says\n"), "{said}");
+    assert!(said.contains("position controller: the SDA task finds no instance\n"), "{said}");
     assert!(said.contains("the GEO task cannot be asked: AMS error 0x6. "), "{said}");
 }

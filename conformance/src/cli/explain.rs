@@ -290,7 +290,7 @@ fn unknown(bytes: &[u8]) -> String {
         [] => "no stream takes them whole".to_owned(),
         fits => format!("streams that take them whole: {}", fits.join(" ")),
     };
-    format!("the bytes are no AMS/TCP frame; {EXPLAIN_HELP}\n{fits}")
+    format!("the bytes are not an AMS/TCP frame; {EXPLAIN_HELP}\n{fits}")
 }
 
 fn text(bytes: Vec<u8>) -> Result<String, String> {

@@ -65,7 +65,7 @@ pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
     // The client's request is judged, so the evidence shows the request.
     let fault = exchange.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
-        call: format!("bytes that are no request{fault}"),
+        call: format!("bytes that are not a request{fault}"),
         sent: Evidence::start(&exchange.request).to_vec(),
         result: plural(exchange.sent.len(), "byte"),
         frame_sent: Evidence::start(&exchange.request).to_vec(),
@@ -122,7 +122,7 @@ mod tests {
             fault,
             ..RecordedExchange::default()
         });
-        assert_eq!(shown.call, "bytes that are no request: a frame of 539959386 bytes");
+        assert_eq!(shown.call, "bytes that are not a request: a frame of 539959386 bytes");
         assert_eq!((shown.sent, shown.result.as_str()), (request, "0 bytes"));
     }
 

@@ -39,7 +39,7 @@ pub(super) fn judge(
             let written =
                 accesses(script, exchanges).into_iter().find(|access| access.value.is_some());
             let exchange = written.as_ref().map(|access| access.exchange);
-            let expected = "no answer to what is not its own, or is no request";
+            let expected = "no answer to a request of another host, or without a request";
             findings.check(SVC_2, written.is_none(), exchange, expected, "a write");
         }
         RequestOrder::Caller => caller(script, exchanges, findings),
@@ -98,7 +98,7 @@ fn stream(scenario: &Scenario, exchanges: &[RecordedExchange], findings: &mut Fi
         let text = packet.iter().all(|&byte| byte.is_ascii() && byte != 0);
         findings.check(STM_7, text, exchange, "ASCII characters and nothing else", "other bytes");
         if let Some(refused) = refused {
-            let expected = "the same packet again, as it was refused for the time being";
+            let expected = "the same packet again, as the CNC rejected it temporarily";
             findings.check(STM_6, packet == refused, exchange, expected, "another");
         }
         let accepted = exchange.and_then(result_of) == Some(0);

@@ -105,9 +105,7 @@ impl ClientUnderTest for ClientProcess {
         self.process.start(environment(place, HELLO, HELLO))?;
         let line = self.recv(START.max(self.process.timeout))?;
         let hello = serde_json::from_str::<ClientHello>(&line)
-            .map_err(|error| {
-                ClientReaction::Garbled(format!("the answer to hello: {}", not_json(&line, &error)))
-            })
+            .map_err(|error| ClientReaction::Garbled(not_json(&line, &error)))
             .and_then(|hello| match hello.protocol {
                 PROTOCOL => known_actions(&hello).map(|()| hello),
                 other => {

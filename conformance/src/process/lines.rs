@@ -223,7 +223,7 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
         line.pop();
     }
     if line.len() > most {
-        return Some(Err(format!("a line of more than {}", plural(most, "byte"))));
+        return Some(Err(format!("the line has more than {}", plural(most, "byte"))));
     }
     Some(Ok(line))
 }
@@ -234,12 +234,12 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
 /// If it has too many values, or is not UTF-8.
 pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     if line.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count() > VALUES_MAX {
-        return Err(RecvError::NoText(format!("a line with more than {VALUES_MAX} values")));
+        return Err(RecvError::NoText(format!("the line has more than {VALUES_MAX} values")));
     }
     String::from_utf8(line).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let shown = cut(&String::from_utf8_lossy(error.as_bytes()));
-        RecvError::NoText(format!("a line that is not UTF-8 at byte {at}: {shown}"))
+        RecvError::NoText(format!("the line is not UTF-8 at byte {at}: {shown}"))
     })
 }
 

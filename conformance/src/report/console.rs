@@ -68,7 +68,7 @@ fn unstarted(
     };
     let verdict = display.verdict(failure.verdict, failure.waived);
     let found = failure.found.trim_start_matches("a crash: ");
-    let garbled = found.strip_prefix("no answer of the protocol: ");
+    let garbled = found.strip_prefix("invalid answer: ");
     let what = match garbled {
         Some(why) => format!("the {kind}'s answer to hello is wrong: {why}"),
         None => format!("the {kind} did not answer hello: {found}"),
@@ -408,7 +408,7 @@ fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     match all.count() {
         0 => Ok(()),
-        more => writeln!(out, "and {more} more follow from what this run does not judge"),
+        more => writeln!(out, "the same holds for {}", plural(more, "other requirement")),
     }
 }
 

@@ -9,6 +9,7 @@ use super::failures::{block, list, sentence};
 use super::groups::groups;
 use super::model::Report;
 use crate::judge::{Exit, Verdict, WaiverReport};
+use crate::text::plural;
 
 /// Maximum number of characters of failures: a comment on GitHub has at most 65 536.
 const FAILURES_MAX: usize = 48_000;
@@ -112,7 +113,7 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     match groups.len().saturating_sub(shown) {
         0 => Ok(()),
-        more => writeln!(out, "And {more} more; the report as HTML or JSON has them all."),
+        more => writeln!(out, "And {}; HTML and JSON show all.", plural(more, "more finding")),
     }
 }
 

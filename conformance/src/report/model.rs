@@ -268,7 +268,7 @@ fn in_file(text: &str, error: &serde_json::Error) -> String {
 }
 
 impl FailureReport {
-    /// Whether it is about the frames: their headers, or a reply that is no frame.
+    /// Whether it is about the frames: their headers, or a reply that is not a frame.
     pub(super) fn is_of_frames(&self) -> bool {
         let has_faults = |one: &EvidenceReport| {
             let [_, received] = one.frames();

@@ -121,7 +121,7 @@ impl ObservedInterface {
                 let found = "RESPONSE_STATE before RESPONSE";
                 let passed = self.is_lost || self.response;
                 record.check(SVC_5, passed, "RESPONSE before it", found);
-                let found = "an answer to what was not read to be asked";
+                let found = "an answer to a request that was not read";
                 let passed = self.is_lost || self.read_state && self.read_id;
                 record.check(SVC_2, passed, "UUID and REQUEST_STATE read before", found);
                 self.answered = true;

@@ -115,7 +115,7 @@ fn write(
         for _ in 0..2 {
             if !send(probe, by_number, &half)?.is_taken() {
                 let seconds = BUSY_TIMEOUT.as_secs();
-                let why = format!("still refused after {seconds} s: {rejection}");
+                let why = format!("still rejected after {seconds} s: {rejection}");
                 return Err(Stop::Inconclusive(why));
             }
         }
@@ -126,7 +126,7 @@ fn write(
 fn write_accepted(probe: &mut Probe<'_>, rules: &[ClauseId], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, at, data)?;
     let expected = || format!("{} of whole lines taken", plural(data.len(), "byte"));
-    probe.check(rules, taken.is_some(), expected, "refused while there is room");
+    probe.check(rules, taken.is_some(), expected, "rejected while there is room");
     Ok(())
 }
 
@@ -138,7 +138,7 @@ fn whole_lines(probe: &mut Probe<'_>) -> Step {
     let Some((by_index, _)) = rank else { return Ok(()) };
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
         let taken = write(probe, by_index, channel, lines)?.is_some();
-        probe.check(STM_1, taken, "lines taken by the rank of the channel", "refused");
+        probe.check(STM_1, taken, "lines taken by the rank of the channel", "rejected");
     }
     Ok(())
 }
@@ -164,8 +164,8 @@ fn refused_for_now(probe: &mut Probe<'_>) -> Step {
     let packet = comment(STREAM_PACKET_MAX);
     for _ in 0..8 {
         let taken = write(probe, channel, channel, &packet)?;
-        let found = "refused while there is room";
-        probe.check(STM_6, taken.is_some(), "taken, or refused for now", found);
+        let found = "rejected while there is room";
+        probe.check(STM_6, taken.is_some(), "taken, or rejected for now", found);
         if taken != Some(0) {
             return Ok(());
         }
@@ -180,9 +180,14 @@ fn too_long(probe: &mut Probe<'_>) -> Step {
     write_accepted(probe, &[STM_2], channel, &comment(STREAM_PACKET_MAX))?;
     for len in [993, 993, 994, 1024, 1984, 2048, 4094, 4096] {
         let sent = send(probe, channel, &comment(len))?;
-        probe.check(STM_2, sent.is_refused(), || format!("{} refused", plural(len, "byte")), &sent);
+        probe.check(
+            STM_2,
+            sent.is_refused(),
+            || format!("{} rejected", plural(len, "byte")),
+            &sent,
+        );
         let good = sent.assumed() == Ack::Rejected;
-        probe.check(assumed(STM_2), good, "refused for good", &sent);
+        probe.check(assumed(STM_2), good, "rejected for good", &sent);
     }
     Ok(())
 }

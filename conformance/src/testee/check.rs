@@ -152,7 +152,7 @@ impl Steps<'_> {
                 Some(format!("{}; {hint}", describe(&other)))
             }
         };
-        self.note(format!("{} without its last byte is refused", vector.stream), fault);
+        self.note(format!("{} without its last byte is rejected", vector.stream), fault);
     }
 
     fn unknown(&mut self, what: &str, op: &str, stream: &str) {

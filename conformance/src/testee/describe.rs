@@ -7,7 +7,7 @@ use crate::show::show;
 use crate::text::{hex::compact, plural, shorten};
 
 /// The beginning of what is found instead of an answer that the protocol defines.
-pub(super) const NO_ANSWER: &str = "no answer of the protocol: ";
+pub(super) const NO_ANSWER: &str = "invalid answer: ";
 
 pub(super) fn describe(reaction: &TesteeReaction) -> String {
     shorten(&described(reaction), TEXT_MAX)

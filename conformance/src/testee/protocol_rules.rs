@@ -44,7 +44,7 @@ impl ProtocolRules {
         self.check(passed, question, reaction, expected);
     }
 
-    /// A line that is no answer of the protocol.
+    /// An invalid answer line.
     pub(super) fn garbled(&mut self, question: &Question, reaction: &TesteeReaction) {
         let found = describe(reaction);
         let found = found.strip_prefix(NO_ANSWER).unwrap_or(&found);

@@ -4,6 +4,8 @@ use std::io::{self, Write};
 
 use ads_cnc::streaming::{LineError, NcText};
 
+use crate::text::plural;
+
 /// Maximum number of lines of messages, in case the file is not a text.
 const SHOWN_MAX: usize = 100;
 
@@ -60,7 +62,8 @@ impl Messages<'_> {
 
     fn end(&mut self) {
         if let Some(more) = self.count.checked_sub(SHOWN_MAX).filter(|more| *more > 0) {
-            let _unread: io::Result<()> = writeln!(self.out, "… and {more} more");
+            let _unread: io::Result<()> =
+                writeln!(self.out, "… and {}", plural(more, "more message"));
         }
     }
 }
@@ -125,6 +128,6 @@ mod tests {
     fn a_picture_is_not_shown_whole() {
         let (output, _) = output_of(&b"\xFF\n".repeat(1000));
         assert_eq!(output.lines().count(), SHOWN_MAX + 1);
-        assert!(output.ends_with("\n… and 900 more\n"), "{output}");
+        assert!(output.ends_with("\n… and 900 more messages\n"), "{output}");
     }
 }

@@ -185,8 +185,8 @@ impl StreamArguments {
                 print_error(&error);
                 if error.ads_error().is_some() {
                     print_error(format_args!(
-                        "that is no refusal for the time being. Has channel {channel} a streaming \
-                         program? It is off unless P-CHAN-00158 names one"
+                        "this error is permanent. Does channel {channel} have a streaming program? It \
+                         is off unless P-CHAN-00158 names one"
                     ));
                 }
                 error.exit()

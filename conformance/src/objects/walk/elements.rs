@@ -34,8 +34,8 @@ impl Walk<'_> {
             match (self.has(class), &self.geo) {
                 (true, _) if self.task == Task::Geo => self.note(list, "of the GEO task"),
                 (true, _) => {}
-                (false, Ok(())) => self.note(list, "none is there, as the SDA and GEO tasks say"),
-                (false, Err(_)) => self.note(list, "none is there, as the SDA task says"),
+                (false, Ok(())) => self.note(list, "the SDA and GEO tasks find no instance"),
+                (false, Err(_)) => self.note(list, "the SDA task finds no instance"),
             }
         }
         if let Err(why) = &self.geo {
@@ -88,7 +88,7 @@ impl Walk<'_> {
         first: ElementAddress,
     ) -> Result<(), ToolError> {
         let Some(count) = self.count_elements(first)? else {
-            self.note(list, "the number of its elements was refused");
+            self.note(list, "the CNC rejects the request for the number of elements");
             return Ok(());
         };
         let most = count.min(ELEMENTS_MAX);

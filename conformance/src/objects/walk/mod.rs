@@ -187,7 +187,7 @@ impl<'w> Walk<'w> {
     fn note_rejected(&mut self, list: List, count: u32, answered: u32) {
         let rejected = count.saturating_sub(answered);
         if rejected > 0 {
-            self.note(list, format_args!("{rejected} of {count} were refused"));
+            self.note(list, format_args!("the CNC rejects the requests for {rejected} of {count}"));
         }
     }
 

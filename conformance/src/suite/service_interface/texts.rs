@@ -23,7 +23,7 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
         if sends_longer {
             let longer = [&[b'y'; 128][..], b"\0"].concat();
             let taken = write_variable(probe, channel, variable, &longer)?;
-            probe.check(SVC_1, !taken, "129 bytes refused", "taken");
+            probe.check(SVC_1, !taken, "129 bytes rejected", "taken");
             let read = read_variable(probe, channel, variable)?;
             probe.check(SVC_1, read == value, "what was there before", || Hex(read));
         }
