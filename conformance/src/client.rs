@@ -19,7 +19,7 @@ use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation};
 use crate::gate::{Gate, Permit};
 use crate::net::{LocalPeers, Wire};
 use crate::process::progress;
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 use crate::wire_service::{decode_reply, service_of};
 
 pub use inquiry::{Inquired, Inquiry, InquiryReply};
@@ -264,7 +264,10 @@ impl Client {
             came = self.exchange(permit, header, received, violations, &mut strays);
         }
         if let Some(more) = strays.checked_sub(STRAYS_MAX).filter(|more| *more > 0) {
-            let what = format!("{more} more replies to other invoke IDs; {STRAYS_MAX} are shown");
+            let what = format!(
+                "{} to other invoke IDs; {STRAYS_MAX} are shown",
+                plural(more, "more reply")
+            );
             violations.push(Violation { requirement: ADS_5, what });
         }
         Ok(came)
@@ -345,7 +348,7 @@ impl Client {
                         violations.push(Violation::of_invoke_id(id, asked_id));
                     }
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
-                        let what = format!("{more} unexpected bytes after the reply");
+                        let what = format!("{} after the reply", plural(more, "unexpected byte"));
                         violations.push(Violation { requirement: ADS_5, what });
                         self.disconnect();
                     }

@@ -216,7 +216,7 @@ fn replies_of_a_megabyte_with_wrong_flags_and_addresses() {
     assert_eq!(ended.code, Some(1), "{}", ended.stderr);
     let report = fs::read_to_string(&json.0).unwrap();
     assert!(report.len() < 64 << 20, "{}", report.len());
-    assert!(report.contains("the first 4096 are kept"), "nothing says that evidence is cut");
+    assert!(report.contains("the first 4096 of "), "nothing says that evidence is cut");
 }
 
 /// A device on which every requested item exists.
@@ -440,7 +440,7 @@ fn a_client_without_end() {
         drop(more);
     });
     let said = format!("{}{}", ended.stdout, ended.stderr);
-    assert!(said.contains("17 connections after the first 64 were closed immediately"), "{said}");
+    assert!(said.contains("closed at once: 17 connections after the first 64"), "{said}");
     assert!(said.contains("5000"), "{said}");
     assert!(matches!(ended.code, Some(1 | 3)), "{said}");
 }

@@ -152,6 +152,10 @@ fn cases_are_listed_without_running() {
     let rows: Vec<&str> =
         rows.as_array().unwrap().iter().map(|row| row["id"].as_str().unwrap()).collect();
     assert_eq!(rows, ["VAR-8", "VAR-11", "VAR-14"]);
+    for (name, title) in [("variable-handle", "VAR-10  Handle"), ("readbyname", "VAR-14  Value")] {
+        let rows = ads_cnc(&["requirements", name]).stdout;
+        assert!(String::from_utf8(rows).unwrap().contains(title), "{name}");
+    }
 }
 
 /// The list contains the cases that a run against the same target does not omit.
@@ -291,9 +295,11 @@ fn an_invalid_file_of_waivers_is_rejected_with_its_line() {
         ("no-requirement", good.replace("VAR-8", "VAR-99"), "no such requirement: VAR-99"),
         ("pass", good.replace("\"fail\"", "\"pass\""), "line 4"),
         ("no-reason", good.replace("known", " "), "a waiver needs a reason"),
-        ("no-day", good.replace("2030-01-01", "2030-01-01T00:00:00Z"), "expected a date such as"),
+        ("no-day", good.replace("2030-01-01", "2030-01-01T00:00:00Z"), "expected a day"),
+        ("unquoted", good.replace("2030-01-01", "tomorrow"), "or a day as YYYY-MM-DD"),
+        ("no-date", good.replace("2030-01-01", "\"tomorrow\""), "YYYY-MM-DD without quotes"),
         ("never", good.replace("2030-01-01", "2030-02-30"), "line 6"),
-        ("missing", good.replace("expires", "# expires"), "missing field `expires`"),
+        ("missing", good.replace("expires", "# expires"), "the key expires is missing"),
         ("twice", format!("{good}{good}"), "line 7: duplicate waiver of VAR-8 in a"),
     ];
     for (name, text, why) in cases {
@@ -305,4 +311,17 @@ fn an_invalid_file_of_waivers_is_rejected_with_its_line() {
         assert!(output.stdout.is_empty());
     }
     assert_eq!(ads_cnc(&["run", "--waivers", "/no/such/file"]).status.code(), Some(2));
+}
+
+/// The cases after the last allowed failure are not run, and the last line counts them.
+#[test]
+fn a_run_stops_after_so_many_failures() {
+    let defect = ["--defect", "variable-description.size.flip", "--only", "VAR", "--seed", "1"];
+    let output = ads_cnc(&[&["run", "--max-fail", "1"], &defect[..]].concat());
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    let last = shown.lines().last().unwrap();
+    assert!(last.contains("; ended early: ") && last.contains(" (--max-fail)"), "{last}");
+    let passed = ads_cnc(&["run", "-q", "--max-fail", "1", "--only", "com-count"]);
+    assert!(!String::from_utf8(passed.stdout).unwrap().contains("ended early"));
 }

@@ -223,10 +223,8 @@ fn missing_channels_are_reported() {
     let simulated = "ads-cnc: using a simulated CNC, because --target is not given\n";
     assert_eq!(listed, (3, simulated.to_owned()));
     let listed = browse(&["9,1"]);
-    assert_eq!(
-        listed,
-        (2, format!("{simulated}ads-cnc: channel 9 does not exist or is not active\n"))
-    );
+    let absent = "ads-cnc: the CNC has no active channel 9; channels: 1, 2, 6\n";
+    assert_eq!(listed, (2, format!("{simulated}{absent}")));
 }
 
 /// On a CNC without descriptions by name, variables are found by index.

@@ -28,8 +28,10 @@ const TOOLS: &[(&[&str], i32, bool)] = &[
     (&["get", "V.A.WCS", "--axis", "2"], 0, true),
     (&["get", "P1"], 0, true),
     (&["get", "feedhold.enable"], 0, true),
-    (&["set", "V.E.vartest", "1"], 4, false),
-    (&["set", "V.A.WCS", "1", "--axis", "2"], 4, false),
+    (&["set", "V.E.vartest", "1"], 4, true),
+    (&["set", "V.A.WCS", "1", "--axis", "2"], 4, true),
+    (&["set", "V.E.varest", "1"], 1, true),
+    (&["set", "V.E.vartest", "many"], 2, true),
     (&["set", "mc_command_single_block_w", "TRUE"], 4, true),
     (&["set", "example.feed", "1"], 4, true),
 ];

@@ -2,11 +2,13 @@
 
 use std::io::Read;
 
-use pcap_parser::pcapng::Block;
+use pcap_parser::pcapng::{Block, OptionCode};
 use pcap_parser::traits::PcapNGPacketBlock as _;
 use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
 use super::time::Time;
+use super::writer::SUITE;
+use crate::text::plural;
 
 /// Initial size of the read buffer in bytes.
 const BUFFER: usize = 0x1_0000;
@@ -27,6 +29,8 @@ pub(super) struct Packet<'p> {
     pub(super) bytes: &'p [u8],
     /// Number of bytes that were not captured.
     pub(super) missing: usize,
+    /// Whether the suite is the client, as it notes in its captures.
+    pub(super) is_of_suite: bool,
 }
 
 /// The way in which a file ended.
@@ -67,6 +71,7 @@ struct Interfaces {
     /// The interfaces of the current pcapng section.
     all: Vec<CaptureInterface>,
     packets: u64,
+    is_of_suite: bool,
 }
 
 /// Calls a function for each packet of a file.
@@ -94,7 +99,10 @@ pub(super) fn packets(
             Err(PcapError::UnexpectedEof) => {
                 let left = reader.data().len();
                 let whole = if left == 0 { "inside a record" } else { "in the middle of a record" };
-                return Ok(FileEnd::Cut(format!("it ends {whole}, {left} bytes into it")));
+                return Ok(FileEnd::Cut(format!(
+                    "it ends {whole}, {} into it",
+                    plural(left, "byte")
+                )));
             }
             Err(error) => {
                 let what = match error {
@@ -164,7 +172,13 @@ impl Interfaces {
 
     fn block(&mut self, block: &Block<'_>, each: &mut impl FnMut(Packet<'_>)) {
         match block {
-            Block::SectionHeader(_) => self.all.clear(),
+            Block::SectionHeader(header) => {
+                self.all.clear();
+                let mut options = header.options.iter();
+                self.is_of_suite = options.any(|option| {
+                    option.code == OptionCode::Comment && option.as_bytes() == Ok(SUITE.as_bytes())
+                });
+            }
             Block::InterfaceDescription(interface) if self.all.len() < INTERFACES_MAX => {
                 self.all.push(CaptureInterface {
                     link: interface.linktype,
@@ -203,6 +217,13 @@ impl Interfaces {
         let link = self.all.get(interface).map_or(Linktype(-1), |interface| interface.link);
         let original = usize::try_from(original).unwrap_or(usize::MAX);
         let missing = original.saturating_sub(bytes.len());
-        each(Packet { number: self.packets, time, link, bytes, missing });
+        each(Packet {
+            number: self.packets,
+            time,
+            link,
+            bytes,
+            missing,
+            is_of_suite: self.is_of_suite,
+        });
     }
 }

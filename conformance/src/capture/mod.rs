@@ -221,6 +221,9 @@ pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked
     let end = read(input, &mut table, &mut clients, |step| match step {
         ReadStep::Packet(packet, content, wanted) => {
             count(&mut judge.tally.packets);
+            if packet.is_of_suite {
+                count(&mut judge.tally.of_suite);
+            }
             if judge.tally.packets.is_multiple_of(PACKETS_BETWEEN_COUNTS) {
                 progress::set_failed(judge.failed());
             }

@@ -29,7 +29,7 @@ use pcap_parser::Linktype;
 
 use super::file::{FileEnd, FileError, FullReader, Packet, RECORD_MAX};
 use super::time::Time;
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 
 pub(super) const MAGIC: [u8; 4] = *b"GMBU";
 
@@ -71,7 +71,7 @@ pub(super) fn packets(
             Err(why) => return Ok(FileEnd::Cut(format!("packet {number}: {why}"))),
             Ok((time, link, original)) => {
                 let missing = original.saturating_sub(bytes.len());
-                each(Packet { number, time, link, bytes: &bytes, missing });
+                each(Packet { number, time, link, bytes: &bytes, missing, is_of_suite: false });
             }
         }
     }
@@ -79,9 +79,10 @@ pub(super) fn packets(
         None => FileEnd::Cut("it ends in the frame table".to_owned()),
         Some(listed) if listed == offsets => FileEnd::Whole,
         Some(listed) => FileEnd::Cut(format!(
-            "the frame table lists {} packets, but {} consecutive ones were found; convert the \
+            "the frame table lists {}, but {} consecutive ones were found; convert the \
              file with editcap -F pcapng",
-            listed.count, offsets.count
+            plural(listed.count, "packet"),
+            offsets.count
         )),
     })
 }
@@ -172,7 +173,10 @@ impl<R: Read> Input<R> {
         cut(self.fill(&mut about))?;
         let captured = usize::try_from(long(&about, 12)).unwrap_or(usize::MAX);
         if captured > RECORD_MAX {
-            return Err(format!("{captured} bytes, more than the maximum of {RECORD_MAX}"));
+            return Err(format!(
+                "{}, more than the maximum of {RECORD_MAX}",
+                plural(captured, "byte")
+            ));
         }
         bytes.resize(captured, 0);
         cut(self.fill(bytes))?;

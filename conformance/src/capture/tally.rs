@@ -26,6 +26,8 @@ const SHOWN: usize = 8;
 pub struct CaptureTally {
     /// Packets in the file.
     pub packets: u64,
+    /// Those of connections in which the suite is the client.
+    pub of_suite: u64,
     /// IP fragments.
     pub fragments: u64,
     /// Packets with a truncated or invalid header.
@@ -111,23 +113,27 @@ impl CaptureTally {
             _ => None,
         };
         let gaps = (self.gaps > 0).then(|| {
-            let gaps = of_number(self.gaps, "gap");
+            let gaps = plural(self.gaps, "gap");
             format!("{gaps}: checks that need the missing bytes are inconclusive")
         });
         cut.into_iter().chain(gaps).collect()
     }
 
+    /// Whether the suite sent all the requests.
+    pub const fn is_of_suite(&self) -> bool {
+        self.packets > 0 && self.of_suite == self.packets
+    }
+
     /// One line for each group of counters: the content of the capture, and the parts that were not
     /// judged.
     pub fn lines(&self) -> Vec<String> {
-        let number = of_number;
         let mut lines = vec![format!(
             "{}, {} in {}, {}, {} with a reply",
-            number(self.packets, "packet"),
-            number(self.segments, "TCP segment"),
-            number(self.connections, "connection"),
-            number(self.frames, "frame"),
-            number(self.exchanges, "request"),
+            plural(self.packets, "packet"),
+            plural(self.segments, "TCP segment"),
+            plural(self.connections, "connection"),
+            plural(self.frames, "frame"),
+            plural(self.exchanges, "request"),
         )];
         // Number, unit and text of each line.
         let told = [
@@ -155,7 +161,7 @@ impl CaptureTally {
             (self.unreadable, "packet", " with truncated or invalid headers, not judged"),
         ];
         let told = told.into_iter().filter(|(number, ..)| *number > 0);
-        lines.extend(told.map(|(number, noun, what)| of_number(number, noun) + what));
+        lines.extend(told.map(|(number, noun, what)| plural(number, noun) + what));
         lines.extend(unjudged("link types", &self.links));
         lines.extend(unjudged("frames to AMS ports", &self.other_ports));
         lines.extend(unjudged("AMS commands", &self.commands));
@@ -278,15 +284,10 @@ fn decoded(exchange: &Exchange, data: &[u8]) -> Option<String> {
 fn bytes_of(data: &[u8]) -> String {
     match data.get(..VALUE_MAX) {
         Some(start) if data.len() > VALUE_MAX => {
-            format!("{} … ({} bytes)", spaced(start), data.len())
+            format!("{} … ({})", spaced(start), plural(data.len(), "byte"))
         }
         _ => spaced(data),
     }
-}
-
-/// A number with a noun in singular or plural.
-fn of_number(number: u64, noun: &str) -> String {
-    plural(usize::try_from(number).unwrap_or(usize::MAX), noun)
 }
 
 /// The first counters of a map as text.

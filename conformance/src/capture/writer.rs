@@ -34,6 +34,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use super::frame::{ACK, FIN, Flow, PSH, SYN};
 use crate::client::Tap;
 
+/// The comment of a capture whose requests the suite sends.
+pub(super) const SUITE: &str = "the client is ads-cnc run";
+
 /// Maximum number of bytes of a TCP segment, as on Ethernet.
 const SEGMENT_MAX: usize = 1440;
 
@@ -58,9 +61,18 @@ impl Capture {
         Self::new(Box::new(BufWriter::new(File::create(file)?)))
     }
 
+    /// Like [`create`](Self::create), with a comment that the suite sends the requests.
+    pub fn of_suite(file: &Path) -> io::Result<Self> {
+        Self::begin(Box::new(BufWriter::new(File::create(file)?)), &[(COMMENT, SUITE)])
+    }
+
     /// Creates a capture that is written to `out`.
-    pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
-        out.write_all(&section())?;
+    pub fn new(out: Box<dyn Write + Send>) -> io::Result<Self> {
+        Self::begin(out, &[])
+    }
+
+    fn begin(mut out: Box<dyn Write + Send>, options: &[(u16, &str)]) -> io::Result<Self> {
+        out.write_all(&section(options))?;
         out.write_all(&interface())?;
         Ok(Self { out, flow: None, error: None, dropped: None })
     }
@@ -162,17 +174,22 @@ fn block(kind: u32, body: &[u8]) -> Vec<u8> {
     block
 }
 
-/// Section header: byte order, version 1.0, unspecified length, name of the writing tool.
-fn section() -> Vec<u8> {
-    const USER_APPLICATION: u16 = 4;
-    let name = concat!("ads-cnc ", env!("CARGO_PKG_VERSION"));
+/// Options of a section header.
+const COMMENT: u16 = 1;
+const USER_APPLICATION: u16 = 4;
+
+/// Section header: byte order, version 1.0, unspecified length, options, name of the writing tool.
+fn section(options: &[(u16, &str)]) -> Vec<u8> {
+    let name = (USER_APPLICATION, concat!("ads-cnc ", env!("CARGO_PKG_VERSION")));
     let mut body = 0x1A2B_3C4D_u32.to_le_bytes().to_vec();
     body.extend([1, 0, 0, 0]);
     body.extend(u64::MAX.to_le_bytes());
-    body.extend(USER_APPLICATION.to_le_bytes());
-    body.extend(u16::try_from(name.len()).unwrap_or_default().to_le_bytes());
-    body.extend(name.as_bytes());
-    body.resize(body.len().next_multiple_of(4), 0);
+    for (code, text) in options.iter().copied().chain([name]) {
+        body.extend(code.to_le_bytes());
+        body.extend(u16::try_from(text.len()).unwrap_or_default().to_le_bytes());
+        body.extend(text.as_bytes());
+        body.resize(body.len().next_multiple_of(4), 0);
+    }
     body.extend([0; 4]);
     block(0x0A0D_0D0A, &body)
 }

@@ -7,16 +7,16 @@ use clap::{Args, ValueEnum};
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name::written;
+use super::name::{no_channel, written};
 use super::progress::ProgressLine;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::judge::Exit;
 use crate::objects::{
     NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
-    WalkResult, channels_of, columns, csv, table, walk,
+    WalkResult, absent_of, channels_of, columns, csv, table, walk,
 };
 use crate::session::{Session, ToolError};
-use crate::text::{hex, json};
+use crate::text::{hex, json, plural};
 use crate::values::plain;
 
 /// Maximum number of characters of a value in a table; CSV and JSON contain the whole value.
@@ -89,9 +89,9 @@ Examples:
 
 Limits: 100000 objects with 8 MiB of names, 1000000 requests and 8 MiB of values.
 
-Exit codes: 0 listed; 2 wrong usage; 3 no reply, no match, or a maximum or the deadline was reached;
-4 rejected for safety; 70 internal error. Requests that the CNC rejects are noted on stderr, and
-their results are omitted.";
+Exit codes: 0 listed; 2 wrong usage; 3 no reply, no match, a channel that does not exist, or a
+maximum or the deadline was reached; 4 rejected for safety; 70 internal error. Requests that the CNC
+rejects are noted on stderr, and their results are omitted.";
 
 /// The help text states these limits.
 const _: () = assert!(
@@ -131,10 +131,20 @@ impl Browse {
             variables: self.variables,
             exact: self.exact,
         };
+        let absent = absent_of(&mut session, &self.channel)?;
+        if !absent.is_empty() && self.channel.iter().all(|one| absent.contains(one)) {
+            print_error(no_channel(&absent, &channels_of(&mut session)?));
+            return Ok(Exit::Nothing);
+        }
         let mut progress = ProgressLine::new();
         let mut found = walk(&mut session, &options, &mut |seen| {
             progress.update(|| {
-                format!("{}: {} found, {} requests", seen.list, seen.objects, seen.requests)
+                format!(
+                    "{}: {} found, {}",
+                    seen.list,
+                    seen.objects,
+                    plural(seen.requests, "request")
+                )
             });
         })?;
         let contents = if self.content {
@@ -147,8 +157,8 @@ impl Browse {
         for note in &found.notes {
             print_error(note);
         }
-        if let Some(others) = self.other_channels(&mut session, &found) {
-            print_error(others);
+        if !absent.is_empty() {
+            print_error(no_channel(&absent, &channels_of(&mut session)?));
             return Ok(Exit::Nothing);
         }
         if found.objects.is_empty() {
@@ -163,21 +173,6 @@ impl Browse {
             return Ok(Exit::Nothing);
         }
         Ok(if found.is_cut { Exit::Nothing } else { Exit::Success })
-    }
-
-    /// A note with the channels of the CNC, if it has none of the given channels.
-    fn other_channels(&self, session: &mut Session, found: &WalkResult) -> Option<String> {
-        // A channel in which an object was found exists.
-        let is_found = |channel: &Channel| {
-            found.objects.iter().any(|object| object.list.channel() == Some(channel.number()))
-        };
-        if self.channel.is_empty() || session.is_dry() || self.channel.iter().any(is_found) {
-            return None;
-        }
-        let there = channels_of(session).ok()?;
-        let is_none = !self.channel.iter().any(|channel| there.contains(channel));
-        let there: Vec<String> = there.iter().map(|one| one.number().to_string()).collect();
-        is_none.then(|| format!("the CNC has the channels {}", there.join(", ")))
     }
 
     fn write(
@@ -243,7 +238,7 @@ fn read_all(
         let size = object.size();
         let content = match size {
             0..=CONTENT_MAX => session.read(&object.address),
-            _ => Err(ToolError::Unable(format!("{size} bytes; use get to read it"))),
+            _ => Err(ToolError::Unable(format!("{}; use get to read it", plural(size, "byte")))),
         };
         contents.push(match content {
             Ok(content) => {

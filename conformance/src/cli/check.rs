@@ -12,10 +12,10 @@ use super::progress::Watch;
 use super::report_output::Reports;
 use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports};
 use crate::edition::Edition;
-use crate::judge::{Case, Exit, Selection};
+use crate::judge::{Case, CaseSubject, Exit, Selection};
 use crate::process::progress;
 use crate::report::{self, About, Detail, Report, SubjectReport, TargetReport};
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 
 /// The heading of these options in the help.
 const TRAFFIC: &str = "Traffic";
@@ -41,6 +41,11 @@ pub(super) struct CheckArguments {
     /// Read every TCP connection, and judge those that contain an AMS frame
     #[arg(long, help_heading = TRAFFIC)]
     any_port: bool,
+
+    /// Also judge the requests in a capture of `ads-cnc run`, many of which are malformed on purpose
+    /// [default: judge only the CNC in such a capture]
+    #[arg(long, help_heading = TRAFFIC)]
+    own_requests: bool,
 
     /// Write the captured streams as golden vectors, to a new file or into a folder
     #[arg(long, help_heading = TRAFFIC, value_name = "DIR|FILE", value_parser = vectors_file)]
@@ -133,10 +138,16 @@ impl CheckArguments {
             Ok(waivers) => waivers,
             Err(why) => return usage(why),
         };
-        let checked = match self.read() {
+        let mut checked = match self.read() {
             Ok(checked) => checked,
             Err(why) => return usage(format!("{}: {why}", self.file.display())),
         };
+        if checked.tally.is_of_suite() && !self.own_requests {
+            print_error(
+                "the requests are the suite's own; judged: the CNC only (see --own-requests)",
+            );
+            checked.outcomes.retain(|outcome| outcome.case.subject != CaseSubject::CapturedClient);
+        }
         // Cases that are not selected were judged too; the report omits them.
         let selection = Selection { edition: self.edition, only: self.only.clone() };
         let cases: Vec<Case> =
@@ -170,6 +181,7 @@ impl CheckArguments {
             again: None,
             times: Vec::new(),
             left_changed: Vec::new(),
+            ended: None,
         };
         let report = Report::new(about, &outcomes, &left_out);
         let extracted = match self.extract(&checked) {
@@ -240,7 +252,7 @@ impl CheckArguments {
         };
         let files = vectors.write(Path::new(place))?;
         let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        Ok(vec![format!("{} vectors: {}", vectors.len(), files.join(", "))])
+        Ok(vec![format!("{}: {}", plural(vectors.len(), "vector"), files.join(", "))])
     }
 
     fn write(&self, report: &Report, checked: &Checked, extracted: &[String]) -> Exit {
@@ -264,7 +276,11 @@ impl CheckArguments {
                 .exchanges
                 .saturating_sub(u64::try_from(listed.len().min(most)).unwrap_or(u64::MAX));
             if more > 0 {
-                writeln!(out, "  and {more} more exchanges (-v shows the first 10000)")?;
+                writeln!(
+                    out,
+                    "  and {} (-v shows the first 10000)",
+                    plural(more, "more exchange")
+                )?;
             }
             writeln!(out)?;
             unjudged(report).try_for_each(|line| writeln!(out, "note: {line}\n"))?;

@@ -13,7 +13,7 @@ use crate::clients::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };
 use crate::judge::Exit;
-use crate::text::did_you_mean;
+use crate::text::{did_you_mean, json_error};
 
 /// Answer the protocol of `run --client` with this project's client
 ///
@@ -94,14 +94,15 @@ fn answer(fault: Option<clients::ClientFault>) -> io::Result<()> {
     };
     say(serde_json::to_string(&ReferenceClient::hello())?)?;
     for line in io::stdin().lock().lines() {
-        let (place, action) = match serde_json::from_str::<Instruction>(&line?) {
+        let line = line?;
+        let (place, action) = match serde_json::from_str::<Instruction>(&line) {
             Ok(Instruction::Bye) => return Ok(()),
             Ok(Instruction::Do { address, net_id, port, action, args }) => {
                 let Ok(net_id) = net_id.parse() else { continue };
                 (CncAddress { addr: address, net_id, port }, Action { action, args })
             }
             Err(error) => {
-                say(serde_json::to_string(&ActionResult::Error(error.to_string()))?)?;
+                say(serde_json::to_string(&ActionResult::Error(json_error(&line, &error)))?)?;
                 continue;
             }
         };

@@ -3,7 +3,7 @@
 use std::io;
 use std::time::Duration;
 
-use ads_cnc::address::ChannelAxis;
+use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::Function;
 use ads_cnc::value::DataType;
 use clap::Args;
@@ -15,7 +15,7 @@ use crate::explain::type_by_name;
 use crate::named::{Lookup, by_name_alone};
 use crate::objects::{Object, Options, Pattern, channels_of, walk};
 use crate::session::ToolError;
-use crate::text::nearest;
+use crate::text::{nearest, plural};
 
 /// The options that identify a value.
 #[derive(Args, Clone, Debug)]
@@ -121,6 +121,15 @@ impl NameArgs {
     }
 }
 
+/// What to say about channels that the CNC does not have.
+pub(super) fn no_channel(absent: &[Channel], there: &[Channel]) -> String {
+    let [absent, there] = [(absent, " or "), (there, ", ")].map(|(channels, between)| {
+        let numbers = channels.iter().map(|one| one.number().to_string());
+        numbers.collect::<Vec<_>>().join(between)
+    });
+    format!("the CNC has no active channel {absent}; channels: {there}")
+}
+
 /// Maximum number of axes of a channel that are queried for a variable.
 const AXES_MAX: u32 = 32;
 
@@ -161,9 +170,7 @@ impl NameArgs {
         let channel = self.channel.channel;
         let channels = channels_of(&mut session).ok()?;
         if !channels.contains(&channel) {
-            let there: Vec<String> = channels.iter().map(|one| one.number().to_string()).collect();
-            let number = channel.number();
-            return Some(format!("no channel {number}; channels: {}", there.join(", ")));
+            return Some(no_channel(&[channel], &channels));
         }
         let mut names: Vec<String> = Vec::new();
         for variables in [true, false] {
@@ -200,10 +207,7 @@ pub(super) fn headline(object: &Object) -> String {
     if !object.ty.name.is_empty() {
         parts.push(object.ty.to_string());
     }
-    parts.extend(object.ty.size.map(|size| match size {
-        1 => "1 byte".to_owned(),
-        size => format!("{size} bytes"),
-    }));
+    parts.extend(object.ty.size.map(|size| plural(size, "byte")));
     let unit = object.unit.as_ref().map(ToString::to_string);
     parts.extend(unit.filter(|unit| !unit.is_empty() && unit != "-"));
     parts.push(object.access.to_string());

@@ -61,7 +61,7 @@ impl ReportArgs {
         });
         let compared = before.as_ref().map_or(Ok(()), |before| {
             show(|out| {
-                exit = report::compare(&report, before, out)?;
+                exit = report::compare(&report, before, self.display.display().detail, out)?;
                 Ok(())
             })
         });

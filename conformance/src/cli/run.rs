@@ -113,6 +113,13 @@ pub(super) struct Run {
         conflicts_with_all = ["testee", "client", "client_listen"])]
     all: bool,
 
+    /// Stop after N failed cases, also known ones (--waivers); all cases of the codec are judged
+    /// together
+    #[arg(long, help_heading = SELECTION, value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..),
+        conflicts_with_all = ["testee", "client", "client_listen"])]
+    max_fail: Option<u32>,
+
     /// List the cases without running them; with --seed in the order of the run, with --json as
     /// JSON
     #[arg(long, help_heading = SELECTION)]
@@ -463,6 +470,7 @@ impl Run {
             again: Some(again(std::env::args_os().skip(1).map(lossy))),
             times: Vec::new(),
             left_changed: Vec::new(),
+            ended: None,
         }
     }
 

@@ -19,7 +19,7 @@ use super::target::{
     DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, simulator_gate,
 };
 use crate::judge::Exit;
-use crate::named::{by_name_alone, find};
+use crate::named::{Lookup, by_name_alone, find};
 use crate::objects::{Object, ReportedAccess, ValueAddress};
 use crate::session::{Session, ToolError};
 use crate::values::{Type, parse, plain};
@@ -84,7 +84,8 @@ impl Set {
         let alone = by_name_alone(&question)?;
         if let Some(object) = &alone {
             check(object)?;
-            self.target.ask_gate(|session| session.check_write(&object.address))?;
+            let checked = self.target.ask_gate(|session| session.check_write(&object.address));
+            checked.map_err(|refused| self.wrong(&question).unwrap_or(refused))?;
         }
         let mut session = self.open(alone.as_ref())?;
         if let Some(object) = &alone {
@@ -93,18 +94,7 @@ impl Set {
         let object = find(&mut session, &question)?;
         check(&object)?;
         let size = object.size();
-        let old = match session.read(&object.address) {
-            Ok(old) => Some(old),
-            // A value that cannot be read may be writable.
-            Err(ToolError::Ads { .. }) => None,
-            Err(ToolError::NotSent) if session.is_dry() => None,
-            Err(error) => return Err(error),
-        };
-        let ty = match &old {
-            Some(old) => object.ty.clone().fitted(u32::try_from(old.len()).unwrap_or(u32::MAX)),
-            None => object.ty.clone(),
-        };
-        let mut bytes = parse(&ty, &self.value).map_err(|why| ToolError::Usage(why.to_string()))?;
+        let NewValue { old, ty, mut bytes } = self.value(&object, &mut session)?;
         if object.address.content().is_some() {
             // A content has a fixed size: the rest of a text is filled with zeros.
             bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
@@ -128,6 +118,34 @@ impl Set {
             );
         }
         Ok(judge(&ty, &bytes, new.as_deref()))
+    }
+
+    /// The error in the name or the value of a write that is not permitted; `None` if the device does not
+    /// show one.
+    fn wrong(&self, question: &Lookup) -> Option<ToolError> {
+        let mut session = self.open(None).ok()?;
+        let found = find(&mut session, question).and_then(|object| {
+            check(&object)?;
+            self.value(&object, &mut session).map(drop)
+        });
+        found.err().filter(|error| matches!(error.exit(), Exit::Failure | Exit::Usage))
+    }
+
+    /// Parses the value by the type of the object and the length of its value.
+    fn value(&self, object: &Object, session: &mut Session) -> Result<NewValue, ToolError> {
+        let old = match session.read(&object.address) {
+            Ok(old) => Some(old),
+            // A value that cannot be read may be writable.
+            Err(ToolError::Ads { .. }) => None,
+            Err(ToolError::NotSent) if session.is_dry() => None,
+            Err(error) => return Err(error),
+        };
+        let ty = match &old {
+            Some(old) => object.ty.clone().fitted(u32::try_from(old.len()).unwrap_or(u32::MAX)),
+            None => object.ty.clone(),
+        };
+        let bytes = parse(&ty, &self.value).map_err(|why| ToolError::Usage(why.to_string()))?;
+        Ok(NewValue { old, ty, bytes })
     }
 
     /// Checks the write with the gate before connecting, if the name alone determines the address.
@@ -173,6 +191,14 @@ impl Set {
         let name = crate::values::printable(&name);
         written(writeln!(io::stdout().lock(), "{name}:{start}{old}{between}{new}"))
     }
+}
+
+/// What is written.
+struct NewValue {
+    /// The value before; `None` if it cannot be read.
+    old: Option<Vec<u8>>,
+    ty: Type,
+    bytes: Vec<u8>,
 }
 
 /// Checks that the CNC describes the object as writable.

@@ -7,6 +7,7 @@ use clap::Args;
 use super::report_output::{lost, show};
 use crate::judge::Exit;
 use crate::tables::{self, OffsetTable, Tables};
+use crate::text::plural;
 
 /// Print the tables of all streams and functions, for code generators
 ///
@@ -79,7 +80,7 @@ fn print(tables: &Tables, out: &mut dyn Write) -> io::Result<()> {
         let repeats = if stream.repeats { ", one or more records" } else { "" };
         let (name, title, clause) = (stream.name, stream.title, stream.clause);
         let max = stream.max_length;
-        writeln!(out, "{name}: {title} ({clause}; at most {max} bytes{repeats})")?;
+        writeln!(out, "{name}: {title} ({clause}; at most {}{repeats})", plural(max, "byte"))?;
         for field in &stream.fields {
             let at = match field.offset_per_item {
                 0 => field.offset.to_string(),

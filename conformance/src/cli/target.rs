@@ -88,6 +88,10 @@ pub(super) struct TargetArgs {
     #[arg(skip)]
     malformed: bool,
 
+    /// Whether the suite sends the requests; a capture says so.
+    #[arg(skip)]
+    is_of_suite: bool,
+
     /// Whether the capture could not be written completely.
     #[arg(skip)]
     lost: Arc<AtomicBool>,
@@ -156,6 +160,11 @@ impl TargetArgs {
         let milliseconds = timeout.and_then(|time| u64::try_from(time.as_millis()).ok());
         self.timeout = self.timeout.or(milliseconds);
         self
+    }
+
+    /// The target of the suite's requests.
+    pub(super) fn of_suite(self) -> Self {
+        Self { is_of_suite: true, ..self }
     }
 
     /// Allows malformed requests.
@@ -273,7 +282,8 @@ impl TargetArgs {
             }
         };
         let (lost, name) = (Arc::clone(&self.lost), file.display().to_string());
-        let capture = Capture::create(file).map_err(failed)?.or_tell(move |error| {
+        let create = if self.is_of_suite { Capture::of_suite } else { Capture::create };
+        let capture = create(file).map_err(failed)?.or_tell(move |error| {
             print_error(format_args!("{name}: the capture is incomplete: {error}"));
             lost.store(true, Ordering::Relaxed);
         });

@@ -8,6 +8,7 @@ use super::message::print_error;
 use super::serve::find_defect;
 use crate::judge::Exit;
 use crate::testee::{Answer, CodecTestee, Miniature, MiniatureAction, Reply, TesteeCommand};
+use crate::text::json_error;
 
 /// Answer the protocol of `run --testee` with this project's codec
 ///
@@ -57,7 +58,8 @@ impl TesteeArguments {
 fn answer(own: &CodecTestee) -> io::Result<()> {
     let mut out = io::stdout().lock();
     for line in io::stdin().lock().lines() {
-        match serde_json::from_str::<TesteeCommand>(&line?) {
+        let line = line?;
+        match serde_json::from_str::<TesteeCommand>(&line) {
             Ok(TesteeCommand::Hello { .. }) => serde_json::to_writer(&mut out, &own.hello())?,
             Ok(TesteeCommand::Bye) => return Ok(()),
             Ok(TesteeCommand::Case { seq, question }) => {
@@ -65,7 +67,7 @@ fn answer(own: &CodecTestee) -> io::Result<()> {
                 serde_json::to_writer(&mut out, &reply)?;
             }
             Err(error) => {
-                let answer = Answer::Error { message: error.to_string() };
+                let answer = Answer::Error { message: json_error(&line, &error) };
                 serde_json::to_writer(&mut out, &Reply { seq: None, answer })?;
             }
         }

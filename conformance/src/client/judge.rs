@@ -5,6 +5,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::Client;
 use crate::exchange::{Exchange, ExchangeError, Violation, violations};
+use crate::text::plural;
 use crate::wire_service::{clause, reply_stream};
 
 impl Client {
@@ -22,7 +23,7 @@ impl Client {
                 if usize::try_from(read).is_ok_and(|read| given > read) {
                     add(
                         clause(exchange.service),
-                        format!("{given} bytes of data for a read length of {read}"),
+                        format!("{} of data for a read length of {read}", plural(given, "byte")),
                     );
                 }
                 if exchange.contradicts_itself() {

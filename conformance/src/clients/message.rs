@@ -102,7 +102,7 @@ impl std::fmt::Display for ClientReaction {
             Self::Answer(ActionResult::Unsupported(what)) => {
                 write!(f, "unsupported: {}", shorten(what, SHOWN))
             }
-            Self::Garbled(what) => write!(f, "no answer of the protocol: {what}"),
+            Self::Garbled(what) => write!(f, "invalid answer: {what}"),
             Self::Died(how) => {
                 write!(f, "it died: {}", how.strip_prefix("it ended, ").unwrap_or(how))
             }

@@ -11,6 +11,7 @@ use super::scenario::{RequestOrder, Scenario};
 use super::script::ScenarioScript;
 use super::test_server::RecordedExchange;
 use crate::judge::assumed;
+use crate::text::plural;
 use crate::values::until_nul;
 
 /// Maximum length of a packet, and of a line without its line end.
@@ -112,11 +113,11 @@ fn stream(scenario: &Scenario, exchanges: &[RecordedExchange], findings: &mut Fi
         if arrived.len() == expected.len() {
             "the same number of bytes, but other bytes or another order".to_owned()
         } else {
-            format!("{} bytes", arrived.len())
+            format!("{} of it", plural(arrived.len(), "byte"))
         }
     };
     let last = packets.last().map(|(exchange, _)| *exchange);
-    let what = || format!("all lines of the program in order, {} bytes", expected.len());
+    let what = || format!("all lines of the program in order, {}", plural(expected.len(), "byte"));
     findings.check(STM_15, passed, last, what, found);
     if refused.is_some() || !scenario.refused.is_empty() {
         findings.check(STM_6, refused.is_none() && passed, last, what, found);

@@ -8,7 +8,7 @@ use super::message::{
 };
 use super::{Action, ClientUnderTest};
 use crate::deadline::Deadline;
-use crate::process::{GRACE, LineProcess, START, Subprocess, cut, not_json};
+use crate::process::{GRACE, LineProcess, START, Subprocess, not_json};
 use crate::text::did_you_mean;
 
 /// The name of the scenario that requests hello.
@@ -105,9 +105,7 @@ impl ClientUnderTest for ClientProcess {
         self.process.start(environment(place, HELLO, HELLO))?;
         let line = self.recv(START.max(self.process.timeout))?;
         let hello = serde_json::from_str::<ClientHello>(&line)
-            .map_err(|error| {
-                ClientReaction::Garbled(format!("{error} in the hello {}", cut(&line)))
-            })
+            .map_err(|error| ClientReaction::Garbled(not_json(&line, &error)))
             .and_then(|hello| match hello.protocol {
                 PROTOCOL => known_actions(&hello).map(|()| hello),
                 other => {

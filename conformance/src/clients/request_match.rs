@@ -10,6 +10,7 @@ use super::requests::writes;
 use super::scenario::{ExpectedRequest, ReadLength};
 use super::test_server::RecordedExchange;
 use crate::judge::assumed;
+use crate::text::plural;
 use crate::values::until_nul;
 
 /// A request in raw bytes; the codec is only used to find the end of the frame.
@@ -155,7 +156,9 @@ fn one(
         ReadLength::Times(size) => one.length > 0 && one.length.checked_rem(size) == Some(0),
     };
     let expected = || match ask.length {
-        ReadLength::AtLeast(least) => format!("a read length of at least {least}"),
+        ReadLength::AtLeast(least) => {
+            format!("a read length of at least {}", plural(least, "byte"))
+        }
         ReadLength::Times(size) => format!("a read length of {size} or a multiple of it"),
     };
     let rule = if matches!(ask.length, ReadLength::Times(_)) { COM_3 } else { ask.service_rule() };

@@ -13,6 +13,7 @@ use crate::exchange::Exchange;
 use crate::judge::{Evidence, Rule};
 use crate::rules::{Observation, RuleBook, function_at};
 use crate::simulator::{DATA_MAX, NET_ID};
+use crate::text::plural;
 use crate::wire_service::{self, service_of};
 
 /// Judges the requests of a client.
@@ -58,7 +59,8 @@ impl RequestJudge {
         let frame = match FrameRef::split(&exchange.request, DATA_MAX) {
             Ok(Some((frame, _))) => frame,
             Ok(None) => {
-                let found = format!("only the first {} bytes of a frame", exchange.request.len());
+                let found =
+                    format!("only the first {} of a frame", plural(exchange.request.len(), "byte"));
                 return check(ADS_5.into(), false, "a whole frame", &found);
             }
             Err(error) => return check(ADS_5.into(), false, "a frame", &error),

@@ -17,6 +17,7 @@ use crate::client::Tap;
 use crate::judge::Stop;
 use crate::net;
 use crate::simulator::{FRAME_MAX, NET_ID};
+use crate::text::plural;
 
 /// Maximum number of connections in a scenario; further ones are counted and closed.
 pub(super) const CONNECTIONS_MAX: usize = 64;
@@ -110,17 +111,22 @@ impl std::fmt::Display for Overflow {
         let mebibytes = RECORDED_BYTES_MAX >> 20;
         match (requests, connections) {
             (0, _) => {}
-            (_, 0) => {
-                write!(f, "{requests} requests after the first {mebibytes} MiB were not judged")?
-            }
-            _ => {
-                write!(f, "{requests} requests after the first {mebibytes} MiB were not judged; ")?
-            }
+            (_, 0) => write!(
+                f,
+                "not judged: {} after the first {mebibytes} MiB",
+                plural(*requests, "request")
+            )?,
+            _ => write!(
+                f,
+                "not judged: {} after the first {mebibytes} MiB; ",
+                plural(*requests, "request")
+            )?,
         }
         if *connections > 0 {
             write!(
                 f,
-                "{connections} connections after the first {CONNECTIONS_MAX} were closed immediately"
+                "closed at once: {} after the first {CONNECTIONS_MAX}",
+                plural(*connections, "connection")
             )?;
         }
         Ok(())
@@ -342,7 +348,7 @@ impl TestRun {
         loop {
             while let Some(len) = frame_len(&received) {
                 if len > FRAME_MAX {
-                    let fault = Some(format!("a frame of {len} bytes"));
+                    let fault = Some(format!("a frame of {}", plural(len, "byte")));
                     self.record(RecordedExchange {
                         connection,
                         request: received,

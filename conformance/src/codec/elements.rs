@@ -7,6 +7,7 @@ use ads_cnc_vectors::{Context, Tagged, Type, Value};
 use super::Refused;
 use super::field_reader::{bits, hex, integer, invalid, text};
 use super::fields::{data, element};
+use crate::text::plural;
 
 /// Whether a field has a type: a value always has one, a content only if the context names one.
 fn is_typed(field: &str, context: &Context) -> bool {
@@ -57,8 +58,8 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
     if count != Some(items.len()) {
         let dimensions = U32List::from(dimensions);
         return Err(invalid(format_args!(
-            "{} elements do not match the dimensions {dimensions:?}",
-            items.len()
+            "{} do not match the dimensions {dimensions:?}",
+            plural(items.len(), "element")
         )));
     }
     encode_elements(data_type, &items)

@@ -13,7 +13,7 @@ use super::address;
 use super::codes;
 use super::model::{ExplainedFault, ExplainedStream, ServiceAddress};
 use super::part;
-use super::value::bytes as in_words;
+use crate::text::plural;
 use crate::values::ValueFormat;
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
@@ -119,7 +119,8 @@ impl FrameExplainer<'_> {
             expected: Some(expected),
             found: Some(found),
             text: format!(
-                "the frame is truncated after the header: expected {expected} bytes, found {found}"
+                "the frame is truncated after the header: expected {}, found {found}",
+                plural(expected, "byte")
             ),
         });
     }
@@ -153,7 +154,7 @@ impl FrameExplainer<'_> {
         if let (Some(row), Some(_), Some(_)) = (part.rows.last_mut(), inside, place) {
             row.below = row.field == "data" && row.length > 0;
             if row.below {
-                row.value = format!("{}, below", in_words(row.length));
+                row.value = format!("{}, below", plural(row.length, "byte"));
             }
         }
         self.parts.push(part);

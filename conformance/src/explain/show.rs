@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use anstyle::{AnsiColor, Style};
 
 use super::model::{ExplainedAddress, ExplainedField, ExplainedStream, Explanation};
+use crate::text::plural;
 
 /// Bytes per line.
 const LINE: usize = 8;
@@ -61,7 +62,7 @@ fn show_part(
     }
     let name = part.stream.map_or_else(String::new, |name| format!(": {name}"));
     let place = if several { format!(" from byte {}", part.at) } else { String::new() };
-    let length = super::value::bytes(part.length);
+    let length = plural(part.length, "byte");
     writeln!(out, "{}, {length}{place}", paint.style(HEAD, &format!("{}{name}", part.title)))?;
     if let Some(clause) = part.clause {
         let sources = match part.sources.as_slice() {

@@ -9,6 +9,7 @@ use ads_cnc::{Synchronisation, Validity, VariableAccess, VariableType};
 use super::codes::{self, number, quoted, text};
 use super::model::{ExplainedFault, ExplainedField, ExplainedStream, size};
 use super::typed;
+use crate::text::plural;
 use crate::values::ValueFormat;
 
 /// Maximum length of a value of unknown type that is shown as every type of its size.
@@ -27,7 +28,7 @@ pub(super) fn add(
         Some(Type::Bytes) if is_value(stream, &row.field) => {
             return value(part, row, segment.bytes, values);
         }
-        Some(Type::Bytes) => row.value = bytes(segment.bytes.len()),
+        Some(Type::Bytes) => row.value = plural(segment.bytes.len(), "byte"),
         Some(ty) => interpret(&mut row, stream, ty, segment.bytes),
         None => {}
     }
@@ -51,11 +52,6 @@ pub(super) fn row(segment: &Segment<'_>) -> ExplainedField {
 
 fn is_value(stream: Stream, field: &str) -> bool {
     field == "value" || stream == Stream::Content
-}
-
-/// A length as text.
-pub(super) fn bytes(length: usize) -> String {
-    if length == 1 { "1 byte".to_owned() } else { format!("{length} bytes") }
 }
 
 /// A number or NetId, with its meaning.
@@ -128,7 +124,7 @@ fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
 /// A value or content: by its type if known, else as every possible type.
 fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values: &ValueFormat) {
     let Some(ty) = values.ty else {
-        row.value = bytes(all.len());
+        row.value = plural(all.len(), "byte");
         let guesses = guesses(all);
         if !guesses.is_empty() {
             row.notes.push(format!("the stream does not contain the type; possible: {guesses}"));
@@ -162,7 +158,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
         }
         Err(error) => {
             // The error names another table, and its offset is relative to the value.
-            row.value = bytes(all.len());
+            row.value = plural(all.len(), "byte");
             let shape: String = dimensions.iter().map(|length| format!("[{length}]")).collect();
             let mut fault = ExplainedFault::of(&error, 0);
             let reason = fault.text.split_once(": ").map_or("", |(_, reason)| reason);

@@ -15,10 +15,10 @@ use ads_cnc::operation::{WriteElement, WriteObject};
 use ads_cnc::{CncString, streaming};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
-use toml::value::Datetime;
+use toml::Value;
 
 use super::{Allowed, AllowedList, Entry, Moment};
-use crate::text::utf8;
+use crate::text::{found, plural, toml_error, utf8};
 
 /// An error in the file of `--allow-write`.
 #[derive(Clone, Debug)]
@@ -56,11 +56,8 @@ impl Allowed {
     /// Unknown or missing keys, values out of range, or an address that cannot be written. The error
     /// contains the line.
     pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
-        let file: AllowListFile = toml::from_str(text).map_err(|error| {
-            // `Display` quotes the line; `message` has no line number.
-            let why = error.to_string().trim_end().to_owned();
-            AllowFileError { file: None, why }
-        })?;
+        let file: AllowListFile = toml::from_str(text)
+            .map_err(|error| AllowFileError { file: None, why: toml_error(&error) })?;
         let AllowListFile {
             target,
             address,
@@ -119,8 +116,14 @@ fn address<'de, D: Deserializer<'de>>(value: D) -> Result<Option<IpAddr>, D::Err
 }
 
 fn moment<'de, D: Deserializer<'de>>(value: D) -> Result<Moment, D::Error> {
-    let lacking = "expected a date and time with a UTC offset: 2026-05-04T17:30:00+02:00";
-    Moment::from_datetime(Datetime::deserialize(value)?).ok_or_else(|| D::Error::custom(lacking))
+    let value = Value::deserialize(value)?;
+    value.as_datetime().and_then(|datetime| Moment::from_datetime(*datetime)).ok_or_else(|| {
+        D::Error::custom(format!(
+            "expected a date and time with a UTC offset and without quotes, such as \
+             2026-05-04T17:30:00+02:00, found {}",
+            found(&value)
+        ))
+    })
 }
 
 #[derive(Deserialize)]
@@ -252,6 +255,6 @@ fn text(text: &str, max: usize) -> Result<CncString, String> {
     let name: CncString = text.parse().map_err(|error: ads_cnc::Error| error.to_string())?;
     match name.as_bytes().len() {
         len if (1..=max).contains(&len) => Ok(name),
-        _ => Err(format!("expected a name of 1 to {max} characters")),
+        _ => Err(format!("expected a name of 1 to {}", plural(max, "character"))),
     }
 }

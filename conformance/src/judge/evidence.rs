@@ -2,6 +2,7 @@
 
 use ads_cnc::operation::Function;
 
+use crate::text::plural;
 use crate::values::ValueFormat;
 
 /// The bytes of an exchange, as shown in a report.
@@ -59,8 +60,10 @@ impl Evidence {
             if whole.len() > EVIDENCE_MAX {
                 // A report would show a truncated stream as a faulty one.
                 *stream = None;
-                let note =
-                    format!(" (only the first {EVIDENCE_MAX} of {} bytes are stored)", whole.len());
+                let note = format!(
+                    " (only the first {EVIDENCE_MAX} of {} are stored)",
+                    plural(whole.len(), "byte")
+                );
                 self.result.push_str(&note);
             }
         }

@@ -59,8 +59,12 @@ impl Verdict {
 
     /// Whether a run with this verdict fails.
     pub const fn fails_run(self) -> bool {
-        let open = matches!(self, Self::Inconclusive | Self::Interrupted);
-        open || matches!(self, Self::Fail | Self::Vacuous | Self::HarnessError)
+        self.is_failure() || matches!(self, Self::Inconclusive | Self::Interrupted)
+    }
+
+    /// Whether it is a failure of what is judged, or of the suite.
+    pub const fn is_failure(self) -> bool {
+        matches!(self, Self::Fail | Self::Vacuous | Self::HarnessError)
     }
 
     /// Whether a waiver can accept this verdict.

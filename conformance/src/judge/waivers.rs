@@ -24,11 +24,11 @@ use std::path::Path;
 use ads_cnc_vectors::requirement;
 use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize};
-use toml::Spanned;
 use toml::value::{Date, Datetime};
+use toml::{Spanned, Value};
 
 use super::{CaseOutcome, LeftOut, Verdict};
-use crate::text::Moment;
+use crate::text::{Moment, found, toml_error};
 
 /// Known failures.
 #[derive(Clone, Debug, Default)]
@@ -130,10 +130,7 @@ impl Waivers {
     /// exist, a verdict that cannot be waived, no reason, no date, or a duplicate waiver.
     pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
         let failed = |why: String| WaiverError { file: None, why };
-        let file: WaiverFile = toml::from_str(text).map_err(|error| {
-            // `Display` quotes the line; `message` has no line number.
-            failed(error.to_string().trim_end().to_owned())
-        })?;
+        let file: WaiverFile = toml::from_str(text).map_err(|error| failed(toml_error(&error)))?;
         let mut known = HashSet::new();
         for waiver in &file.waiver {
             let Waiver { test, requirement, .. } = waiver.get_ref();
@@ -234,13 +231,11 @@ fn waivable<'de, D: Deserializer<'de>>(value: D) -> Result<Verdict, D::Error> {
 }
 
 fn day<'de, D: Deserializer<'de>>(value: D) -> Result<Date, D::Error> {
-    let odd = || {
-        D::Error::custom(
-            "expected a date such as 2027-01-31, the first day on which the waiver is no longer valid",
-        )
-    };
-    match Datetime::deserialize(value)? {
-        Datetime { date: Some(date), time: None, offset: None } => Ok(date),
-        _ => Err(odd()),
+    match Value::deserialize(value)? {
+        Value::Datetime(Datetime { date: Some(date), time: None, offset: None }) => Ok(date),
+        other => Err(D::Error::custom(format!(
+            "expected a day as YYYY-MM-DD without quotes, such as 2027-01-31, found {}",
+            found(&other)
+        ))),
     }
 }

@@ -44,10 +44,10 @@ pub use pattern::Pattern;
 pub use report::{ObjectReport, ObjectsReport};
 pub use table::{Column, columns, csv, table};
 pub use value_address::ValueAddress;
-pub(crate) use walk::channels_of;
 pub(crate) use walk::{
     CLASSES, KINDS, Walker, active_channels, decode_element_count, decoder_of, has_variables,
 };
 pub use walk::{
     GAP, NAMES_MAX, OBJECTS_MAX, Options, RANGE, REQUESTS_MAX, WalkProgress, WalkResult, walk,
 };
+pub(crate) use walk::{absent_of, channels_of};

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{RunningCommand, interrupt};
-use crate::text::escape_lines;
+use crate::text::{escape_lines, json_error, plural};
 
 /// Maximum length of a line in bytes. The longest valid answer has a few thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
@@ -224,7 +224,7 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
         line.pop();
     }
     if line.len() > most {
-        return Some(Err(format!("a line of more than {most} bytes")));
+        return Some(Err(format!("the line has more than {}", plural(most, "byte"))));
     }
     Some(Ok(line))
 }
@@ -235,12 +235,12 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
 /// If the line has too many values, or is not UTF-8.
 pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     if line.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count() > VALUES_MAX {
-        return Err(RecvError::NoText(format!("a line with more than {VALUES_MAX} values")));
+        return Err(RecvError::NoText(format!("the line has more than {VALUES_MAX} values")));
     }
     String::from_utf8(line).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let shown = cut(&String::from_utf8_lossy(error.as_bytes()));
-        RecvError::NoText(format!("a line that is not UTF-8 at byte {at}: {shown}"))
+        RecvError::NoText(format!("the line is not UTF-8 at byte {at}: {shown}"))
     })
 }
 
@@ -263,7 +263,7 @@ fn wait(
 pub(crate) fn not_json(line: &str, error: &serde_json::Error) -> String {
     let shown = cut(line);
     if serde_json::from_str::<serde::de::IgnoredAny>(line).is_ok() || line.starts_with('{') {
-        format!("{error}: {shown}")
+        format!("{}: {shown}", json_error(line, error))
     } else {
         format!("the line is not JSON: {shown}; print only answers to stdout, the rest to stderr")
     }

@@ -17,7 +17,7 @@ use toml::Spanned;
 
 use super::{LISTED, Profile, Section};
 use crate::edition::{CncVersion, Edition};
-use crate::text::utf8;
+use crate::text::{toml_error, utf8};
 
 /// A profile with a comment on each key. Its values are the defaults for a device.
 pub const EXAMPLE: &str = include_str!("device.toml");
@@ -67,10 +67,8 @@ impl Profile {
     /// # Errors
     /// The line and what is wrong in it: an unknown key, or an invalid value.
     pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
-        let file: ProfileFile = toml::from_str(text).map_err(|error| {
-            // `Display` quotes the line; `message` has no line number.
-            ProfileFileError { file: None, why: error.to_string().trim_end().to_owned() }
-        })?;
+        let file: ProfileFile = toml::from_str(text)
+            .map_err(|error| ProfileFileError { file: None, why: toml_error(&error) })?;
         let absent = file.absent_channel.as_ref().map(|absent| (*absent.get_ref(), absent.span()));
         let profile = Self::from(file);
         match absent {
@@ -369,15 +367,15 @@ mod tests {
             ("platform-axes = 256", "255 axes"),
             ("spindles = 257", "256 spindles"),
             ("empty-places = [[1, 0]]", "axis"),
-            ("empty-places = [[1]]", "invalid length"),
+            ("empty-places = [[1]]", "expected a list of 2 items, found 1 item"),
             ("kinds = [\"V.CYC\"]", "cannot be listed"),
             ("by-name-only = [\"V.CYC.\"]", "V.CYC."),
             ("unwritten = [\"\u{3A9}\"]", "\u{3A9}"),
             ("sections = [\"everything\"]", "objects"),
             ("functions = [\"read\"]", "read variable value by name"),
             ("timeout = 0", "greater than 0"),
-            ("timeout = \"2 s\"", "invalid type"),
-            ("colour = \"red\"", "unknown field"),
+            ("timeout = \"2 s\"", "expected a whole number, found the text"),
+            ("colour = \"red\"", "the key colour is unknown"),
             ("printed-examples = maybe", "line 2"),
         ] {
             let error = Profile::from_toml(&format!("name = \"x\"\n{line}\n")).unwrap_err();

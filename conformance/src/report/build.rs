@@ -48,6 +48,8 @@ pub struct About {
     pub times: Vec<(CaseSubject, Duration)>,
     /// Values that were changed and not restored.
     pub left_changed: Vec<LeftChanged>,
+    /// Why the run ended before all its cases were run.
+    pub ended: Option<String>,
 }
 
 impl Report {
@@ -67,6 +69,7 @@ impl Report {
             again,
             times,
             left_changed,
+            ended,
         } = about;
         let waivers = waivers.apply(outcomes, left_out, time);
         let cases: Vec<CaseReport> =
@@ -114,6 +117,7 @@ impl Report {
             exit_code: tally.exit().code(),
             checks: outcomes.iter().map(|outcome| outcome.checks).sum(),
             frames,
+            ended,
             left_out: left_out.iter().filter(is_whole).count(),
             subjects,
             cases,
@@ -377,6 +381,7 @@ mod tests {
                 again: None,
                 times: Vec::new(),
                 left_changed: Vec::new(),
+                ended: None,
             };
             let all: Vec<CaseOutcome> =
                 verdicts.iter().map(|(id, one)| outcome(*id, *one)).collect();

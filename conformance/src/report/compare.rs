@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use super::display::Detail;
 use super::failures::list;
 use super::model::{Report, RequirementReport};
 use crate::judge::{CaseSubject, Exit, Verdict};
@@ -102,10 +103,16 @@ fn differences(now: &Report, before: &Report) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Writes the changes since an earlier report, new failures last. Returns the exit code:
+/// Writes the changes since an earlier report, new failures last; if quiet, only their numbers. Returns
+/// the exit code:
 /// [`Exit::Failure`] for a new failure, otherwise [`Exit::Nothing`] if a requirement is no longer
 /// judged.
-pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result<Exit> {
+pub fn compare(
+    now: &Report,
+    before: &Report,
+    detail: Detail,
+    out: &mut dyn Write,
+) -> io::Result<Exit> {
     let warnings = differences(now, before);
     let (new, old) = (judged(now), judged(before));
     let mut changes: BTreeMap<(Change, &str, CaseSubject), Vec<String>> = BTreeMap::new();
@@ -123,16 +130,20 @@ pub fn compare(now: &Report, before: &Report, out: &mut dyn Write) -> io::Result
         let cases = changes.entry((change, requirement, subject)).or_default();
         cases.push(format!("{case} ({was} -> {is})"));
     }
-    writeln!(out, "before   {}, {}, seed {}", before.time, before.target.name, before.seed)?;
-    writeln!(out, "now      {}, {}, seed {}", now.time, now.target.name, now.seed)?;
-    warnings.iter().try_for_each(|warning| writeln!(out, "warning  {warning}"))?;
-    if interrupted > 0 {
-        let (change, verdicts) = (Change::NoLongerJudged.name(), plural(interrupted, "verdict"));
-        writeln!(out, "{change:<16}  {verdicts}: the run was interrupted")?;
-    }
-    for ((change, requirement, subject), cases) in &changes {
-        let (change, cases) = (change.name(), list(cases.iter().map(String::as_str), CASES_MAX));
-        writeln!(out, "{change:<16}  {requirement:<7}  {subject}  {cases}")?;
+    if detail != Detail::Quiet {
+        writeln!(out, "before   {}, {}, seed {}", before.time, before.target.name, before.seed)?;
+        writeln!(out, "now      {}, {}, seed {}", now.time, now.target.name, now.seed)?;
+        warnings.iter().try_for_each(|warning| writeln!(out, "warning  {warning}"))?;
+        if interrupted > 0 {
+            let (change, verdicts) =
+                (Change::NoLongerJudged.name(), plural(interrupted, "verdict"));
+            writeln!(out, "{change:<16}  {verdicts}: the run was interrupted")?;
+        }
+        for ((change, requirement, subject), cases) in &changes {
+            let (change, cases) =
+                (change.name(), list(cases.iter().map(String::as_str), CASES_MAX));
+            writeln!(out, "{change:<16}  {requirement:<7}  {subject}  {cases}")?;
+        }
     }
     let number = |wanted: Change| {
         let all = changes.iter().filter(|((change, ..), _)| *change == wanted);

@@ -70,7 +70,7 @@ fn unstarted(
     };
     let verdict = display.verdict(failure.verdict, failure.waived);
     let found = failure.found.trim_start_matches("a crash: ");
-    let garbled = found.strip_prefix("no answer of the protocol: ");
+    let garbled = found.strip_prefix("invalid answer: ");
     let what = match garbled {
         Some(why) => format!("the {kind}'s answer to hello is wrong: {why}"),
         None => format!("the {kind} did not answer hello: {found}"),
@@ -348,7 +348,12 @@ fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()
         writeln!(out, "wrote     {written} ({end})")?;
     }
     let (cases, code) = (plural(cases, "case"), report.exit_code);
-    writeln!(out, "{cases}{left_out}, {checks} checks, {frames} frames; exit code {code}")?;
+    writeln!(
+        out,
+        "{cases}{left_out}, {}, {}; exit code {code}",
+        plural(*checks, "check"),
+        plural(*frames, "frame")
+    )?;
     last_line(report, display, out)
 }
 
@@ -376,7 +381,9 @@ fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Resu
         format!("{}: {counts}", one.subject)
     });
     let totals = totals.collect::<Vec<_>>().join("; ");
-    writeln!(out, "{}  {totals}", display.paint(color, verdict))
+    let ended = report.ended.iter().map(|why| format!("; ended early: {why}"));
+    let ended: String = ended.collect();
+    writeln!(out, "{}  {totals}{ended}", display.paint(color, verdict))
 }
 
 /// The requirements that follow from one that this run does not judge.
@@ -404,9 +411,7 @@ fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     match all.count() {
         0 => Ok(()),
-        more => {
-            writeln!(out, "and {more} more follow from requirements that this run does not judge")
-        }
+        more => writeln!(out, "the same holds for {}", plural(more, "other requirement")),
     }
 }
 

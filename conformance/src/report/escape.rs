@@ -32,6 +32,7 @@ impl Report {
             exit_code: _,
             checks: _,
             frames: _,
+            ended,
             left_changed,
             rejected,
             written,
@@ -40,7 +41,7 @@ impl Report {
             cases,
         } = &mut self;
         all([suite, vectors, time]);
-        all(editions.iter_mut().chain(only).chain(traffic).chain(again));
+        all(editions.iter_mut().chain(only).chain(traffic).chain(again).chain(ended));
         all(rejected.iter_mut().chain(written));
         escape_target(target);
         if let Some(ProfileReport { name, claims }) = profile {

@@ -41,7 +41,7 @@ pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> 
     }
     if let Some(more) = others.get(shown..).filter(|more| !more.is_empty()) {
         let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
-        let number = plural(more.len(), "other difference or warning");
+        let number = plural(more.len(), "other deviation");
         writeln!(out, "{number} (-v shows all): {}", list(names, usize::MAX))?;
     }
     if !others.is_empty() {

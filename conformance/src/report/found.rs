@@ -64,18 +64,13 @@ fn joined(texts: impl Iterator<Item = String>) -> String {
 }
 
 /// The found number, with the claimed number if it differs.
-fn claimed(found: u32, claimed: Option<u32>, one: &str, several: &str) -> Option<String> {
-    let noun = |number: u32| if number == 1 { one } else { several };
+fn claimed(found: u32, claimed: Option<u32>, noun: &str) -> Option<String> {
     Some(match claimed.filter(|claimed| *claimed != found) {
         // 0 may mean that this was not queried.
-        Some(claimed) if found == 0 => format!("claimed {claimed} {}", noun(claimed)),
-        Some(claimed) => format!("claimed {claimed} {}, found {found}", noun(claimed)),
-        None => format!("{found} {}", noun(found)),
+        Some(claimed) if found == 0 => format!("claimed {}", plural(claimed, noun)),
+        Some(claimed) => format!("claimed {}, found {found}", plural(claimed, noun)),
+        None => plural(found, noun),
     })
-}
-
-fn to_usize(number: u32) -> usize {
-    usize::try_from(number).unwrap_or(usize::MAX)
 }
 
 impl FoundReport {
@@ -92,22 +87,21 @@ impl FoundReport {
         }
         if !self.channels.is_empty() {
             let channels = self.channels.iter();
-            let channels = channels.map(|one| {
-                format!("{} with {}", one.number, plural(to_usize(one.axes), "axis place"))
-            });
+            let channels = channels
+                .map(|one| format!("{} with {}", one.number, plural(one.axes, "axis place")));
             parts.push(format!("channel {}", joined(channels)));
         }
-        let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis", "platform axes");
+        let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis");
         // 0 may mean unknown.
         let axes = axes.filter(|_| self.platform_axes > 0 || self.claimed_axes.is_some());
-        let spindles = claimed(self.spindles, self.claimed_spindles, "spindle", "spindles");
+        let spindles = claimed(self.spindles, self.claimed_spindles, "spindle");
         parts.extend(axes.into_iter().chain(spindles));
         let items: u64 = self.lists.iter().map(|list| u64::from(list.items)).sum();
         let lists = plural(self.lists.len(), "list");
-        parts.push(format!("{items} item{} in {lists}", if items == 1 { "" } else { "s" }));
+        parts.push(format!("{} in {lists}", plural(items, "item")));
         let stopped = self.stopped.as_ref();
         let stopped = stopped.map_or_else(String::new, |why| format!("; no more, because {why}"));
-        format!("{}, by {} requests{stopped}", parts.join("; "), self.requests)
+        format!("{}, by {}{stopped}", parts.join("; "), plural(self.requests, "request"))
     }
 
     /// The lists that are only sampled, on one line; `None` if all lists are read completely.
@@ -122,7 +116,7 @@ impl FoundReport {
         match sampled.len().saturating_sub(NAMED_MAX) {
             _ if sampled.is_empty() => None,
             0 => Some(format!("{named}; by the seed")),
-            more => Some(format!("{named} and {more} more lists; by the seed")),
+            more => Some(format!("{named} and {}; by the seed", plural(more, "more list"))),
         }
     }
 }

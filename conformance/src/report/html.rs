@@ -40,7 +40,7 @@ pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// The meaning of the result of the run, and the failed requirements.
-fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
+fn meaning(report: &Report) -> (String, Vec<FailedView>) {
     let failed: Vec<FailedView> = report
         .subjects
         .iter()
@@ -67,7 +67,8 @@ fn meaning(report: &Report) -> (&'static str, Vec<FailedView>) {
         Exit::Stale => "Nothing fails, but a waiver is no longer valid.",
         Exit::Internal => "An internal error of the suite occurred.",
     };
-    (words, failed)
+    let ended = report.ended.as_ref().map(|why| format!(" The run ended early: {why}."));
+    (words.to_owned() + ended.as_deref().unwrap_or_default(), failed)
 }
 
 /// A requirement that fails.
@@ -103,7 +104,7 @@ struct ReportView<'r> {
     report: Report,
     cases: usize,
     passed: bool,
-    meaning: &'static str,
+    meaning: String,
     failed: Vec<FailedView>,
     causes: Vec<CauseView>,
     /// Whether the seed determined the order of the cases; not for a capture.

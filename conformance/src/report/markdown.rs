@@ -9,6 +9,7 @@ use super::failures::{block, list, sentence};
 use super::groups::groups;
 use super::model::Report;
 use crate::judge::{Exit, Verdict, WaiverReport};
+use crate::text::plural;
 
 /// Maximum number of characters of all failures: a comment on GitHub has at most 65 536.
 const FAILURES_MAX: usize = 48_000;
@@ -23,6 +24,9 @@ pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     for why in &report.rejected {
         writeln!(out, "**Rejected for safety: {}**\n", plain(why))?;
+    }
+    if let Some(why) = &report.ended {
+        writeln!(out, "**Ended early: {}**\n", plain(why))?;
     }
     writeln!(out, "## ads-cnc: {} {verdict}\n", plain(&target.name))?;
     writeln!(out, "| | |\n|---|---|")?;
@@ -109,7 +113,7 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     match groups.len().saturating_sub(shown) {
         0 => Ok(()),
-        more => writeln!(out, "And {more} more; the HTML and JSON reports contain all."),
+        more => writeln!(out, "And {}; HTML and JSON show all.", plural(more, "more finding")),
     }
 }
 

@@ -11,6 +11,7 @@ use serde_json::Value;
 use super::{BytesReport, DeviceReport, FoundReport};
 use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
 use crate::text::hex::compact;
+use crate::text::json_error;
 
 /// Version of the format.
 pub const FORMAT: u32 = 1;
@@ -61,6 +62,9 @@ pub struct Report {
     pub exit_code: u8,
     pub checks: usize,
     pub frames: usize,
+    /// Why the run ended before all its cases were run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ended: Option<String>,
     /// Number of cases that were not selected; they are not in `cases`.
     pub left_out: usize,
     /// The judged subjects: codec, target, testee or client.
@@ -246,12 +250,21 @@ impl Report {
             format: u32,
         }
         let FormatNumber { format } =
-            serde_json::from_str(text).map_err(|error| error.to_string())?;
+            serde_json::from_str(text).map_err(|error| in_file(text, &error))?;
         if format != FORMAT {
             return Err(format!("report format {format} instead of {FORMAT}"));
         }
-        let report: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let report: Self = serde_json::from_str(text).map_err(|error| in_file(text, &error))?;
         Ok(report.escaped())
+    }
+}
+
+/// What is wrong with a report, with its place.
+fn in_file(text: &str, error: &serde_json::Error) -> String {
+    let words = json_error(text, error);
+    match error.is_data() {
+        true => format!("line {}, column {}: {words}", error.line(), error.column()),
+        false => words,
     }
 }
 

@@ -45,7 +45,8 @@
     for (const subject of document.querySelectorAll(".subject")) {
       subject.hidden = !subject.querySelector(".group:not([hidden])");
     }
-    output.textContent = active ? `${shown} of ${all} cases` : `${all} cases`;
+    const cases = `${all} case${all === 1 ? "" : "s"}`;
+    output.textContent = active ? `${shown} of ${cases}` : cases;
   };
   // The filter is in the URL, so that a view can be shared.
   const remember = () => {

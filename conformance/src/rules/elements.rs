@@ -14,6 +14,7 @@ use super::knowledge::ExchangeJudge;
 use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed, online};
+use crate::text::plural;
 
 /// The type of an element with this type name: a type of variables, or REAL32.
 pub(crate) fn element_type(name: &str) -> Option<DataType> {
@@ -63,9 +64,9 @@ pub(crate) fn check_length(
     length: u32,
     at: &impl Display,
 ) {
-    let found = || format!("{length} bytes of {at}");
+    let found = || format!("{} of {at}", plural(length, "byte"));
     if let Some((data_type, size)) = data_type.and_then(|one| Some((one, one.size()?))) {
-        let expected = || format!("the {size} bytes of {data_type}");
+        let expected = || format!("the {} of {data_type}", plural(size, "byte"));
         record.check(length_rules(data_type), length == size, expected, found);
         record.check(SDA_8, length > 0, "a length of at least 1 byte", found);
     } else {
@@ -109,8 +110,9 @@ impl ExchangeJudge<'_> {
             (Request::ReadElement(_), Some(Reply::Content(content))) => {
                 let given = u32::try_from(content.bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length.filter(|length| call.read_length >= *length) {
-                    let expected = || format!("the {length} bytes of its length attribute");
-                    record.check(SDA_8, given == length, expected, || format!("{given} bytes"));
+                    let expected =
+                        || format!("the {} of its length attribute", plural(length, "byte"));
+                    record.check(SDA_8, given == length, expected, || plural(given, "byte"));
                 }
                 return;
             }
@@ -120,9 +122,9 @@ impl ExchangeJudge<'_> {
                 record.check(assumed(SDA_9), passed, expected, "a success");
                 let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length {
-                    let expected = || format!("the {length} bytes of the element");
+                    let expected = || format!("the {} of the element", plural(length, "byte"));
                     let mut record = self.records.on(Topic::ClientSda, observation);
-                    record.check(SDA_8, given == length, expected, || format!("{given} bytes"));
+                    record.check(SDA_8, given == length, expected, || plural(given, "byte"));
                 }
                 return;
             }

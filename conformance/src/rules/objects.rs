@@ -11,6 +11,7 @@ use super::knowledge::{ExchangeJudge, ObservedContent, ObservedList};
 use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed, online};
+use crate::text::plural;
 
 impl ExchangeJudge<'_> {
     pub(super) fn objects(
@@ -37,8 +38,9 @@ impl ExchangeJudge<'_> {
                 if full {
                     let given = content.bytes.len();
                     let sized = u32::try_from(given) == Ok(known.size);
-                    let expected = || format!("the {} bytes of its descriptor", known.size);
-                    let found = || format!("{given} bytes of {}", known.name);
+                    let expected =
+                        || format!("the {} of its descriptor", plural(known.size, "byte"));
+                    let found = || format!("{} of {}", plural(given, "byte"), known.name);
                     let mut record = self.records.on(Topic::CncCom, observation);
                     record.check([COM_5, COM_2], sized, expected, found);
                 }
@@ -48,8 +50,9 @@ impl ExchangeJudge<'_> {
                 let given = write.content().bytes.len();
                 if known.type_size.is_some() {
                     let sized = u32::try_from(given) == Ok(known.size);
-                    let expected = || format!("the {} bytes of {}", known.size, known.name);
-                    let found = || format!("{given} bytes");
+                    let expected =
+                        || format!("the {} of {}", plural(known.size, "byte"), known.name);
+                    let found = || plural(given, "byte");
                     self.records
                         .on(Topic::ClientCom, observation)
                         .check(COM_5, sized, expected, found);
@@ -76,7 +79,7 @@ impl ExchangeJudge<'_> {
         }
         list.count = Some(count);
         let last = list.known.last_key_value().map_or(0, |(&last, _)| last);
-        let found = || format!("{count} objects, but object {last} has a descriptor");
+        let found = || format!("{}, but object {last} has a descriptor", plural(count, "object"));
         let mut record = self.records.on(Topic::CncCom, observation);
         record.check(COM_1, last <= count, || format!("at least {last} objects"), found);
     }
@@ -93,10 +96,11 @@ impl ExchangeJudge<'_> {
         let first = read.first();
         let count = self.cnc.objects.lists.get(&group).and_then(|list| list.count);
         if let Some(count) = count.filter(|count| first > *count) {
-            let expected = || format!("an index in the list of {count} objects");
+            let expected = || format!("an index within {}", plural(count, "object"));
             let asked = || format!("index {first}");
             self.judge_nonexistent(observation, request, COM_2, expected, asked);
-            let expected = || format!("an error number, because the list has {count} objects");
+            let expected =
+                || format!("an error number, because the list has {}", plural(count, "object"));
             let found = || format!("a descriptor of object {first}");
             let mut record = self.records.on(Topic::CncCom, observation);
             record.check(COM_2, given.is_none_or(|given| given.is_empty()), expected, found);
@@ -113,7 +117,8 @@ impl ExchangeJudge<'_> {
             // another length: the rule is assumed.
             let rule: Rule = if exact && asked <= left { COM_3.into() } else { assumed(COM_3) };
             let passed = u32::try_from(given.len()) == Ok(expected);
-            let expected = || format!("{expected} descriptors, starting with object {first}");
+            let expected =
+                || format!("{} starting with object {first}", plural(expected, "descriptor"));
             self.records.on(Topic::CncCom, observation).check(rule, passed, expected, given.len());
         }
         let alone = given.len() == 1;
@@ -171,7 +176,7 @@ pub(crate) fn check_descriptor(record: &mut impl Checks, object: DescriptorRef<'
     record.check(COM_2, listed, "one of the types of the manual", found);
     if let Some(size) = object.type_size() {
         let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
-        let expected = || format!("a multiple of the {size} bytes of {type_name}");
+        let expected = || format!("a multiple of the {} of {type_name}", plural(size, "byte"));
         let found = || format!("size {} of {name}", object.size());
         let is_printed = ["BOOL", "WORD", "DWORD"].contains(&type_name.as_str());
         let rule = if is_printed { GEN_5.into() } else { online(GEN_5) };

@@ -12,6 +12,7 @@ use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
 use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
+use crate::text::plural;
 use crate::wire_service;
 
 /// Checks the headers of a reply.
@@ -44,8 +45,10 @@ pub(super) fn service<'e>(
             record.pass(ADS_4);
             let given = answer.data.as_ref().map_or(0, Vec::len);
             let passed = usize::try_from(exchange.read_length).is_ok_and(|read| given <= read);
-            let expected = || format!("at most the {} requested bytes", exchange.read_length);
-            record.check(clause, passed, expected, || format!("{given} bytes of data"));
+            let expected = || {
+                format!("at most the {} that were requested", plural(exchange.read_length, "byte"))
+            };
+            record.check(clause, passed, expected, || format!("{} of data", plural(given, "byte")));
             short_error(records, observation, answer, header);
             Some(answer)
         }

@@ -10,6 +10,7 @@ use ads_cnc_vectors::requirement;
 use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
 use crate::judge::{Checks as _, Rule, assumed, online};
+use crate::text::plural;
 use crate::values::until_nul;
 use crate::wire_service;
 
@@ -162,8 +163,9 @@ fn documented(
         let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
         let mut record = records.on(Topic::ClientServices, observation);
-        let expected =
-            || format!("a read length of at least {least} bytes, the length of the reply");
+        let expected = || {
+            format!("a read length of at least {}, the length of the reply", plural(least, "byte"))
+        };
         let found = || format!("a read length of {asked} bytes");
         record.check(rule, asked >= least, expected, found);
     }

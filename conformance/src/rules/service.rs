@@ -10,6 +10,7 @@ use super::observation::Observation;
 use super::requests::name_of;
 use super::topic::{Topic, TopicRecord};
 use crate::judge::{Checks as _, assumed};
+use crate::text::plural;
 
 impl ExchangeJudge<'_> {
     pub(super) fn service(
@@ -58,7 +59,7 @@ impl ExchangeJudge<'_> {
 /// Checks the size: a text has at most 128 bytes, a state is an UNS32.
 fn form(record: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
-    let found = || format!("{length} bytes of {}", variable.name());
+    let found = || format!("{} of {}", plural(length, "byte"), variable.name());
     match variable {
         ServiceVariable::RequestState | ServiceVariable::ResponseState => {
             record.check(SVC_1, length == 4, "an UNS32", found);

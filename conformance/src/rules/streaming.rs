@@ -11,6 +11,7 @@ use super::knowledge::ExchangeJudge;
 use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, Rule, assumed};
+use crate::text::plural;
 
 /// A client that has sent nothing for this long after a rejected write has given up.
 const RETRY_TIMEOUT: Duration = Duration::from_secs(30);
@@ -26,7 +27,7 @@ impl ExchangeJudge<'_> {
         let mut record = self.records.on(Topic::ClientStream, observation);
         let length = data.len();
         let passed = length <= STREAM_PACKET_MAX;
-        record.check(STM_2, passed, "at most 992 bytes", || format!("{length} bytes"));
+        record.check(STM_2, passed, "at most 992 bytes", || plural(length, "byte"));
         let whole = data.ends_with(b"\r\n");
         record.check(STM_4, whole, "whole lines, each with CR LF", "an open line at the end");
         // `NcText` accepts every line end, so bare CR and LF are detected here.
@@ -56,7 +57,8 @@ impl ExchangeJudge<'_> {
                 _ => Duration::ZERO,
             };
             if waited < RETRY_TIMEOUT {
-                let expected = || format!("the {} bytes that were rejected before", refused.len());
+                let expected =
+                    || format!("the {} that were rejected before", plural(refused.len(), "byte"));
                 record.check(STM_6, refused == data, expected, "other data");
             }
         }

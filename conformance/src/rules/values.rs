@@ -9,6 +9,7 @@ use super::knowledge::TargetVariable;
 use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, assumed};
+use crate::text::plural;
 
 /// Maximum size in bytes of a text that can be declared.
 const TEXT_MAX: usize = 800;
@@ -51,20 +52,21 @@ impl ExchangeJudge<'_> {
         let indices = target.indices.len();
         let fits = target.has_valid_index_count();
         let mut record = self.records.on(Topic::ClientVar, observation);
-        let found = || format!("{indices} indices of {name}");
+        let found = || format!("{} of {name}", plural(indices, "index"));
         let rule = assumed(if by_handle { VAR_11 } else { VAR_20 });
-        record.check(rule, fits, || format!("no index, or {dimensions} indices"), found);
+        record.check(rule, fits, || format!("no index, or {}", plural(dimensions, "index")), found);
         if let (Some(written), Some(size), true) = (written, target.size(), fits) {
             let given = written.len();
             let sized = u32::try_from(given) == Ok(size);
-            let expected = || format!("the {size} bytes of {name}");
-            record.check(clause, sized, expected, || format!("{given} bytes"));
+            let expected = || format!("the {} of {name}", plural(size, "byte"));
+            record.check(clause, sized, expected, || plural(given, "byte"));
         }
         let mut record = self.records.on(Topic::CncVar, observation);
         record.about(name);
         if !fits {
-            let expected =
-                || format!("an error number, because {name} has {dimensions} dimensions");
+            let expected = || {
+                format!("an error number, because {name} has {}", plural(dimensions, "dimension"))
+            };
             record.check(rule, reply.is_none(), expected, "a success");
             return;
         }
@@ -84,10 +86,15 @@ impl ExchangeJudge<'_> {
         }
         let Some(Reply::Value(value)) = reply else { return };
         let given = value.bytes.len();
-        let found = || format!("{given} bytes of {name}");
+        let found = || format!("{} of {name}", plural(given, "byte"));
         if let Some(size) = target.size() {
             let sized = u32::try_from(given) == Ok(size);
-            record.check(VAR_14, sized, || format!("the {size} bytes of its description"), found);
+            record.check(
+                VAR_14,
+                sized,
+                || format!("the {} of its description", plural(size, "byte")),
+                found,
+            );
         } else if target.description.var_type == VariableType::STRING && dimensions == 0 {
             let expected = || format!("a text of at most {TEXT_MAX} bytes");
             record.check(VAR_25, given <= TEXT_MAX, expected, found);

@@ -12,6 +12,7 @@ use super::knowledge::{ChannelVariables, ExchangeJudge, MemoryBudget, TargetVari
 use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, assumed};
+use crate::text::plural;
 
 /// Maximum number of channels that are distinguished.
 const CHANNELS_MAX: usize = 512;
@@ -182,7 +183,7 @@ impl ExchangeJudge<'_> {
         let of = |kind: &str| counts.get(kind).copied();
         if let (Some(all), Some(g), Some(e), Some(a)) = (of(""), of("V.G"), of("V.E"), of("V.A")) {
             let sum = g.saturating_add(e).saturating_add(a);
-            let expected = || format!("{sum} variables of all kinds");
+            let expected = || format!("{} of all kinds", plural(sum, "variable"));
             self.records.on(Topic::CncVar, observation).check(VAR_1, all == sum, expected, all);
         }
     }
@@ -268,7 +269,7 @@ pub(crate) fn check_extended(record: &mut impl Checks, reply: &ExtendedReply, at
 
 /// A description, as shown in a report.
 fn in_words(ty: VariableType, access: VariableAccess, size: u32, dimensions: &[u32]) -> String {
-    format!("{ty}, {access}, {size} bytes, dimensions {dimensions:?}")
+    format!("{ty}, {access}, {}, dimensions {dimensions:?}", plural(size, "byte"))
 }
 
 /// Checks a description by itself.
@@ -300,13 +301,14 @@ pub(crate) fn check_description(record: &mut impl Checks, variable: &Description
     let Some(size) = variable.var_type.element_size() else { return };
     if variable.dimensions.is_empty() {
         let one = variable.size < size.saturating_mul(2);
-        let found = || format!("{} bytes of {name}", variable.size);
+        let found = || format!("{} of {name}", plural(variable.size, "byte"));
         // The dimensions may be missing.
         record.check([VAR_7, VAR_4], one, "the size of one element without a dimension", found);
     }
     let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
-    let expected = || format!("{whole} bytes for {:?} {}", variable.dimensions, variable.var_type);
-    let found = || format!("{} bytes of {name}", variable.size);
+    let expected =
+        || format!("{} for {:?} {}", plural(whole, "byte"), variable.dimensions, variable.var_type);
+    let found = || format!("{} of {name}", plural(variable.size, "byte"));
     record.check(VAR_8, variable.size == whole, expected, found);
     // A size in the wrong byte order usually exceeds every limit.
     let plausible = variable.size <= 0x00FF_FFFF;

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use super::detection::{CheckedTable, Figures, Mode, PairFigures};
 use super::{SelfTest, SelfTestGroup, Trial, TrialResult};
 use crate::judge::Exit;
+use crate::text::plural;
 
 /// Maximum number of requirements on a line.
 const TARGETS_SHOWN: usize = 6;
@@ -36,7 +37,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             SelfTestGroup::Cnc => {}
             SelfTestGroup::Different => {
                 let alarms = all.saturating_sub(right);
-                writeln!(out, "{:<10}  {alarms} false alarms of {all}", group.name())?;
+                writeln!(out, "{:<10}  {} of {all}", group.name(), plural(alarms, "false alarm"))?;
             }
             _ => {
                 let percent = percent(right, all);

@@ -23,6 +23,7 @@ use crate::net;
 use crate::profile::{Claim, Profile};
 use crate::report::lines;
 use crate::simulator::{LocalCnc, NET_ID, Responder, Server};
+use crate::text::plural;
 
 pub use error::ToolError;
 
@@ -395,7 +396,7 @@ impl fmt::Display for Shown<'_> {
         };
         writeln!(f, "{verdict}\n  {name} ({clause}): {}", self.0)?;
         if call.read_length > 0 {
-            writeln!(f, "  reply of at most {} bytes", call.read_length)?;
+            writeln!(f, "  reply of at most {}", plural(call.read_length, "byte"))?;
         }
         let stream = spec.and_then(|spec| spec.request).map(|stream: Stream| stream.layout().name);
         lines::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))

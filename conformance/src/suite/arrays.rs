@@ -7,6 +7,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Probe, brackets, each_array, each_variable, element_name};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, assumed};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -98,7 +99,7 @@ fn number_of_indices(probe: &mut Probe<'_>) -> Step {
             let good = zeros.get(..m).unwrap_or_default();
             probe.refuses(
                 assumed(VAR_11),
-                &format!("{n} indices for {m} dimensions"),
+                &format!("{} for {}", plural(n, "index"), plural(m, "dimension")),
                 ReadByHandle::new(channel, variable.handle, few),
                 ReadByHandle::new(channel, variable.handle, good),
             )?;

@@ -11,6 +11,7 @@ use super::kit::{Probe, Steady, attribute_reads, element_by_rank};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
 use crate::rules::element_type;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -47,8 +48,12 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             // Another case judges whether the content can be read.
             let Some(content) = probe.try_ask(content)? else { continue };
             let same = u32::try_from(content.len()) == Ok(length);
-            let found =
-                || format!("{length} at 0x300, but {} bytes of content for {at}", content.len());
+            let found = || {
+                format!(
+                    "{length} at 0x300, but {} of content for {at}",
+                    plural(content.len(), "byte")
+                )
+            };
             probe.check(ADR_6, same, "the length of the content at 0x300", found);
         }
     }

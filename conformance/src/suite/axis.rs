@@ -15,6 +15,7 @@ use super::kit::{
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable, assumed};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -81,7 +82,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let Some(data) = probe.try_ask(request)? else { continue };
                 any = true;
                 let handle = Handle::decode(&data);
-                let found = || format!("a success with {} bytes", data.len());
+                let found = || format!("a success with {}", plural(data.len(), "byte"));
                 let expected =
                     || format!("an error, or the 4-byte handle of {name} at place {place}");
                 probe.check(VAR_26, handle.is_ok(), expected, found);
@@ -135,11 +136,11 @@ fn values(probe: &mut Probe<'_>) -> Step {
         let value = probe.ask(VAR_26, request)?;
         if variable.var_type.element_size().is_some() {
             let sized = u32::try_from(value.len()) == Ok(variable.size);
-            let found = || format!("{} bytes of {at}", value.len());
+            let found = || format!("{} of {at}", plural(value.len(), "byte"));
             probe.check(
                 VAR_26,
                 sized,
-                || format!("the {} bytes of its description", variable.size),
+                || format!("the {} of its description", plural(variable.size, "byte")),
                 found,
             );
         }

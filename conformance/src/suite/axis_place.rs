@@ -14,6 +14,7 @@ use super::kit::{
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -33,8 +34,10 @@ fn places(probe: &mut Probe<'_>) -> Step {
             let places = answering_places(probe, channel, name)?;
             let own: Vec<&Description> =
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
-            let found = || format!("{} places of channel {}", places.len(), channel.number());
-            let expected = || format!("one place for each of the {} axes with {name}", own.len());
+            let found =
+                || format!("{} of channel {}", plural(places.len(), "place"), channel.number());
+            let expected =
+                || format!("one place for each of the {} with {name}", plural(own.len(), "axis"));
             probe.check([VAR_26, GEN_6], places.len() >= own.len(), expected, found);
             // An axis has only one place. Handles of places without an axis belong to no variable.
             let mut seen = HashSet::new();
@@ -76,7 +79,7 @@ fn at_a_place(
         Compared::Differs(value, ..) => {
             let expected =
                 || format!("{} of {} at one of the places", Hex(value), variable.name.text);
-            let found = || format!("other values at all {} places", places.len());
+            let found = || format!("other values at all {}", plural(places.len(), "place"));
             probe.check(VAR_26, false, expected, found);
         }
         Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}

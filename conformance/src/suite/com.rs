@@ -12,6 +12,7 @@ use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descripto
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, Step, assumed};
 use crate::rules::check_descriptor;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -46,7 +47,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         ends(probe, list, number)?;
         // The list is static: the requests in between must not change it.
         let again: ObjectCount = probe.read(COM_1, CountObjects::new(list))?;
-        let found = || format!("{} objects of {}", again.0, list.parts().index_group());
+        let found = || format!("{} of {}", plural(again.0, "object"), list.parts().index_group());
         probe.check(COM_1, again.0 == number, || format!("{number} as before"), found);
     }
     Ok(())
@@ -144,12 +145,13 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
             singles.get(&number).map_or(part, Vec::as_slice)
         });
         let alone: Vec<u8> = alone.flatten().copied().collect();
-        let expected =
-            || format!("{count} descriptors from {first}, equal to those read one by one");
+        let expected = || {
+            format!("{} from {first}, equal to those read one by one", plural(count, "descriptor"))
+        };
         let found = if together.len() == alone.len() {
             "other bytes".to_owned()
         } else {
-            format!("{} bytes instead of {}", together.len(), alone.len())
+            format!("{} instead of {}", plural(together.len(), "byte"), alone.len())
         };
         probe.check(COM_3, together == alone, expected, found);
     }

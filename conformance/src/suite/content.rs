@@ -13,6 +13,7 @@ use super::platform::PRINTED;
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Step, applicable, assumed};
 use crate::objects::Object;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -40,8 +41,14 @@ fn content(probe: &mut Probe<'_>) -> Step {
             Err(error) => {
                 // That the program stream can be read is not documented.
                 let stream = error.kind() == ErrorKind::Function;
-                let found =
-                    || format!("{size} bytes of {} at {}: {error}", object.name, at(&object));
+                let found = || {
+                    format!(
+                        "{} of {} at {}: {error}",
+                        plural(size, "byte"),
+                        object.name,
+                        at(&object)
+                    )
+                };
                 probe.check(rules, stream, "a content that can be read", found);
                 continue;
             }
@@ -59,9 +66,9 @@ fn content(probe: &mut Probe<'_>) -> Step {
             probe.check(COM_6, exchange.success().is_some(), expected, &exchange);
         }
         let content = probe.ask(rules, read)?;
-        let found = || format!("{} bytes of {}", content.len(), object.name);
+        let found = || format!("{} of {}", plural(content.len(), "byte"), object.name);
         let sized = u32::try_from(content.len()) == Ok(size);
-        let expected = || format!("the {size} bytes of its descriptor");
+        let expected = || format!("the {} of its descriptor", plural(size, "byte"));
         probe.check(rules, sized, expected, found);
         if object.ty.name == "BOOL" {
             let bit = matches!(*content, [0 | 1]);
@@ -87,8 +94,8 @@ fn room(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
             let Some(content) = probe.try_ask(read)? else { continue };
-            let expected = || format!("the {} bytes of {}", object.size(), object.name);
-            let found = || format!("{} bytes for a read length of {size}", content.len());
+            let expected = || format!("the {} of {}", plural(object.size(), "byte"), object.name);
+            let found = || format!("{} for a read length of {size}", plural(content.len(), "byte"));
             let sized = u32::try_from(content.len()) == Ok(object.size());
             probe.check([COM_2, COM_5], sized, expected, found);
             let is_padded = !sized && u32::try_from(content.len()) == Ok(size);
@@ -137,7 +144,8 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     let read = all.iter().filter(|one| one.size() > 1).find_map(|one| one.address.read().ok());
     let good = RawCall::new(read.or_not_applicable("no object has two bytes")?)?;
     for read_length in [0, good.read_length.saturating_sub(1)] {
-        let what = format!("a read length of {read_length} for {} bytes", good.read_length);
+        let what =
+            format!("a read length of {read_length} for {}", plural(good.read_length, "byte"));
         let bad = good.with(|call| call.read_length = read_length);
         probe.refuses(assumed(ADS_1), &what, bad, &good)?;
     }
@@ -171,7 +179,7 @@ fn everything(probe: &mut Probe<'_>) -> Step {
         }
         let listed = instance.reached == instance.count.min(OBJECTS_MAX);
         let found = || format!("{} of {instance}", instance.reached);
-        probe.check(OBJ_1, listed, || format!("{} elements", instance.count), found);
+        probe.check(OBJ_1, listed, || plural(instance.count, "element"), found);
     }
     Ok(())
 }

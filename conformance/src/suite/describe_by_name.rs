@@ -11,6 +11,7 @@ use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
 use crate::profile::Claim;
 use crate::rules::check_extended;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -79,7 +80,7 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                 }
                 // An index after the last must have no data either.
                 let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
-                let found = || format!("{} bytes", given.len());
+                let found = || plural(given.len(), "byte");
                 probe.check(VAR_3, given.is_empty(), || format!("no data for {what}"), found);
             }
         }
@@ -116,9 +117,17 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
                 == (variable.var_type, variable.access, variable.size)
                 && described.dimensions == variable.dimensions;
             let Description { var_type, access, size, dimensions, handle, .. } = variable;
-            let by_index = format!("{var_type}, {access}, {size} bytes, dimensions {dimensions:?}");
+            let by_index = format!(
+                "{var_type}, {access}, {}, dimensions {dimensions:?}",
+                plural(*size, "byte")
+            );
             let DescriptionByName { var_type, access, size, dimensions, .. } = &described;
-            let found = || format!("{var_type}, {access}, {size} bytes, dimensions {dimensions:?}");
+            let found = || {
+                format!(
+                    "{var_type}, {access}, {}, dimensions {dimensions:?}",
+                    plural(*size, "byte")
+                )
+            };
             probe.check(VAR_28, passed, || format!("{by_index} of {name}, as by index"), found);
             let same = described.handle == *handle;
             let expected = || format!("the handle {handle} of {name}, as by index");

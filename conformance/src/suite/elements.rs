@@ -17,6 +17,7 @@ use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, assumed};
 use crate::objects::decode_element_count;
 use crate::rules::{check_length, check_type};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -63,13 +64,13 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let data = probe.ask(of_address, CountElements::new(first)?)?;
         probe.pass(of_address);
         probe.pass(ADR_6);
-        let found = || format!("{} bytes for the number of {instance}", data.len());
+        let found = || format!("{} for the number of {instance}", plural(data.len(), "byte"));
         probe.check(assumed(SDA_4), data.len() == 4, "a number of 4 bytes", found);
         let reported = decode_element_count(&data);
         probe.check(SDA_4, reported.is_some(), "a number", found);
         let same = reported == Some(instance.reported);
         let found = || match reported {
-            Some(number) => format!("{number} elements of {instance}"),
+            Some(number) => format!("{} of {instance}", plural(number, "element")),
             None => format!("no number of elements of {instance}"),
         };
         probe.check(SDA_4, same, || format!("{}, as before", instance.reported), found);
@@ -79,7 +80,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             (false, 1..) => alone = Some(instance.to_string()),
             (false, 0) => {}
         }
-        let found = || format!("{count} elements of {instance}");
+        let found = || format!("{} of {instance}", plural(count, "element"));
         probe.check(SDA_4, count <= 0xFFFF, "at most the number that fits into an offset", found);
         let name: ElementText = attribute(probe, SDA_4, ReadElementName::new(first))?;
         let name = name.text.text.to_string();
@@ -155,7 +156,7 @@ fn first_element(probe: &mut Probe<'_>) -> Step {
         if let Some(length) = length {
             let same = u32::try_from(number.len()) == Ok(length.get());
             let found = || format!("a length of {} for element 0 of {instance}", length.get());
-            let expected = || format!("the {} bytes of the number", number.len());
+            let expected = || format!("the {} of the number", plural(number.len(), "byte"));
             probe.check(SDA_8, same, expected, found);
         }
         let requests: [Request<'_>; 3] = [
@@ -205,7 +206,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
         }
     }
     // If no type is known, the texts are wrong rather than the types.
-    let found = || format!("{types} types, none of the manual");
+    let found = || format!("{}, none of the manual", plural(types, "type"));
     probe.check(SDA_6, types == 0 || known > 0, "texts", found);
     Ok(())
 }
@@ -267,7 +268,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
             Err(error) => {
                 // Some offsets of the decoder are functions (SDA-12).
                 let function = error.kind() == ErrorKind::Function;
-                let found = || format!("{length} bytes of {at}");
+                let found = || format!("{} of {at}", plural(length, "byte"));
                 probe.check(
                     SDA_8,
                     function,
@@ -278,9 +279,14 @@ fn content(probe: &mut Probe<'_>) -> Step {
             }
         };
         let content = probe.ask([SDA_8, ADR_6], read)?;
-        let found = || format!("{} bytes of {at}", content.len());
+        let found = || format!("{} of {at}", plural(content.len(), "byte"));
         let sized = u32::try_from(content.len()) == Ok(length);
-        probe.check(SDA_8, sized, || format!("the {length} bytes of its length attribute"), found);
+        probe.check(
+            SDA_8,
+            sized,
+            || format!("the {} of its length attribute", plural(length, "byte")),
+            found,
+        );
         if type_name == "BOOLEAN" {
             let bit = matches!(*content, [0 | 1]);
             let found = || format!("{content:?} of {at}");
@@ -290,9 +296,14 @@ fn content(probe: &mut Probe<'_>) -> Step {
         if let Ok(longer) = ReadElement::new(element, length.saturating_add(1))
             && let Some(content) = probe.try_ask(longer)?
         {
-            let found = || format!("{} bytes for a longer read", content.len());
+            let found = || format!("{} for a longer read", plural(content.len(), "byte"));
             let fits = u32::try_from(content.len()).is_ok_and(|len| len <= length);
-            probe.check(SDA_8, fits, || format!("at most the {length} bytes of {at}"), found);
+            probe.check(
+                SDA_8,
+                fits,
+                || format!("at most the {} of {at}", plural(length, "byte")),
+                found,
+            );
         }
         Ok(())
     })

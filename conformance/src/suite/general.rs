@@ -14,6 +14,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Probe, RawCall, name_of, name_on_axes};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed, online};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -89,8 +90,9 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             // size of the type.
             let read = u32::try_from(value.len()).unwrap_or(u32::MAX);
             let sized = [variable.size, read].contains(&whole);
-            let expected = || format!("{whole} bytes for {}", variable.var_type);
-            let found = || format!("{name}: {} bytes described, {read} read", variable.size);
+            let expected = || format!("{} for {}", plural(whole, "byte"), variable.var_type);
+            let found =
+                || format!("{name}: {} described, {read} read", plural(variable.size, "byte"));
             probe.check(rule, sized, expected, found);
         }
     }

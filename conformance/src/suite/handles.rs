@@ -11,6 +11,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Probe, Steady, name_of};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -100,11 +101,11 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let read = probe.ask(VAR_10, whole(channel, handle))?;
             let sized = u32::try_from(read.len()) == Ok(variable.size)
                 || variable.var_type.element_size().is_none();
-            let found = || format!("{} bytes of {}", read.len(), name.text());
+            let found = || format!("{} of {}", plural(read.len(), "byte"), name.text());
             probe.check(
                 VAR_10,
                 sized,
-                || format!("the {} bytes of its description", variable.size),
+                || format!("the {} of its description", plural(variable.size, "byte")),
                 found,
             );
         }

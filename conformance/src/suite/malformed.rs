@@ -15,6 +15,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Probe, RawCall};
 use super::row::{CaseRow, case};
 use crate::judge::{Needs, OrStop as _, Rules, Step, assumed};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -84,7 +85,7 @@ fn bad_index_kind(probe: &mut Probe<'_>) -> Step {
     let mut malformed = MalformedRequest::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
     let good = malformed.good.data.clone();
     for len in 0..good.len() {
-        let what = format!("the request cut to {len} bytes");
+        let what = format!("the request cut to {}", plural(len, "byte"));
         malformed.data(assumed(VAR_3), &what, good.get(..len).unwrap_or_default())?;
     }
     let with_dot = [good.get(..7).unwrap_or_default(), &b".\0"[..]].concat();
@@ -143,7 +144,7 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
     let mut malformed = MalformedRequest::new(probe, request)?;
     let good = malformed.good.data.clone();
     for len in 0..good.len() {
-        let what = format!("the header cut to {len} bytes");
+        let what = format!("the header cut to {}", plural(len, "byte"));
         let data = good.get(..len).unwrap_or_default();
         if len < 8 {
             malformed.data(assumed(VAR_11), &what, data)?;
@@ -168,12 +169,16 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
         let mut data = handle.to_vec();
         data.extend(count.to_le_bytes());
         data.resize(indices.saturating_mul(4).saturating_add(8), 0);
-        malformed.of_other_length(&format!("a count of {count} with {indices} indices"), &data)?;
+        malformed.of_other_length(
+            &format!("a count of {count} with {}", plural(indices, "index")),
+            &data,
+        )?;
     }
     for more in 1..4 {
         let mut data = good.clone();
         data.extend((0..more).map(|_| 0));
-        malformed.of_other_length(&format!("{more} bytes after the last index"), &data)?;
+        malformed
+            .of_other_length(&format!("{} after the last index", plural(more, "byte")), &data)?;
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Compared, Probe, Steady, compare, dynamic_among_variables, name_of};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
+use crate::text::plural;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -114,9 +115,10 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             probe.found_subject();
             let value = probe.try_ask(ReadByName { channel, name: name_of(&variable) })?;
             let Some(value) = value else { continue };
-            let found = || format!("{} bytes of {}", value.len(), variable.name.text);
+            let found = || format!("{} of {}", plural(value.len(), "byte"), variable.name.text);
             let fits = u32::try_from(value.len()).is_ok_and(|len| len <= variable.size);
-            let expected = || format!("at most the {} bytes of its description", variable.size);
+            let expected =
+                || format!("at most the {} of its description", plural(variable.size, "byte"));
             probe.check(assumed(VAR_22), fits, expected, found);
             let text = until_nul(&value);
             let readable = text.iter().all(|&byte| byte >= b' ' || byte == b'\t');

@@ -7,6 +7,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Counted, ItemKind, Probe};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -71,8 +72,9 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
         object(&bytes, |one| has_type(one) && !one.name().is_empty())
     };
     let shift = if is_unpacked { unpacked(bytes, 52, makes_sense) } else { None };
-    let found =
-        || format!("{} additional bytes before the name or the type", shift.unwrap_or_default());
+    let found = || {
+        format!("{} more before the name or the type", plural(shift.unwrap_or_default(), "byte"))
+    };
     probe.check(GEN_2, shift.is_none(), "name at byte 20, type at byte 52", found);
 }
 
@@ -86,7 +88,7 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
     };
     let is_of_kind = Description::decode(bytes).is_ok_and(|one| of_kind(&one));
     let shift = if is_of_kind { None } else { unpacked(bytes, bytes.len(), makes_sense) };
-    let found = || format!("{} additional bytes between the fields", shift.unwrap_or_default());
+    let found = || format!("{} more between the fields", plural(shift.unwrap_or_default(), "byte"));
     probe.check(GEN_2, shift.is_none(), || format!("a name of {kind} after the dimensions"), found);
 }
 

@@ -16,6 +16,7 @@ use super::kit::{
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop, applicable, assumed};
 use crate::objects::{List, Object};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -78,7 +79,7 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
         let data = probe.ask(assumed(COM_7), CountObjects::new(axis))?;
         let number = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
         let expected = "the axis's objects";
-        probe.check(assumed(COM_7), number > 0, expected, || format!("{number} objects"));
+        probe.check(assumed(COM_7), number > 0, expected, || plural(number, "object"));
         if number == 0 {
             continue;
         }

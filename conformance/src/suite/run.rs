@@ -24,6 +24,9 @@ use crate::testee::{self, Terms};
 static TRIES: LazyLock<HashMap<&str, Try>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
+/// The note of a case after the last failed one that was allowed.
+pub const ENOUGH: &str = "enough cases had failed before";
+
 /// Runs the cases: those of the codec on the codec, all others on a target.
 ///
 /// `defect` changes the codec's input and output, to show that its cases can fail.
@@ -48,6 +51,11 @@ pub fn run(
         let run = TRIES.get(case.id.as_str()).copied();
         let outcome = CaseOutcome::timed(|| one(case, run, target.as_deref_mut()));
         progress::step(outcome.verdict().fails_run());
+        if let Some(target) = target.as_deref_mut() {
+            target.end_in(&outcome.case.id);
+            let failed = usize::from(outcome.verdict().is_failure());
+            target.failures_left = target.failures_left.map(|left| left.saturating_sub(failed));
+        }
         outcome
     }));
     if let Some(target) = target.as_deref_mut() {
@@ -82,6 +90,9 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
             Verdict::Inconclusive,
             format!("the target no longer answers: {why}"),
         );
+    }
+    if target.failures_left == Some(0) && case.needs != Needs::Frames {
+        return CaseOutcome::untried(case, Verdict::NotRun, ENOUGH);
     }
     let late = target.deadline.filter(|_| case.needs != Needs::Frames);
     if let Some(deadline) = late.filter(Deadline::is_over) {
@@ -193,6 +204,20 @@ mod tests {
             let outcomes = run(vec![case.unwrap()], Some(&mut target), None, 1);
             assert_eq!(outcomes[0].verdict(), verdict, "{defect:?} {name}: {outcomes:?}");
         }
+    }
+
+    /// The case in which the target stops answering is named.
+    #[test]
+    fn the_case_in_which_the_target_is_gone_is_noted() {
+        let (server, mut target) = target(None, NAME);
+        let cases: Vec<Case> =
+            crate::suite::cases().into_iter().filter(|one| one.needs == Needs::Queries).collect();
+        run(cases[..1].to_vec(), Some(&mut target), None, 1);
+        assert_eq!(target.ended(), None);
+        drop(server);
+        run(cases[1..].to_vec(), Some(&mut target), None, 1);
+        let ended = target.ended().unwrap();
+        assert!(ended.starts_with("the target stopped answering in "), "{ended}");
     }
 
     /// The values that a panicking case has changed are restored, and the next case runs.

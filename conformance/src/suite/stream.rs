@@ -13,6 +13,7 @@ use super::kit::{Probe, StreamWrite, send};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
 use crate::objects::List;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -123,7 +124,7 @@ fn write(
 
 fn write_accepted(probe: &mut Probe<'_>, rules: &[ClauseId], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, at, data)?;
-    let expected = || format!("{} bytes of whole lines accepted", data.len());
+    let expected = || format!("{} of whole lines accepted", plural(data.len(), "byte"));
     probe.check(rules, taken.is_some(), expected, "rejected, although the buffer has space");
     Ok(())
 }
@@ -178,7 +179,12 @@ fn too_long(probe: &mut Probe<'_>) -> Step {
     write_accepted(probe, &[STM_2], channel, &comment(STREAM_PACKET_MAX))?;
     for len in [993, 993, 994, 1024, 1984, 2048, 4094, 4096] {
         let sent = send(probe, channel, &comment(len))?;
-        probe.check(STM_2, sent.is_refused(), || format!("{len} bytes rejected"), &sent);
+        probe.check(
+            STM_2,
+            sent.is_refused(),
+            || format!("{} rejected", plural(len, "byte")),
+            &sent,
+        );
         let good = sent.assumed() == Ack::Rejected;
         probe.check(assumed(STM_2), good, "a permanent rejection", &sent);
     }

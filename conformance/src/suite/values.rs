@@ -14,6 +14,7 @@ use super::row::{CaseRow, case};
 use crate::explain::{ValueFormat, type_by_name};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step};
 use crate::text::hex::spaced;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -71,11 +72,11 @@ fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
         let value = probe.ask(VAR_11, whole(channel, variable))?;
         let name = &variable.name.text;
         let expected = "at most 2048 bytes";
-        let found = || format!("{} bytes of {name}", value.len());
+        let found = || format!("{} of {name}", plural(value.len(), "byte"));
         probe.check(VAR_14, value.len() <= 2048, expected, found);
         if variable.var_type.element_size().is_some() {
             let same = u32::try_from(value.len()) == Ok(variable.size);
-            let expected = || format!("the {} bytes of its description", variable.size);
+            let expected = || format!("the {} of its description", plural(variable.size, "byte"));
             probe.check([VAR_8, VAR_14], same, expected, found);
         }
         Ok(())
@@ -90,8 +91,8 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
             && let Some(value) = probe.try_ask(request)?
         {
             let same = u32::try_from(value.len()) == Ok(variable.size);
-            let expected = || format!("the {} bytes of its description", variable.size);
-            let found = || format!("{} bytes of {}", value.len(), variable.name.text);
+            let expected = || format!("the {} of its description", plural(variable.size, "byte"));
+            let found = || format!("{} of {}", plural(value.len(), "byte"), variable.name.text);
             probe.check(VAR_14, same, expected, found);
         }
         let at = (channel, variable);
@@ -108,10 +109,16 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
             let request = ReadByHandle::new(channel, variable.handle, indices);
             if variable.var_type.element_size().is_some() {
                 let element = probe.ask(VAR_11, request)?;
-                let found =
-                    || format!("{} bytes of {} {place:?}", element.len(), variable.name.text);
+                let found = || {
+                    format!("{} of {} {place:?}", plural(element.len(), "byte"), variable.name.text)
+                };
                 let sized = element.len() == size;
-                probe.check(VAR_14, sized, || format!("{size} bytes of one element"), found);
+                probe.check(
+                    VAR_14,
+                    sized,
+                    || format!("{} of one element", plural(size, "byte")),
+                    found,
+                );
             }
             if let ([_], VariableType::STRING) = (&place[..], variable.var_type) {
                 text_by_name(probe, channel, variable, &place)?;
@@ -160,9 +167,14 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
             if variable.var_type.element_size().is_some()
                 && let Some(element) = probe.try_ask(request)?
             {
-                let found = || format!("{} bytes of {name}", element.len());
+                let found = || format!("{} of {name}", plural(element.len(), "byte"));
                 let sized = element.len() == size;
-                probe.check(VAR_14, sized, || format!("{size} bytes of one element"), found);
+                probe.check(
+                    VAR_14,
+                    sized,
+                    || format!("{} of one element", plural(size, "byte")),
+                    found,
+                );
             }
             let (at, part) = ((channel, variable), part(number, size));
             compare_with_whole(&mut steady, probe, brackets(variable), at, request, part)?;
@@ -177,7 +189,8 @@ fn string_size(probe: &mut Probe<'_>) -> Step {
         if variable.var_type == VariableType::STRING {
             let texts = element_count(&variable.dimensions);
             let one = variable.size.checked_div(texts).unwrap_or(0);
-            let found = || format!("{one} bytes for each text of {}", variable.name.text);
+            let found =
+                || format!("{} for each text of {}", plural(one, "byte"), variable.name.text);
             probe.check(VAR_25, (1..=800).contains(&one), "1 to 800 bytes", found);
         }
         Ok(())

@@ -15,6 +15,7 @@ use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed};
 use crate::objects::KINDS;
 use crate::rules::check_description;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -38,7 +39,7 @@ pub(super) const CASES: &[CaseRow] = &[
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
     let data = probe.ask([VAR_1, VAR_2], CountVariables::new(channel, kind))?;
     let count = VariableCount::decode(&data);
-    let found = || format!("{} bytes", data.len());
+    let found = || plural(data.len(), "byte");
     probe.require(VAR_2, count.is_ok(), "a number of 4 bytes", found)?;
     Ok(count?.0)
 }
@@ -54,7 +55,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         // Kinds that are not claimed are not counted here, but may exist.
         let whole = probe.kinds().len() == KINDS.len();
         let passed = if whole { all == sum } else { all >= sum };
-        probe.check(VAR_1, passed, || format!("{sum} variables of all kinds"), found);
+        probe.check(VAR_1, passed, || format!("{} of all kinds", plural(sum, "variable")), found);
         if !probe.target.client.gate().lets_malformed_pass() {
             continue;
         }

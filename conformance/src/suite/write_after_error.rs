@@ -12,6 +12,7 @@ use super::kit::{
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable};
 use crate::objects::{List, ValueAddress};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -88,9 +89,9 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
                 let passed = after == value || !after.starts_with(there);
                 let expected = || {
                     format!(
-                        "{} of {name}, because {} bytes were rejected",
+                        "{} of {name}, because the CNC rejected {}",
                         Hex(value.clone()),
-                        data.len()
+                        plural(data.len(), "byte"),
                     )
                 };
                 probe.check(COM_5, passed, expected, || Hex(after));

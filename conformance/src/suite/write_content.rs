@@ -12,6 +12,7 @@ use super::kit::{
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, applicable, assumed};
 use crate::objects::{Object, ValueAddress};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -193,7 +194,7 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
             let Ok(write) = address.write(other) else { continue };
             let exchange = probe.send(write)?;
             let refused = exchange.is_error();
-            let expected = || format!("an error for {} bytes of {what}", other.len());
+            let expected = || format!("an error for {} of {what}", plural(other.len(), "byte"));
             probe.check(assumed(SDA_8), refused, expected, &exchange);
             let after = probe.value_at(address)?.unwrap_or_default();
             let passed = !refused || after == value;

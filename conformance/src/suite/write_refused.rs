@@ -14,6 +14,7 @@ use super::kit::{
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Rule, Step, Stop, applicable};
 use crate::objects::{Object, ValueAddress};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -257,7 +258,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
         let name: Vec<u8> = known.name().bytes().collect();
         for size in [known.value.len(), 4, 8] {
             let data = [&name[..], &vec![b'A'; size]].concat();
-            let what = format!("a write of {size} bytes to a name without NUL");
+            let what = format!("a write of {} to a name without NUL", plural(size, "byte"));
             let bad = call.with(|call| call.data = data);
             refused_call(probe, &[VAR_13], &what, (&bad, good), &watched)?;
         }

@@ -12,6 +12,7 @@ use super::kit::{
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed, online};
 use crate::objects::ValueAddress;
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -98,8 +99,8 @@ fn of_address(
             sizes.push(data.len());
             let sent = WrongSizeWrite { at, watched: &whole, is_text, value: &value, other: &data };
             let what = format!(
-                "{} bytes instead of {} for {}",
-                data.len(),
+                "{} instead of {} for {}",
+                plural(data.len(), "byte"),
                 value.len(),
                 variable.name.text
             );

@@ -8,6 +8,7 @@ use super::kit::{Probe, WriteCheck, each_of_access};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, online};
 use crate::objects::ValueAddress;
+use crate::text::plural;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -68,15 +69,15 @@ fn of_lengths(
         // Padded to the described size: that fewer bytes are accepted is assumed.
         value.resize(size.max(1), 0);
         let taken = probe.write_value(address, &value)?;
-        let expected = || format!("{name} accepts a text of {len} characters");
+        let expected = || format!("{name} accepts a text of {}", plural(len, "character"));
         probe.check(online(VAR_25), taken, expected, "an error");
         if !taken {
             continue;
         }
         let read = probe.value_at(address)?.unwrap_or_default();
         let same = until_nul(&read) == until_nul(&value);
-        let expected = || format!("{len} characters of {name}, as written");
-        let found = || format!("{} bytes: {}", read.len(), Hex(read.clone()));
+        let expected = || format!("{} of {name}, as written", plural(len, "character"));
+        let found = || format!("{}: {}", plural(read.len(), "byte"), Hex(read.clone()));
         probe.check(id, same, expected, found);
         probe.check(online(VAR_25), same, expected, found);
     }

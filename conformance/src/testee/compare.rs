@@ -7,6 +7,7 @@ use ads_cnc_vectors::{Fields, Tagged, Type, Value};
 use serde_json::Value as Json;
 
 use crate::text::hex::compact;
+use crate::text::plural;
 use crate::values::until_nul;
 
 /// A difference between two values.
@@ -77,7 +78,7 @@ pub(super) fn one(place: &str, reference: &Value, found: &Json) -> Option<Differ
             if given.len() != items.len() {
                 return other(
                     place,
-                    format_args!("{} items are expected, not {}", items.len(), given.len()),
+                    format_args!("{} expected, not {}", plural(items.len(), "item"), given.len()),
                 );
             }
             let pairs = items.iter().zip(given).enumerate();

@@ -4,10 +4,10 @@ use super::TesteeReaction;
 use crate::codec::message::{Answer, Output, Question};
 use crate::judge::{Evidence, TEXT_MAX};
 use crate::show::show;
-use crate::text::{hex::compact, shorten};
+use crate::text::{hex::compact, plural, shorten};
 
 /// The start of the description of a line that is not an answer of the protocol.
-pub(super) const NO_ANSWER: &str = "no answer of the protocol: ";
+pub(super) const NO_ANSWER: &str = "invalid answer: ";
 
 pub(super) fn describe(reaction: &TesteeReaction) -> String {
     shorten(&described(reaction), TEXT_MAX)
@@ -18,7 +18,7 @@ fn described(reaction: &TesteeReaction) -> String {
         TesteeReaction::Answer(Answer::Ok(output)) => match output {
             Output { value: Some(value), .. } => format!("accepted: {value}"),
             Output { hex: Some(hex), .. } => format!("accepted: {}", compact::show(hex)),
-            Output { packets: Some(packets), .. } => format!("{} packets", packets.len()),
+            Output { packets: Some(packets), .. } => plural(packets.len(), "packet"),
             _ => "accepted".to_owned(),
         },
         TesteeReaction::Answer(Answer::Reject(reject)) => {

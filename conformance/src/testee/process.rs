@@ -117,12 +117,8 @@ impl Testee for TesteeProcess {
 /// # Errors
 /// If the line is not an answer to `hello`, or has another protocol version.
 pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
-    let hello: TesteeHello = serde_json::from_str(line).map_err(|error| {
-        TesteeReaction::Garbled(format!(
-            "the answer to hello is invalid: {}",
-            not_json(line, &error)
-        ))
-    })?;
+    let hello: TesteeHello = serde_json::from_str(line)
+        .map_err(|error| TesteeReaction::Garbled(not_json(line, &error)))?;
     match hello.protocol {
         PROTOCOL => match hello.capabilities.misspelt() {
             None => Ok(hello),

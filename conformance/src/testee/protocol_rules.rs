@@ -44,7 +44,7 @@ impl ProtocolRules {
         self.check(passed, question, reaction, expected);
     }
 
-    /// Records a line that is not an answer of the protocol.
+    /// Records an invalid answer line.
     pub(super) fn garbled(&mut self, question: &Question, reaction: &TesteeReaction) {
         let found = describe(reaction);
         let found = found.strip_prefix(NO_ANSWER).unwrap_or(&found);

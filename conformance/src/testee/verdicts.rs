@@ -18,6 +18,7 @@ use crate::judge::{
 };
 use crate::show::show;
 use crate::text::hex::compact;
+use crate::text::plural;
 use crate::values::until_nul;
 
 /// The conditions of the judgement.
@@ -365,8 +366,12 @@ impl Verdicts<'_> {
                 let given = output.packets.as_deref().unwrap_or_default();
                 let found = packets_fault(&text, given)?;
                 let len = text.len();
-                let expected =
-                    || format!("{len} bytes of whole lines in packets of at most 992 bytes");
+                let expected = || {
+                    format!(
+                        "{} of whole lines in packets of at most 992 bytes",
+                        plural(len, "byte")
+                    )
+                };
                 Some(Deviation::fail(expected, found))
             }
             (SequenceExpect::Accept(_), other) => {
@@ -464,7 +469,7 @@ fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
     for (place, packet) in packets.iter().enumerate() {
         let number = place.saturating_add(1);
         if packet.len() > max || packet.is_empty() {
-            return Some(format!("packet {number} has {} bytes", packet.len()));
+            return Some(format!("packet {number} has {}", plural(packet.len(), "byte")));
         }
         if !packet.ends_with(b"\r\n") {
             return Some(format!("packet {number} does not end with CR LF"));
@@ -475,6 +480,9 @@ fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
         None
     } else {
         let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
-        Some(format!("{} bytes in total, different from the text at offset {same}", all.len()))
+        Some(format!(
+            "{} in total, different from the text at offset {same}",
+            plural(all.len(), "byte")
+        ))
     }
 }

@@ -1,16 +1,20 @@
 //! Text: hex, escapes, durations, JSON. No I/O, and no imports from other modules of this crate.
 
+use std::fmt::Display;
+
 mod duration;
 mod escape;
 pub mod hex;
 pub(crate) mod json;
 mod moment;
 mod nearest;
+mod parse_error;
 
 pub(crate) use duration::{duration, shown_time, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use moment::Moment;
 pub(crate) use nearest::{did_you_mean, nearest};
+pub(crate) use parse_error::{found, in_words, json_error, toml_error};
 
 /// The text, or its first `most` characters with an ellipsis.
 pub(crate) fn shorten(text: &str, most: usize) -> String {
@@ -40,9 +44,16 @@ pub(crate) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
     Ok(text.strip_prefix('\u{FEFF}').map(str::to_owned).unwrap_or(text))
 }
 
-/// A number and its noun, with an s unless the number is 1.
-pub(crate) fn plural(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+/// A number and its noun, in the plural unless the number is 1.
+pub(crate) fn plural<N: Display + PartialEq + From<u8>>(number: N, noun: &str) -> String {
+    let (stem, end) = match noun {
+        _ if number == N::from(1) => (noun, ""),
+        _ if noun.ends_with("index") => (noun.trim_end_matches("ex"), "ices"),
+        _ if noun.ends_with("axis") => (noun.trim_end_matches("is"), "es"),
+        _ if noun.ends_with('y') => (noun.trim_end_matches('y'), "ies"),
+        _ => (noun, "s"),
+    };
+    format!("{number} {stem}{end}")
 }
 
 /// The lines of a text, broken at spaces. A word longer than `width` has its own line.
@@ -75,3 +86,15 @@ macro_rules! named {
     };
 }
 pub(crate) use named;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nouns_are_in_the_plural_unless_there_is_one() {
+        let all = [(1, "byte"), (0, "byte"), (2, "reply"), (2, "index"), (2, "platform axis")];
+        let all = all.map(|(number, noun): (u32, &str)| plural(number, noun));
+        assert_eq!(all, ["1 byte", "0 bytes", "2 replies", "2 indices", "2 platform axes"]);
+    }
+}

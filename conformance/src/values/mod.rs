@@ -16,7 +16,7 @@ use std::fmt;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
-use crate::text::escape;
+use crate::text::{escape, plural};
 
 /// The text of a STRING, up to the first NUL.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
@@ -115,7 +115,10 @@ impl Type {
             return Err(match needed {
                 0 => format!("{self} is not an array, so it has no element {given}"),
                 _ => {
-                    format!("{given} is not an element of {self}, which requires {needed} indices")
+                    format!(
+                        "{given} is not an element of {self}, which requires {}",
+                        plural(needed, "index")
+                    )
                 }
             });
         }

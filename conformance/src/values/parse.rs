@@ -6,6 +6,7 @@ use ads_cnc::value::{Boolean, DataType, EncodeValue as _, Scalar, Shape};
 use ads_cnc::{CncStr, U32List};
 
 use super::Type;
+use crate::text::plural;
 
 /// The error for a text that is not a value of its type.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -132,7 +133,7 @@ fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
         let hint = if is_real && count == 2 { "; the decimal separator is a point" } else { "" };
         Err(InvalidValue(format!("{ty} is a single element, but {count} are given{hint}")))
     } else {
-        Err(InvalidValue(format!("{ty} has {needed} elements, but {count} are given")))
+        Err(InvalidValue(format!("{ty} has {}, but {count} are given", plural(needed, "element"))))
     }
 }
 
@@ -202,7 +203,9 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
     if longest > each {
         let (most, given) = (each.saturating_sub(1), longest.saturating_sub(1));
         return Err(InvalidValue(format!(
-            "a STRING of {each} bytes has at most {most} characters and its NUL, but {given} are given"
+            "a STRING of {} has at most {} and its NUL, but {given} are given",
+            plural(each, "byte"),
+            plural(most, "character")
         )));
     }
     let shape = Shape::new(DataType::String, U32List::from(dimensions.as_slice()), size);

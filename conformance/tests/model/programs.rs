@@ -149,18 +149,18 @@ fn each_fault_is_refused_with_its_line() {
     for (from, to, reason) in [
         ("number = 1", "number = 1 #\n[[channel]]\nnumber = 1", "configured twice"),
         ("times = 2", "times = 0", "expected at least 1"),
-        ("times = 2", "time = 2", "unknown field `time`"),
+        ("times = 2", "time = 2", "the key time is unknown"),
         ("pause = \"2s\"", "pause = \"2\"", "a number with the unit ms, s or min"),
         ("cycle = \"10ms\"", "cycle = \"0s\"", "the minimum is 1ms"),
         ("uuid = \"560AACBF-6335", "uuid = \"560AACBF6335", "service"),
         ("request = \"3\"", "request = \"\u{3A9}\"", "not in CP1252"),
         ("request = \"3\"", &long, "128"),
         ("request = \"3\"", "request = \"3\", state = 0", "0"),
-        ("request = \"3\"", "request = \"3\", wait = true", "expected struct"),
-        ("request = \"3\" }", "question = \"3\" }", "unknown field `question`"),
+        ("request = \"3\"", "request = \"3\", wait = true", "expected a table"),
+        ("request = \"3\" }", "question = \"3\" }", "the key question is unknown"),
         ("wait = { P2 = 300, P3 = 1 }", "wait = { P2 = 300 }", "@P3"),
-        ("wait = { P2 = 300, P3 = 1 }", "wait = { p2 = 300 }", "unknown field `p2`"),
-        ("wait = { P1 = 5 }", "wait = { P1 = -1 }", "invalid value"),
+        ("wait = { P2 = 300, P3 = 1 }", "wait = { p2 = 300 }", "the key p2 is unknown"),
+        ("wait = { P1 = 5 }", "wait = { P1 = -1 }", "found the number -1"),
     ] {
         assert_eq!(SERVICE.matches(from).count(), 1, "{from}");
         let at = SERVICE.find(from).unwrap();

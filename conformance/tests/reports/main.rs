@@ -157,7 +157,7 @@ fn invalid_reports_are_rejected() {
     let folder = Folder::new("odd");
     let odd = folder.path("odd.json");
     for (text, why) in [
-        ("", "EOF while parsing a value at line 1"),
+        ("", "the JSON ends too early, at line 1"),
         ("{\"format\":2}", "report format 2 instead of 1"),
         ("{\"format\":1,\n\"suit\":1}", "line 2"),
     ] {
@@ -270,6 +270,9 @@ fn reports_are_converted_to_statements_and_compared() {
         code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 fixed, "),
         "{shown}"
     );
+    let quiet = ads_cnc(&["report", "-q", &now, "--against", &before]).stdout;
+    let quiet = String::from_utf8(quiet).unwrap();
+    assert!(quiet.lines().count() == 1 && quiet.contains(" newly failing, "), "{quiet}");
 }
 
 /// An interrupted run is one line of a comparison and not a success; a comparison of different kinds of

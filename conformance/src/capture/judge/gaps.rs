@@ -16,6 +16,7 @@ use super::pair::REORDERED_MAX;
 use super::{CapturedFrame, ConnectionLoss, REPLY_TIMEOUT, TrafficJudge, location};
 use crate::judge::{Checks as _, Describe, Rule};
 use crate::rules::{Observation, Topic, service_clause};
+use crate::text::plural;
 
 impl TrafficJudge {
     pub(super) fn broken(
@@ -52,7 +53,7 @@ impl TrafficJudge {
     pub(super) fn cut(&mut self, bytes: &[u8], way: &SegmentDirection, span: Span) {
         let observation = CapturedFrames::Bytes(bytes, location(way, Some(span), None));
         let there = bytes.len();
-        let found = || format!("{there} bytes of a frame whose rest was not captured");
+        let found = || format!("{} of a frame whose rest was not captured", plural(there, "byte"));
         let begin = FrameRef::HEADERS_LEN.saturating_sub(AMS_HEADER_LEN);
         let header = bytes.get(begin..FrameRef::HEADERS_LEN).map(AmsHeader::decode);
         let Some(Ok(header)) = header else {
@@ -117,7 +118,7 @@ impl TrafficJudge {
         self.rules.forget_cncs();
         let span = Span { first: mark, last: mark, end: 0 };
         let observation = CapturedFrames::Bytes(&[], location(way, Some(span), None));
-        let found = || format!("{length} bytes before this packet were not captured");
+        let found = || format!("{} missing before this packet", plural(length, "byte"));
         let case = self.side(way);
         self.rules.records.on(case, &observation).open(ADS_5, found);
     }

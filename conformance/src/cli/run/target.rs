@@ -19,7 +19,7 @@ use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, Changes, ClaimsBy, Discovery, Sample, TargetState, Unwritable};
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 
 impl Run {
     pub(super) fn device(
@@ -30,7 +30,7 @@ impl Run {
         changes: &Changes,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let target = self.target.clone().with_timeout(profile.timeout);
+        let target = self.target.clone().of_suite().with_timeout(profile.timeout);
         let deadline = self.deadline.begin();
         let session = target.with_malformed(self.malformed).open()?;
         let mut session = session.with_deadline(deadline);
@@ -102,7 +102,7 @@ impl Run {
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let faulty = Faulty::new(Cnc::new(model.map_err(internal)?), defect.as_ref());
         let session = session::Session::simulated_to_try(faulty)?;
-        let mut session = self.target.recorded(session)?;
+        let mut session = self.target.clone().of_suite().recorded(session)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs until `_running` is dropped.
         let (client, _running) = session.into_parts();
@@ -137,13 +137,19 @@ impl Run {
         let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
             plan.cases.iter().cloned().partition(|case| case.needs == Needs::Codec);
         let mut times = Vec::new();
-        let mut outcomes = Vec::new();
+        let mut outcomes: Vec<CaseOutcome> = Vec::new();
         {
             let _watch = Watch::start("cases");
             for (subject, cases) in
                 [(CaseSubject::Codec, of_codec), (CaseSubject::Target, of_target)]
             {
                 let begin = Instant::now();
+                if let Some(most) = self.max_fail {
+                    let failed = outcomes.iter().filter(|one| one.verdict().is_failure()).count();
+                    session.stop_after(
+                        usize::try_from(most).unwrap_or(usize::MAX).saturating_sub(failed),
+                    );
+                }
                 let target = (subject == CaseSubject::Target).then_some(&mut session);
                 outcomes.extend(suite::run(cases, target, defect, about.seed));
                 times.push((subject, begin.elapsed()));
@@ -169,8 +175,17 @@ impl Run {
         let (outcomes, left_out) = plan.finish(outcomes);
         let (left_changed, written) = (session.changes().left(), session.changes().written());
         let written = if allow { written } else { Vec::new() };
+        let unrun =
+            outcomes.iter().filter(|one| one.note.as_deref() == Some(suite::ENOUGH)).count();
+        let ended = match self.max_fail {
+            Some(most) if unrun > 0 => {
+                let most = plural(most, "failed case");
+                Some(format!("{} not run after {most} (--max-fail)", plural(unrun, "case")))
+            }
+            _ => session.ended().map(str::to_owned),
+        };
         let (frames, profile) = (session.frames, Some(session.profile));
-        let about = About { frames, profile, times, left_changed, ..about };
+        let about = About { frames, profile, times, left_changed, ended, ..about };
         Ok(Report::new(about, &outcomes, &left_out).with_writes(rejected, written))
     }
 
@@ -203,7 +218,10 @@ fn print_forecast(discovery: &Discovery, plan: &Plan) {
     } else {
         String::new()
     };
-    print_error(format_args!("the queries of the cases: about {requests} requests{time}"));
+    print_error(format_args!(
+        "the queries of the cases: about {}{time}",
+        plural(requests, "request")
+    ));
 }
 
 /// Whether the case writes and has been executed.

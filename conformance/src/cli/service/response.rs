@@ -7,6 +7,8 @@ use ads_cnc::limits::SERVICE_TEXT_MAX;
 use ads_cnc::text::char_to_cp1252;
 use ads_cnc::{CncStr, CncString};
 
+use crate::text::plural;
+
 /// Maximum number of stored bytes of stdout: more than a response needs, also in UTF-8.
 pub(super) const STDOUT_MAX: usize = 1024;
 
@@ -84,7 +86,7 @@ pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
     // The CNC appends the NUL.
     let most = SERVICE_TEXT_MAX.saturating_sub(1);
     if response.len() > most {
-        warnings.push(format!("the response is truncated to {most} bytes"));
+        warnings.push(format!("the response is truncated to {}", plural(most, "byte")));
         response.truncate(most);
     }
     let response = CncStr::from_bytes(&response).map(CncString::from).unwrap_or_default();

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use crate::text::plural;
 use ads_cnc::streaming::{LineError, NcText};
 
 /// Maximum number of messages shown, in case the file is not a text.
@@ -59,7 +60,8 @@ impl Messages<'_> {
 
     fn end(&mut self) {
         if let Some(more) = self.count.checked_sub(SHOWN_MAX).filter(|more| *more > 0) {
-            let _unread: io::Result<()> = writeln!(self.out, "… and {more} more");
+            let _unread: io::Result<()> =
+                writeln!(self.out, "… and {}", plural(more, "more message"));
         }
     }
 }
@@ -124,6 +126,6 @@ mod tests {
     fn messages_about_a_binary_file_are_limited() {
         let (output, _) = output_of(&b"\xFF\n".repeat(1000));
         assert_eq!(output.lines().count(), SHOWN_MAX + 1);
-        assert!(output.ends_with("\n… and 900 more\n"), "{output}");
+        assert!(output.ends_with("\n… and 900 more messages\n"), "{output}");
     }
 }

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use ads_cnc::streaming::{self, NcText};
 
 use super::super::progress::{self, UPDATE_INTERVAL};
+use crate::text::plural;
 
 /// Time between two lines if stderr is not a terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
@@ -57,7 +58,7 @@ impl StreamProgress {
         let (all, of, rate) = (self.lines, ByteCount(self.bytes), Rate(bytes, self.elapsed()));
         let bytes = ByteCount(bytes);
         let (comma, waits) = waits.map_or(("", ""), |waits| (", ", waits));
-        format!("{lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}")
+        format!("{lines} of {}, {bytes} of {of}, {rate}{comma}{waits}", plural(all, "line"))
     }
 
     /// Clears the line of a terminal.
@@ -90,7 +91,7 @@ impl fmt::Display for Rate {
 
 fn scaled(bytes: f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     match bytes {
-        bytes if bytes < 10_000.0 => write!(f, "{bytes:.0} bytes"),
+        bytes if bytes < 10_000.0 => f.write_str(&plural(bytes.round(), "byte")),
         bytes if bytes < 10_000_000.0 => write!(f, "{:.1} kB", bytes / 1e3),
         bytes => write!(f, "{:.1} MB", bytes / 1e6),
     }
@@ -102,9 +103,13 @@ mod tests {
 
     #[test]
     fn sizes_have_a_fitting_unit() {
-        for (bytes, shown) in
-            [(0, "0 bytes"), (9_999, "9999 bytes"), (10_000, "10.0 kB"), (10_485_760, "10.5 MB")]
-        {
+        for (bytes, shown) in [
+            (0, "0 bytes"),
+            (1, "1 byte"),
+            (9_999, "9999 bytes"),
+            (10_000, "10.0 kB"),
+            (10_485_760, "10.5 MB"),
+        ] {
             assert_eq!(ByteCount(bytes).to_string(), shown);
         }
         assert_eq!(Rate(4000, Duration::from_secs(2)).to_string(), "2000 bytes/s");

@@ -11,6 +11,7 @@ use ads_cnc::streaming::{Ack, Sender};
 use super::progress::{ByteCount, Rate, StreamProgress};
 use crate::process::interrupt::Interrupt;
 use crate::session::{Session, ToolError};
+use crate::text::plural;
 
 /// How often and when a packet is sent again that the CNC rejected as busy.
 pub(super) struct Retry {
@@ -75,9 +76,7 @@ impl Sending<'_> {
                     if times > self.retry.times {
                         return SendEnd::GivenUp(error);
                     }
-                    let times =
-                        if times == 1 { "once".to_owned() } else { format!("{times} times") };
-                    let waits = format!("rejected {times} with {error:#x}");
+                    let waits = format!("rejected {} with {error:#x}", plural(times, "time"));
                     progress.show(self.sender.sent(), Some(&waits));
                     if interrupt.sleep(self.retry.after) {
                         return SendEnd::Interrupted;
@@ -108,10 +107,7 @@ impl Sending<'_> {
         let mut summary = match sent.lines {
             0 => format!("{name}: channel {channel} accepted nothing"),
             _ => {
-                let packets = match packets {
-                    1 => "1 packet".to_owned(),
-                    _ => format!("{packets} packets"),
-                };
+                let packets = plural(packets, "packet");
                 let took = took.as_secs_f64();
                 format!(
                     "{name}: channel {channel} accepted {} in {packets}, {bytes}, within {took:.1} \
@@ -122,8 +118,7 @@ impl Sending<'_> {
         };
         let refused = match self.refusals {
             0 => String::new(),
-            1 => ", after 1 rejection as busy".to_owned(),
-            times => format!(", after {times} rejections as busy"),
+            times => format!(", after {}", plural(times, "temporary rejection")),
         };
         summary.push_str(&refused);
         let mut next = sent.lines.saturating_add(1);

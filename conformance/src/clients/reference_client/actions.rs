@@ -18,6 +18,7 @@ use super::wire::Connection;
 use super::{ClientFault, service, streaming};
 use crate::clients::Action;
 use crate::clients::message::DONE;
+use crate::text::plural;
 use crate::values::{self, Type};
 
 /// Maximum number of descriptors in one request.
@@ -95,7 +96,7 @@ fn to_json(wire: &Connection, ty: &Type, bytes: &[u8]) -> Result<Value, ActionEr
         });
     }
     values::value_of(&ty, bytes)
-        .ok_or_else(|| format!("{} bytes are not a {ty}", bytes.len()).into())
+        .ok_or_else(|| format!("{} cannot be a {ty}", plural(bytes.len(), "byte")).into())
 }
 
 pub(super) fn act(wire: &mut Connection, action: &Action) -> Result<Value, ActionError> {

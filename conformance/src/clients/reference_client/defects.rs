@@ -129,7 +129,7 @@ client_faults! {
     Dies "client.dies" ADS_3 "dies of a length that is too much";
     DiesOfError "client.dies-of-error" ADS_6 "dies of a reply without payload";
     Hangs "client.hangs" CLIENT "waits for ever for a reply";
-    Garbles "client.garbles" CLIENT "answers the suite in something that is no JSON";
+    Garbles "client.garbles" CLIENT "answers the suite with text that is not JSON";
     // NC programs.
     StreamPlace "client.stream-place" STM_1 "streams one place beside";
     StreamLong "client.stream-long" STM_2 "sends packets of 1000 bytes";

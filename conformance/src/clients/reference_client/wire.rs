@@ -14,6 +14,7 @@ use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
 use crate::clients::CncAddress;
 use crate::net;
 use crate::simulator::DATA_MAX;
+use crate::text::plural;
 
 /// How long to wait for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);
@@ -166,7 +167,9 @@ impl Connection {
                 [ClientFault::CutsOff, ClientFault::FillsUpValue].map(Some).contains(&self.fault);
             let most = usize::try_from(asked.length).unwrap_or(usize::MAX);
             if data.len() > most && !lenient {
-                return Err(format!("{} bytes for a read length of {most}", data.len()).into());
+                return Err(
+                    format!("{} for a read length of {most}", plural(data.len(), "byte")).into()
+                );
             }
             return Ok(Some(data));
         }

@@ -10,6 +10,7 @@ use crate::clients::Scenario;
 use crate::clients::scenario::ExpectedAnswer;
 use crate::clients::tamper::{LengthField, Tamper, WrongLength};
 use crate::judge::{Rule, assumed};
+use crate::text::plural;
 
 /// An action whose replies are changed.
 struct ReactionScenario {
@@ -251,7 +252,7 @@ fn streams() -> Vec<Scenario> {
             "size": 2, "dimensions": [2]})
     };
     let short = |id: &str, action: &str, function, rule: ClauseId, len| {
-        let title = format!("{action}: {len} bytes of data");
+        let title = format!("{action}: {} of data", plural(len, "byte"));
         Scenario::new(format!("client-{id}-short"), title, action)
             .with(function, Tamper::Only(len))
             .expect(ExpectedAnswer::Error)

@@ -313,10 +313,10 @@ fn a_service_entry_allows_three_variables() {
 #[test]
 fn an_invalid_file_is_rejected_with_its_line() {
     for (tables, line, what) in [
-        ("tarlet = 1", 3, "unknown field"),
-        ("[[variable]]\nchannel = 1\nname = \"V.E.a\"\naxes = 1", 6, "unknown field"),
-        ("[[variables]]\nchannel = 1", 3, "unknown field"),
-        ("[[variable]]\nchannel = 1", 3, "missing field"),
+        ("tarlet = 1", 3, "is unknown"),
+        ("[[variable]]\nchannel = 1\nname = \"V.E.a\"\naxes = 1", 6, "is unknown"),
+        ("[[variables]]\nchannel = 1", 3, "is unknown"),
+        ("[[variable]]\nchannel = 1", 3, "is missing"),
         ("[[variable]]\nname = \"V.E.a\"", 3, "channel"),
         ("[[variable]]\nchannel = 1\nrank = 1\nname = \"V.E.a\"", 3, "rank"),
         ("[[variable]]\nchannel = 256\nname = \"V.E.a\"", 3, "out of range"),

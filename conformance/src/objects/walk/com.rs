@@ -8,6 +8,7 @@ use ads_cnc::operation::ObjectList;
 use super::super::List;
 use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk, Walker as _};
 use crate::session::ToolError;
+use crate::text::plural;
 
 type AddressSet = BTreeSet<(IndexGroup, IndexOffset)>;
 
@@ -47,7 +48,7 @@ impl Walk<'_> {
         if u32::try_from(all.len()) != Ok(count) {
             self.note(
                 list,
-                format_args!("only {} of {count} objects have a descriptor", all.len()),
+                format_args!("only {} listed, {} described", plural(count, "object"), all.len()),
             );
         }
         let addresses = all.iter().filter_map(|object| object.address.content()).collect();

@@ -93,7 +93,7 @@ impl Walk<'_> {
         first: ElementAddress,
     ) -> Result<(), ToolError> {
         let Some(count) = self.count_elements(first)? else {
-            self.note(list, "the request for the number of elements was rejected");
+            self.note(list, "the CNC rejects the request for the number of elements");
             return Ok(());
         };
         let most = count.min(ELEMENTS_MAX);

@@ -112,6 +112,20 @@ pub(crate) fn channels_of(session: &mut Session) -> Result<Vec<Channel>, ToolErr
     Walk::new(session, &Options::default(), &mut |_| {}).channels()
 }
 
+/// Those of these channels that the CNC does not have.
+pub(crate) fn absent_of(
+    session: &mut Session,
+    channels: &[Channel],
+) -> Result<Vec<Channel>, ToolError> {
+    let options = Options { channels: channels.to_vec(), ..Options::default() };
+    let there = Walk::new(session, &options, &mut |_| {}).channels_given()?;
+    let mut absent = channels.to_vec();
+    absent.retain(|channel| !there.contains(channel));
+    absent.sort_unstable();
+    absent.dedup();
+    Ok(absent)
+}
+
 struct Walk<'w> {
     session: &'w mut Session,
     options: &'w Options,
@@ -173,7 +187,7 @@ impl<'w> Walk<'w> {
     fn note_rejected(&mut self, list: List, count: u32, answered: u32) {
         let rejected = count.saturating_sub(answered);
         if rejected > 0 {
-            self.note(list, format_args!("{rejected} of {count} requests were rejected"));
+            self.note(list, format_args!("the CNC rejects the requests for {rejected} of {count}"));
         }
     }
 
@@ -225,14 +239,11 @@ impl<'w> Walk<'w> {
     fn channels_given(&mut self) -> Result<Vec<Channel>, ToolError> {
         let mut found = Vec::new();
         for &channel in &self.options.channels {
-            if found.contains(&channel) {
-                continue;
-            }
-            if self.count_objects(channel)?.is_some() || self.is_instance(decoder_of(channel))? {
+            if !found.contains(&channel)
+                && (self.count_objects(channel)?.is_some()
+                    || self.is_instance(decoder_of(channel))?)
+            {
                 found.push(channel);
-            } else {
-                let number = channel.number();
-                self.found.notes.push(format!("channel {number} does not exist or is not active"));
             }
         }
         Ok(found)

@@ -52,7 +52,7 @@ impl Walk<'_> {
         mut object: impl FnMut(&mut Self, u32) -> Result<Option<Object>, ToolError>,
     ) -> Result<(), ToolError> {
         let Some(count) = count else {
-            self.note(list, "the request for their number was rejected");
+            self.note(list, "the CNC rejects the request for their number");
             return Ok(());
         };
         let most = count.min(OBJECTS_MAX);

@@ -9,6 +9,7 @@ use super::{
 use crate::faults::Seed;
 use crate::judge::order;
 use crate::selftest::parallel::{Tell, parallel};
+use crate::text::plural;
 
 /// The defects that are measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,7 +134,12 @@ fn differing(before: Option<&DetectionRow>, now: &DetectionRow) -> Vec<String> {
         let shown = |detection: Option<&Detection>| {
             detection.map_or("nothing".to_owned(), |one| {
                 let requirements: Vec<&str> = one.requirements.iter().map(String::as_str).collect();
-                format!("{} {} in {} cases", one.result, requirements.join(" "), one.cases.len())
+                format!(
+                    "{} {} in {}",
+                    one.result,
+                    requirements.join(" "),
+                    plural(one.cases.len(), "case")
+                )
             })
         };
         let was = before.modes.get(mode);

@@ -3,6 +3,8 @@
 use ads_cnc::{CncStr, VariableType};
 use toml::Value;
 
+use crate::text::plural;
+
 /// A type by its name.
 #[derive(Debug)]
 pub(super) struct NamedType {
@@ -106,7 +108,7 @@ pub(super) fn bytes(
     let mut values = Vec::new();
     flatten(value, &mut values);
     if values.len() != count {
-        return Err(format!("expected {count} values, found {}", values.len()));
+        return Err(format!("expected {}, found {}", plural(count, "value"), values.len()));
     }
     let mut bytes = Vec::new();
     for value in values {
@@ -184,7 +186,11 @@ fn string(text: &str, size: usize) -> Result<Vec<u8>, String> {
     }
     let length = bytes.len();
     if !bytes.contains(&0) && length >= size || length > size {
-        return Err(format!("{length} characters and a NUL are more than {size} bytes"));
+        return Err(format!(
+            "{} and a NUL are more than {}",
+            plural(length, "character"),
+            plural(size, "byte")
+        ));
     }
     bytes.resize(size, 0);
     Ok(bytes)

@@ -9,6 +9,7 @@ use ads_cnc::ads::{AmsNetId, FrameRef};
 
 use super::ServerOptions;
 use crate::simulator::{DATA_MAX, FRAME_MAX, Responder};
+use crate::text::plural;
 
 /// Buffer size: the longest frame and some following bytes.
 const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
@@ -136,7 +137,10 @@ pub(super) fn serve(
             Ok(0) if received.buffered() == 0 => return Ok(()),
             Ok(0) => {
                 let buffered = received.buffered();
-                return Err(io::Error::other(format!("closed {buffered} bytes into a frame")));
+                return Err(io::Error::other(format!(
+                    "closed {} into a frame",
+                    plural(buffered, "byte")
+                )));
             }
             Ok(count) => count,
             Err(error) => match error.kind() {

@@ -27,7 +27,8 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
             probe.target.client.set_piece(None);
             let exchange = exchange?;
             let same = exchange.success() == Some(&whole[..]);
-            let expected = || format!("the same reply to a frame sent in pieces of {piece} bytes");
+            let expected =
+                || format!("the same reply to a frame sent in pieces of {}", plural(piece, "byte"));
             probe.check(ADS_5, same, expected, &exchange);
         }
     }
@@ -119,14 +120,14 @@ fn lengths(
     if let Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
-        let expected = || format!("all {there} requested bytes of {what}");
+        let expected = || format!("all {} of {what}", plural(there, "byte"));
         let rules = [rule.into(), own];
         probe.check(&rules[..], found == Some(whole.len()), expected, shown(found));
     }
     // A success with a shorter read length must not have more data.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
         let fits = found.is_none_or(|len| len < whole.len());
-        let expected = || format!("fewer than {there} bytes of {what}");
+        let expected = || format!("fewer than {} of {what}", plural(there, "byte"));
         probe.check(rule, fits, expected, shown(found));
     }
     let Fixed(own) = extent else { return Ok(()) };
@@ -136,7 +137,7 @@ fn lengths(
     // No data follows the reply.
     if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
-        let expected = || format!("{there} bytes of {what}, or an error");
+        let expected = || format!("{} of {what}, or an error", plural(there, "byte"));
         let rules = [rule.into(), own];
         probe.check(&rules[..], fits, expected, shown(found));
     }
@@ -148,7 +149,8 @@ fn lengths(
         && let Some(Some(len)) = answer(probe, much)?
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {
-        let expected = || format!("{len} bytes of {what}, as with a longer read length");
+        let expected =
+            || format!("{} of {what}, as with a longer read length", plural(len, "byte"));
         probe.check([rule, ADS_4], found == Some(len), expected, shown(found));
     }
     Ok(())

@@ -21,6 +21,7 @@ use crate::judge::{Checks as _, Needs, Step};
 use crate::objects::decode_element_count;
 use crate::profile::Claim;
 use crate::suite::kit::{Probe, Steady, ask_if_claimed, compare, name_of};
+use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
@@ -78,7 +79,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
         for index in 1..=count {
             let one = ReadDescriptors::new(list, index, 1)?;
             let Some(one) = ask_for_data(probe, RULE, one)? else { break };
-            let found = || format!("{} bytes at offset {index}", one.len());
+            let found = || format!("{} at offset {index}", plural(one.len(), "byte"));
             probe.check(RULE, one.len() == DESCRIPTOR_LEN, "84 bytes", found);
             let other = !all.contains(&one);
             probe.check(RULE, other, "another descriptor at each offset", "the same descriptor");
@@ -97,7 +98,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
         for kind in DynamicKind::ALL {
             let count = ask_for_data(probe, RULE, CountDynamic::new(channel, kind))?;
             let Some(count) = count else { continue };
-            let found = || format!("{} bytes of a number", count.len());
+            let found = || format!("{} of a number", plural(count.len(), "byte"));
             probe.check(RULE, DynamicCount::decode(&count).is_ok(), "4 bytes", found);
         }
     }
@@ -113,7 +114,7 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
             let data = ask_for_data(probe, RULE, CountVariables::new(channel, kind))?;
             let Some(data) = data else { continue };
             let count = VariableCount::decode(&data);
-            let found = || format!("{} bytes for {name}", data.len());
+            let found = || format!("{} for {name}", plural(data.len(), "byte"));
             probe.check(RULE, count.is_ok(), "a number of 4 bytes", found);
             let mut all = Vec::new();
             for index in 0..count.map_or(0, |count| count.0.min(ITEMS_MAX)) {
@@ -221,12 +222,12 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [ClauseId; 2]) -> Step {
                 let Some(length) = probe.length_of(element)? else { continue };
                 let Ok(read) = ReadElement::new(element, length) else { continue };
                 let Some(data) = ask_if_claimed(probe, read)? else { continue };
-                let found = || format!("{} bytes", data.len());
+                let found = || plural(data.len(), "byte");
                 let same = u32::try_from(data.len()).is_ok_and(|len| len == length);
                 probe.check(
                     ADS_1,
                     same,
-                    || format!("{length} bytes, the length of the element"),
+                    || format!("{}, the length of the element", plural(length, "byte")),
                     found,
                 );
             }

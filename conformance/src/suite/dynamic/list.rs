@@ -17,6 +17,7 @@ use crate::judge::{Checks as _, Evidence, Step, Stop, assumed};
 use crate::objects::KINDS;
 use crate::profile::Claim;
 use crate::suite::kit::{PendingCheck, Probe, between, steadily};
+use crate::text::plural;
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
@@ -24,7 +25,7 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
         for kind in DynamicKind::ALL {
             let data = probe.ask(rules, CountDynamic::new(channel, kind))?;
             let count = DynamicCount::decode(&data);
-            let found = || format!("{} bytes for {}", data.len(), prefix(kind));
+            let found = || format!("{} for {}", plural(data.len(), "byte"), prefix(kind));
             probe.check(rules, count.is_ok(), "a number of 4 bytes", found);
             // A number in the wrong byte order usually exceeds every limit.
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
@@ -201,7 +202,7 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
         };
         probe.check(rules, reply.data.is_some(), expected, &reply.result);
         let Some(data) = &reply.data else { continue };
-        let found = || format!("{} bytes of index {}", data.len(), reply.index);
+        let found = || format!("{} of index {}", plural(data.len(), "byte"), reply.index);
         let expected = || format!("at most {DYNAMIC_NAME_MAX} bytes");
         probe.check(DYN_6, data.len() <= DYNAMIC_NAME_MAX, expected, found);
         let name = DynamicName::decode(data);

@@ -10,6 +10,7 @@ use ads_cnc_vectors::ids::*;
 use super::parameters::{each, first, names_of, rejects_steadily};
 use crate::judge::{Checks as _, Step, assumed};
 use crate::suite::kit::{Probe, RawCall};
+use crate::text::plural;
 
 pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
@@ -22,7 +23,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             };
             rejects_steadily(probe, DYN_5, "index 0", at, with(&[0; 4])?, request)?;
             for data in [&[][..], &[1], &[1, 0], &[1, 0, 0, 0, 0]] {
-                let what = format!("an index of {} bytes", data.len());
+                let what = format!("an index of {}", plural(data.len(), "byte"));
                 rejects_steadily(probe, assumed(id), &what, at, with(data)?, request)?;
             }
         }
@@ -39,7 +40,8 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             for more in [1, 2, 160] {
                 let rest = vec![b'x'; room.saturating_add(more)];
                 let long = [known.as_bytes(), &rest, &[0]].concat();
-                let what = format!("a name of {} characters", long.len().saturating_sub(1));
+                let what =
+                    format!("a name of {}", plural(long.len().saturating_sub(1), "character"));
                 let long = good.with(|call| call.data = long);
                 rejects_steadily(probe, DYN_6, &what, at, long, request)?;
             }

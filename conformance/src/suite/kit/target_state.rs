@@ -11,6 +11,7 @@ use crate::objects::Object;
 use crate::profile::Profile;
 use crate::rules::RuleBook;
 use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
+use crate::text::plural;
 
 /// A connection to a target, and what the cases of a run have found about it.
 #[derive(Debug)]
@@ -46,6 +47,10 @@ pub struct TargetState {
     pub(in crate::suite) silences: usize,
     /// Why no more requests are sent.
     pub(in crate::suite) gone: Option<String>,
+    /// In which case the target stopped answering, and after how many requests.
+    pub(in crate::suite) ended: Option<String>,
+    /// After how many more failed cases the rest is not run; `None` for all.
+    pub(in crate::suite) failures_left: Option<usize>,
     /// Violations of the rules for frame headers.
     pub(in crate::suite) broken: Record,
     /// The checks of all replies.
@@ -86,6 +91,8 @@ impl TargetState {
             error_with_data: None,
             silences: 0,
             gone: None,
+            ended: None,
+            failures_left: None,
             broken: Record::default(),
             rules: RuleBook::of_run(),
             deadline: None,
@@ -109,6 +116,25 @@ impl TargetState {
     /// The values that are changed at the moment.
     pub const fn changes(&self) -> &Changes {
         &self.changes
+    }
+
+    /// Sets after how many failed cases the rest is not run.
+    pub const fn stop_after(&mut self, failures: usize) {
+        self.failures_left = Some(failures);
+    }
+
+    /// Why no more requests were sent to the target, if it stopped answering.
+    pub fn ended(&self) -> Option<&str> {
+        self.ended.as_deref()
+    }
+
+    /// Notes the case in which the target stopped answering.
+    pub(in crate::suite) fn end_in(&mut self, case: &str) {
+        if let (Some(why), None) = (&self.gone, &self.ended) {
+            let requests = plural(self.frames, "request");
+            let ended = format!("the target stopped answering in {case}, after {requests}: {why}");
+            self.ended = Some(ended);
+        }
     }
 
     /// Sets a deadline after which no more requests are sent.

@@ -14,6 +14,7 @@ use ads_cnc_vectors::Hex;
 use crate::judge::{Checks as _, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Probe, RawCall};
+use crate::text::plural;
 use crate::values::until_nul;
 
 /// Why a case that writes is not applicable.
@@ -114,7 +115,11 @@ impl Probe<'_> {
         value: &[u8],
     ) -> Step<bool> {
         let Some(write) = address.write(value).ok().filter(is_sendable) else {
-            let why = format!("{} of {} bytes cannot be written", write_check.what, value.len());
+            let why = format!(
+                "{} of {} cannot be written",
+                write_check.what,
+                plural(value.len(), "byte")
+            );
             return Err(Stop::Inconclusive(why));
         };
         self.target.changes.is_now(address, Some(value));

@@ -11,6 +11,7 @@ use ads_cnc_vectors::ids::*;
 use crate::judge::{Checks as _, Step, assumed};
 use crate::rules::{check_group, check_offset};
 use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
+use crate::text::plural;
 
 pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();
@@ -80,7 +81,7 @@ pub(super) fn bad_queries(probe: &mut Probe<'_>) -> Step {
         }
         let good = RawCall::new(FindInstance::new(class, first, 0))?;
         for len in [9, 4, 0] {
-            let what = format!("{len} bytes for channel and axis");
+            let what = format!("{} for channel and axis", plural(len, "byte"));
             let bad = good.with(|call| call.data.resize(len, 0));
             probe.refuses(assumed(SDA_1), &what, bad, &good)?;
         }

@@ -6,6 +6,7 @@ use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Step, Stop};
 use crate::suite::kit::{Probe, Steady};
+use crate::text::plural;
 
 pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
@@ -26,7 +27,7 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let expected = || format!("axis {} in channel {first}, as in channel 0", axis.axis);
         probe.check([SDA_5, SDA_13], mine.is_some(), expected, "no such instance");
         let Some(mine) = mine else { continue };
-        let counts = || format!("{} elements, but {axis} has {}", mine.count, axis.count);
+        let counts = || format!("{}, but {axis} has {}", plural(mine.count, "element"), axis.count);
         probe.check(SDA_13, mine.count == axis.count, "the same number of elements", counts);
         for (one, other) in axis.elements().zip(mine.elements()) {
             let Some(length) = probe.length_of(one)? else { continue };

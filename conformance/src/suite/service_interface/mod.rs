@@ -15,6 +15,7 @@ use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
 use crate::suite::kit::{Probe, service_channels};
 use crate::suite::row::{CaseRow, case};
+use crate::text::plural;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -50,7 +51,7 @@ fn variables(probe: &mut Probe<'_>) -> Step {
             let request = ReadByName::new(channel, name)?;
             let value = probe.ask(&rules, request)?;
             probe.ask(&rules, HandleByName::new(channel, name)?)?;
-            let found = || format!("{} bytes of {name}", value.len());
+            let found = || format!("{} of {name}", plural(value.len(), "byte"));
             if variable.var_type() == VariableType::UNS32 {
                 probe.check(SVC_1, value.len() == 4, "a state of 4 bytes", found);
             } else {

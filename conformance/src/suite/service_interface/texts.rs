@@ -9,6 +9,7 @@ use ads_cnc_vectors::ids::*;
 use super::interface::{ONE, WIDE, for_each_text, in_each_channel, read_variable, write_variable};
 use crate::judge::{Checks as _, Step};
 use crate::suite::kit::Probe;
+use crate::text::plural;
 use crate::values::until_nul;
 
 pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
@@ -46,7 +47,7 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
             let mut value = characters(u8::try_from(len).unwrap_or_default(), len);
             value.push(0);
             let taken = write_variable(probe, channel, variable, &value)?;
-            let what = format!("{len} characters of {}", variable.name());
+            let what = format!("{} of {}", plural(len, "character"), variable.name());
             probe.check(SVC_1, taken, || format!("{what} accepted"), "an error");
             let read = read_variable(probe, channel, variable)?;
             let same = until_nul(&read) == until_nul(&value);
@@ -65,7 +66,7 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
         for len in [127_usize, 0, 1, 20, 21, 64, 126, 127] {
             let letters = (b'a'..=b'z').cycle().skip(len);
             let value: Vec<u8> = letters.take(len).chain([0]).collect();
-            let expected = || format!("{len} characters of {name} by its handle");
+            let expected = || format!("{} of {name} by its handle", plural(len, "character"));
             write_variable(probe, channel, variable, &value)?;
             let read = ReadByHandle::new(channel, handle, U32List::EMPTY);
             let read = probe.try_ask(read)?.unwrap_or_default();

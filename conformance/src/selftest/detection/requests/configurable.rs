@@ -9,6 +9,7 @@ use ads_cnc::sda::{ElementLength, ElementText};
 use ads_cnc::{Decode as _, ExtendedReply};
 
 use crate::rules::element_type;
+use crate::text::plural;
 
 /// The differences between replies that count.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -57,9 +58,9 @@ impl ConfigurableReplies {
                 ExtendedReply::decode(data).ok().map(|_| "an extended description".to_owned())?
             }
             Request::ReadElementWriteFlag(_) if !writes => {
-                format!("a flag of {} bytes", data.len())
+                format!("a flag of {}", plural(data.len(), "byte"))
             }
-            Request::ReadObject(_) if !writes => format!("{} bytes", data.len()),
+            Request::ReadObject(_) if !writes => plural(data.len(), "byte"),
             _ => return None,
         };
         let group = by_number(call.index_group);

@@ -12,6 +12,7 @@ use super::super::types::{self, NamedType, ScalarType};
 use super::super::{ModelError, class_place};
 use super::parse::text;
 use crate::simulator::to_len;
+use crate::text::plural;
 
 /// Maximum size of a content in bytes, so that it fits into a frame with result and length.
 const CONTENT_MAX: usize = 0xFFF8;
@@ -58,7 +59,11 @@ impl DeclaredValue<'_> {
         };
         let size = each.saturating_mul(self.count.unwrap_or(1));
         if size > self.max {
-            return Err(error(format!("{size} bytes of value; the maximum is {}", self.max)));
+            return Err(error(format!(
+                "{} of value; the maximum is {}",
+                plural(size, "byte"),
+                self.max
+            )));
         }
         let values = match (self.value, self.values) {
             (Some(_), Some(values)) => {

@@ -12,6 +12,7 @@ use super::super::error::Source;
 use super::super::item::{Item, Objects};
 use super::super::{ChannelModel, Model, ModelError};
 use crate::simulator::to_u32;
+use crate::text::plural;
 
 /// Maximum number of objects in a list, so that all descriptors fit into one reply.
 pub(super) const OBJECTS_MAX: usize = 780;
@@ -37,7 +38,8 @@ pub(super) fn fill(
         list.extend(&platform);
         if list.len() > OBJECTS_MAX {
             let span = table.map(|table| table.number.span()).unwrap_or_default();
-            let why = format!("{} objects in a list; the maximum is {OBJECTS_MAX}", list.len());
+            let why =
+                format!("{} in a list; the maximum is {OBJECTS_MAX}", plural(list.len(), "object"));
             return Err(source.error(&span, why));
         }
         channel.list_of_first = list.into_iter().collect();

@@ -18,6 +18,7 @@ use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
 use crate::edition::{CncVersion, Edition};
 use crate::simulator::to_len;
+use crate::text::in_words;
 
 pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
     let document: Document = toml::from_str(source.text).map_err(|error| {
@@ -27,7 +28,7 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
             "invalid type: map, expected a sequence" => {
                 "expected a list of tables, with the name in double brackets: [[channel]]"
             }
-            reason => reason,
+            reason => &in_words(reason, "table"),
         };
         source.error(&error.span().unwrap_or_default(), reason)
     })?;

@@ -19,6 +19,7 @@ use super::super::variable::{Variable, Variables};
 use super::items::DeclaredValue;
 use super::parse::text;
 use crate::simulator::{to_len, to_u32};
+use crate::text::plural;
 
 /// Maximum length of the name of an axis, which follows the name of the variable.
 const AXIS_NAME_MAX: usize = 64;
@@ -222,7 +223,7 @@ fn add(
     // The whole value must be writable by name in one request that also contains the name.
     let most = NAME_VALUE_MAX.saturating_sub(variable.name.as_bytes().len()).min(HANDLE_VALUE_MAX);
     if row.writable && variable.dimensions.is_empty() && size > most {
-        let why = format!("{size} bytes of value; at most {most} can be written");
+        let why = format!("{} of value; at most {most} can be written", plural(size, "byte"));
         return Err(source.error(&row.name.span(), why));
     }
     let place = variables.list.len();
