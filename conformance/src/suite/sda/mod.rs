@@ -27,7 +27,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A request for an instance with a wrong length returns an error"),
     case("sda-address-by-index", &[SDA_1, ADR_1, ADR_12], Needs::Queries, address::address_by_index,
         "By rank, an instance has the address of the same channel without the logical bit"),
-    case("sda-platform-axes-of-hld", &[SDA_5, SDA_13], Needs::Queries, platform::platform_axes_of_hld,
+    case("sda-platform-axes-of-hld", &[SDA_13], Needs::Queries, platform::platform_axes_of_hld,
         "The HLD of the first channel has all axes of the platform"),
     case("sda-empty-place", &[SDA_11], Needs::Queries, empty_places::empty_place,
         "An axis place without an axis has blank content"),
