@@ -23,8 +23,8 @@
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |
 //! | [`process`] | commands given by the user, and signals |
-//! | [`tables`] | the codec's tables as data, and a dissector made from them |
 //! | [`tables`] | the codec's tables as data, and a dissector generated from them |
+//! | [`explain`] | the bytes of any stream, field by field |
 //! | [`codec`], [`show`] | the codec by the names of the vectors, and their values as text |
 //! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
 //! | [`values`] | typed values: parsing and formatting |

@@ -186,7 +186,7 @@ fn a_second_line_is_reported() {
     let [one, two] = ["echo '{\"error\":\"x\"}'", "printf '{\"error\":\"x\"}\\nmore\\n'"];
     for stays in [false, true] {
         assert_eq!(told(stays, one), [""; 0], "stays: {stays}");
-        assert_eq!(told(stays, two), ["\"more\" as well"; 2], "stays: {stays}");
+        assert_eq!(told(stays, two), ["the additional line \"more\""; 2], "stays: {stays}");
     }
 }
 

@@ -151,7 +151,7 @@ fn addresses() {
 fn wrong_usage_is_rejected() {
     for (args, says) in [
         (&["01 0g"][..], "line 1, column 5: 'g' is not a hex digit"),
-        (&["--stream", "variable-handle", "1"], "a byte has two hex digits"),
+        (&["--stream", "variable-handle", "1"], "a byte must have two hex digits"),
         (&["--stream", "variable-handel", "00"], "no stream has the name variable-handel"),
         (&["04 00 00 02"], "--group NUMBER --offset NUMBER"),
         (&["04 00 00 02"], "variable-handle"),

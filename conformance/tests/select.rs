@@ -275,7 +275,7 @@ fn known_failures_are_waived_until_they_expire() {
         let out = String::from_utf8(output.stdout).unwrap();
         assert_eq!(output.status.code(), Some(code), "{name}: {out}");
         assert!(out.contains(shown), "{name}: {out}");
-        // An entry for each other failure is printed.
+        // The output contains an entry for the failure exactly if it is not waived.
         let entry = "[[waiver]]\ntest = \"var-descriptions\"\nrequirement = \"VAR-8\"\nverdict = \"fail\"\n";
         assert_eq!(out.contains(entry), !out.contains("FAIL, WAIVED"), "{name}: {out}");
         assert_eq!(

@@ -249,16 +249,22 @@ mod shell {
     fn an_answer_has_exactly_one_form() {
         assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), TesteeReaction::Answer(_)));
         for (line, why) in [
-            (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are given"),
-            (r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#, "both reject and error are given"),
-            (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "both ok and error are given"),
+            (
+                r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#,
+                "the answer has both ok and reject",
+            ),
+            (
+                r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#,
+                "the answer has both reject and error",
+            ),
+            (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "the answer has both ok and error"),
             (
                 r#"{"seq":1,"unsupported":{"what":"op"},"ok":{}}"#,
-                "both ok and unsupported are given",
+                "the answer has both ok and unsupported",
             ),
             (r#"{"seq":1,"ok":{},"reject":null}"#, "null"),
-            (r#"{"seq":1,"reject":{},"reject":{}}"#, "duplicate field"),
-            (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is given"),
+            (r#"{"seq":1,"reject":{},"reject":{}}"#, "the key reject appears twice"),
+            (r#"{"seq":1}"#, "the answer has none of ok, reject, unsupported and error"),
             (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
         ] {
             let TesteeReaction::Garbled(found) = says(line) else { panic!("{line}") };

@@ -224,8 +224,8 @@ pub struct Assumption {
 pub enum About {
     /// How a text ends: whether a NUL ends it, and the bytes that follow. Its characters do not rest on this.
     End,
-    /// Whether the bytes are accepted, and how many bytes are written for a value: a number may have
-    /// another width. The value of accepted bytes does not rest on this.
+    /// Whether the bytes are accepted, and how many bytes are written for a value: for example, a
+    /// number may have another width. The value of accepted bytes does not rest on this.
     Acceptance,
 }
 

@@ -242,7 +242,7 @@ function answer(line) {
   try {
     const asked = JSON.parse(line);
     if (asked.cmd === 'hello') {
-      const testee = { name: 'ads-cnc for JavaScript', version: '0.1.0', language: 'JavaScript' };
+      const testee = { name: 'ads-cnc for JavaScript', version: '0.2.0', language: 'JavaScript' };
       return { protocol: 1, testee, capabilities: { ops: OPS, streams: STREAMS, editions: EDITIONS } };
     }
     if (asked.cmd === 'bye') return null;

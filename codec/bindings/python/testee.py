@@ -261,7 +261,7 @@ def answer(line):
         asked = json.loads(line)
         if asked["cmd"] == "hello":
             capabilities = {"ops": OPS, "streams": STREAMS, "editions": EDITIONS}
-            testee = {"name": "ads-cnc for Python", "version": "0.1.0", "language": "Python"}
+            testee = {"name": "ads-cnc for Python", "version": "0.2.0", "language": "Python"}
             return {"protocol": 1, "testee": testee, "capabilities": capabilities}
         if asked["cmd"] == "bye":
             return None

@@ -25,7 +25,7 @@ pub(crate) trait Row {
     type View<'a>: Copy;
     const SIZE: Size;
     const TYPE: Type;
-    /// Whether a fixed row can be rejected.
+    /// Whether `read` can reject the value of a fixed row. Not set for other rows.
     const REJECTS: bool = false;
 
     /// Reads the row that begins at offset `at`.

@@ -200,7 +200,7 @@ mod owned {
     use crate::io::Pull;
     use crate::text::{CncString, Text};
 
-    /// Rows of text with a tail.
+    /// Implements `Owned` for rows that are owned as a [`Text`], which keeps the bytes after the text.
     macro_rules! texts {
         ($(
             [$($generics:tt)*] $row:ty, at most $max:ident,

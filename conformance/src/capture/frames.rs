@@ -60,7 +60,7 @@ impl Frames {
         self.is_lost = true;
     }
 
-    /// Appends bytes and emits the frames that are now complete.
+    /// Appends bytes and emits the pieces that are now complete.
     pub(super) fn push(&mut self, bytes: &[u8], mark: Mark, out: &mut impl FnMut(FramePiece)) {
         self.marks.push_back((self.bytes.len(), mark));
         self.bytes.extend_from_slice(bytes);

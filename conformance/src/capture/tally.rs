@@ -40,7 +40,7 @@ pub struct CaptureTally {
     pub elsewhere: u64,
     /// TCP connections on the selected ports.
     pub connections: u64,
-    /// EtherCAT frames that contain an AMS frame.
+    /// AMS frames in EtherCAT frames instead of TCP, as ADS Monitor records them.
     pub ethercat: u64,
     /// Connections whose beginning was not captured.
     pub joined: u64,

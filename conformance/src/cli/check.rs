@@ -156,7 +156,7 @@ impl CheckArguments {
             Ok(plan) => plan,
             Err(why) => {
                 print_error(why);
-                return Exit::Nothing;
+                return Exit::Usage;
             }
         };
         let selected: Vec<String> = plan.selected().map(|case| case.id.clone()).collect();

@@ -313,10 +313,10 @@ impl TryFrom<Keys> for Reply {
         ];
         let mut given = given.into_iter().flatten();
         let (first, answer) =
-            given.next().ok_or("none of ok, reject, unsupported and error is given")?;
+            given.next().ok_or("the answer has none of ok, reject, unsupported and error")?;
         match given.next() {
             None => Ok(Self { seq, answer }),
-            Some((second, _)) => Err(format!("both {first} and {second} are given")),
+            Some((second, _)) => Err(format!("the answer has both {first} and {second}")),
         }
     }
 }

@@ -204,7 +204,7 @@ const OF_ANSWERS: &[Operator] = &[
             within_length(call, Ok(before))
         },
     ),
-    operator("frozen", "every reply is the first one", &[VAR_16], has_reply, |cnc, call| {
+    operator("frozen", "every reply repeats the first one", &[VAR_16], has_reply, |cnc, call| {
         let right = cnc.answer(call)?;
         let first = cnc.memory().get(&kept()).unwrap_or(right);
         cnc.memory().store(kept(), first.clone());

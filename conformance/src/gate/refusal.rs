@@ -11,8 +11,9 @@ use ads_cnc::{CncString, Error};
 
 use super::{Entry, Moment};
 
-/// Maximum number of handles, names and addresses stored for a connection. Beyond that, the gate
-/// rejects every write by a handle or to a named object.
+/// Maximum number of handles, names and addresses that are stored. Beyond that, the gate rejects every
+/// write by handle, and every write to an object that the file allows by name, also on later
+/// connections.
 pub(super) const OBSERVATIONS_MAX: usize = 65_536;
 
 /// The rejection of a frame.

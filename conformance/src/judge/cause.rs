@@ -11,55 +11,10 @@ use ads_cnc::operation::{Function, Service};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
+use super::chain::{before, can_explain, defines, follows, is_of_functions, origin, uses};
 use super::{
     Body, Case, CaseOutcome, CaseSubject, Judgement, Needs, RequirementVerdict, Verdict, gravest,
 };
-
-/// The functions whose answers the requests of `function`, or the expectations of its answer, are taken
-/// from.
-const fn sources(function: Function) -> &'static [Function] {
-    use Function::*;
-    match function {
-        ReadDescriptors => &[CountObjects],
-        ReadObject | WriteObject | WriteProgramStream => &[ReadDescriptors],
-        DescribeByIndex | DescribeExtended => &[CountVariables],
-        HandleByName | DescribeByName | ReadByName | WriteByName => &[DescribeByIndex],
-        AxisHandleByName | AxisReadByName | AxisWriteByName => &[DescribeByIndex],
-        ReadByHandle | WriteByHandle => &[DescribeByIndex, HandleByName],
-        DynamicNameByIndex => &[CountDynamic],
-        DynamicValueByName => &[DynamicNameByIndex],
-        DynamicValueByIndex => &[CountDynamic, DynamicNameByIndex],
-        CountElements => &[FindInstance],
-        ReadElementName | ReadElementType | ReadElementLength => &[CountElements],
-        ReadElementUnit | ReadElementWriteFlag => &[CountElements],
-        ReadElement | WriteElement => &[CountElements, ReadElementLength, ReadElementType],
-        _ => &[],
-    }
-}
-
-/// All functions before `function` in a chain.
-fn before(function: Function) -> HashSet<Function> {
-    let mut all = HashSet::new();
-    let mut open = vec![function];
-    while let Some(next) = open.pop() {
-        open.extend(sources(next).iter().filter(|source| all.insert(**source)));
-    }
-    all
-}
-
-/// Whether the requests or expectations of `function` depend on the answers of `earlier`.
-pub(crate) fn follows(function: Function, earlier: Function) -> bool {
-    before(function).contains(&earlier)
-}
-
-/// The function that a chain begins with.
-fn origin(function: Function) -> Function {
-    let mut first = function;
-    while let [source, ..] = sources(first) {
-        first = *source;
-    }
-    first
-}
 
 /// Clauses whose checks look for one error only, such as reversed bytes. No error of another clause looks
 /// like it, so they always fail.
@@ -70,23 +25,6 @@ const GENERAL: [ClauseId; 5] = [ADS_1, ADS_3, GEN_5, GEN_6, OBJ_1];
 
 fn is_one_of(clause: &str, list: &[ClauseId]) -> bool {
     list.iter().any(|one| one.as_str() == clause)
-}
-
-/// Whether the clause defines the function, or a field of its request or reply.
-fn defines(clause: &str, function: Function) -> bool {
-    let spec = function.spec();
-    let streams = [spec.request, spec.reply].into_iter().flatten();
-    spec.clause == clause
-        || streams.into_iter().any(|stream| {
-            let mut fields = stream.fields().filter_map(|field| field.spec());
-            stream.layout().clause == clause || fields.any(|field| field.clause == clause)
-        })
-}
-
-/// Whether only functions have the clause, so that a failure of it shows a function broken.
-fn is_of_functions(clause: &str) -> bool {
-    let area = clause.split_once('-').map_or(clause, |(area, _)| area);
-    !matches!(area, "GEN" | "ADR" | "ADS" | "OBJ")
 }
 
 const fn is_broken(verdict: Verdict) -> bool {
@@ -238,12 +176,6 @@ fn request_of(roots: &[Root]) -> Option<(&'static str, Vec<Function>)> {
     })
 }
 
-/// Whether a function uses a service, or one whose answers it takes.
-fn uses(function: Function, service: Service) -> bool {
-    let is_of_service = |one: &Function| one.spec().service == service;
-    is_of_service(&function) || before(function).iter().any(is_of_service)
-}
-
 /// The clause whose failure explains this one.
 fn cause(
     case: &Case,
@@ -315,7 +247,8 @@ fn cause(
     roots().find(is_earlier).or_else(|| roots().find(spoils)).map(|root| root.clause)
 }
 
-/// Makes failed checks inconclusive that follow from the failure of an earlier function.
+/// Makes a failed check inconclusive if it only follows from another failure: that of an earlier function, of
+/// a service, of a shared request, or of another clause that the same check can fail for.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     let roots = roots(outcomes);
     if roots.is_empty() {
@@ -333,29 +266,36 @@ pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     single_out(outcomes);
 }
 
-/// Whether the first clause can be the cause of a failure of the second: not if both define the same
-/// function, or the second one an earlier function.
-fn can_explain(cause: &str, clause: &str) -> bool {
-    let homes = |clause| Function::ALL.iter().filter(move |one| defines(clause, **one));
-    // An address is no cause if the function itself fails.
-    (homes(cause).next().is_some() || homes(clause).next().is_none())
-        && homes(cause).all(|home| !homes(clause).any(|one| one == home || follows(*home, *one)))
-}
-
 /// Of the clauses that a check can fail for, those follow that no other check shows broken, if another
-/// check shows one of the others broken.
+/// check of the same functions shows one of the others broken.
 fn single_out(outcomes: &mut [CaseOutcome]) {
-    let broken = judgements(outcomes).filter(|(_, one)| one.verdict == Verdict::Fail);
-    let alone: HashSet<&'static str> =
-        broken.filter(|(_, one)| one.together.is_empty()).map(|(_, one)| one.requirement).collect();
+    let broken =
+        judgements(outcomes).map(|(_, one)| one).filter(|one| one.verdict == Verdict::Fail);
+    let alone: HashSet<(&'static str, Option<Function>)> = broken
+        .filter(|one| one.together.is_empty())
+        .map(|one| (one.requirement, site(one).0))
+        .collect();
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
         for verdict in &mut outcome.verdicts {
             let clause = verdict.requirement;
-            let is_alone = alone.contains(clause) || is_one_of(clause, &GENERAL);
+            let is_alone = alone.iter().any(|(other, _)| *other == clause);
+            if is_alone || is_one_of(clause, &GENERAL) {
+                continue;
+            }
             follow(verdict, |judgement| {
-                let mut others = judgement.together.iter().copied();
-                let explains = |other: &&str| alone.contains(other) && can_explain(other, clause);
-                if is_alone { None } else { others.find(explains) }
+                let function = site(judgement).0;
+                let is_same = |one: &Option<Function>| {
+                    *one == function
+                        || one.is_some_and(|one| {
+                            compared(judgement).contains(&one)
+                                || function.is_some_and(|function| follows(function, one))
+                        })
+                };
+                let explains = |other: &&str| {
+                    can_explain(other, clause)
+                        && alone.iter().any(|(one, at)| one == other && is_same(at))
+                };
+                judgement.together.iter().copied().find(explains)
             });
         }
     }

@@ -4,8 +4,10 @@
 mod areas;
 mod case;
 mod cause;
+mod chain;
 mod check;
 mod evidence;
+mod exit;
 mod left_changed;
 mod outcome;
 mod plan;
@@ -15,10 +17,12 @@ mod waivers;
 
 pub use areas::about;
 pub use case::{Body, Case, CaseSubject, Needs};
-pub(crate) use cause::{attribute, follows};
+pub(crate) use cause::attribute;
+pub(crate) use chain::follows;
 pub(crate) use check::{Checks, IfPresent, OrStop, Record, TEXT_MAX, applicable};
 pub use check::{Describe, Judgement, Rule, Rules, Step, Stop, assumed, online};
 pub use evidence::Evidence;
+pub use exit::{Exit, VerdictTally};
 pub use left_changed::LeftChanged;
 pub(crate) use outcome::caught;
 pub use outcome::{CaseOutcome, RequirementVerdict, gravest};
@@ -26,7 +30,7 @@ pub use plan::{LeftOut, Plan, Selection, Unmatched, any_seed};
 pub(crate) use plan::{names, order};
 pub use vectors::siblings_of;
 pub(crate) use vectors::{case_of, codec_cases, typed};
-pub use verdict::{Exit, Verdict, VerdictTally};
+pub use verdict::Verdict;
 pub use waivers::{WaiverError, WaiverReport, WaiverState, Waivers};
 
 /// The ID of the rules of the testee protocol, which are not in the catalogue.

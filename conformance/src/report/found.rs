@@ -1,4 +1,4 @@
-//! The result of the queries before the cases.
+//! The ports, channels, axes, spindles and lists that the run found by queries before the first case.
 
 use serde::{Deserialize, Serialize};
 

@@ -16,7 +16,7 @@ use crate::judge::{Verdict, WaiverReport};
 /// Writes the report as JUnit XML.
 ///
 /// A fail or a vacuous verdict is a failure. An inconclusive verdict, an interrupted case and a
-/// harness error are errors. A case that was not run, not judged or is waived is skipped. Warnings
+/// harness error are errors. A case is skipped if it was not run, was not judged, or is waived. Warnings
 /// and differences pass, with their text in `system-out`. Further failures are in their own suites:
 /// values that were not restored in `left-changed`, entries rejected for safety in `rejected`, and
 /// stale waivers in `waivers`. Measured times are in seconds.

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::{FORMS, Folder, VERBOSE, ads_cnc, elements, everything};
 use crate::common::Serve;
 
-/// The names that a device reports are escaped in every format.
+/// The texts that a device reports are escaped on the console and in every format.
 #[test]
 fn texts_of_a_device_are_escaped() {
     let folder = Folder::new("text");

@@ -96,7 +96,7 @@ fn stride(number: u32) -> Result<AxisStride, Fault> {
 /// The index offset of an element of an axis.
 ///
 /// # Safety
-/// `offset` and `error` are null or point to room for one.
+/// `offset` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_offset(
     stride: u32,
@@ -118,7 +118,7 @@ pub unsafe extern "C" fn ads_cnc_offset(
 /// The axis and the element of an index offset.
 ///
 /// # Safety
-/// `axis`, `element` and `error` are null or point to room for one.
+/// `axis`, `element` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_offset_parts(
     stride: u32,

@@ -91,7 +91,7 @@ pub unsafe extern "C" fn ads_cnc_frame_write(
 /// Decodes the first received frame; `used` is its length, or 0 if the frame is not complete yet.
 ///
 /// # Safety
-/// `data` points to `length` bytes; `frame`, `used` and `error` are null or point to room for one.
+/// `data` points to `length` bytes; `frame`, `used` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_frame_read(
     data: *const u8,
@@ -156,7 +156,7 @@ pub unsafe extern "C" fn ads_cnc_call_write(
 /// Decodes the call in a frame that is a Read, Write or ReadWrite request.
 ///
 /// # Safety
-/// `frame` points to a frame and that to its data; `call` and `error` are null or point to room for one.
+/// `frame` points to a frame and that to its data; `call` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_call_read(
     frame: *const AdsCncFrame,

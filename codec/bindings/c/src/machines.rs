@@ -263,7 +263,7 @@ pub unsafe extern "C" fn ads_cnc_sender_progress(
 /// Parses the UUID of a service.
 ///
 /// # Safety
-/// `text` points to `length` bytes; `id` and `error` are null or point to room for one.
+/// `text` points to `length` bytes; `id` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_service_id(
     text: *const u8,

@@ -262,7 +262,7 @@ unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
 ///
 /// # Safety
 /// The pointers of the request point to what they count, `buffer` to `room` bytes; `call` and `error` are
-/// null or point to room for one.
+/// null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_encode(
     request: *const AdsCncRequest,
@@ -287,7 +287,7 @@ pub unsafe extern "C" fn ads_cnc_encode(
 ///
 /// # Safety
 /// The pointers of the request point to what they count, `data` to `length` bytes, `fields` to room for as
-/// many as `room`; `count` and `error` are null or point to room for one.
+/// many as `room`; `count` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_decode_reply(
     request: *const AdsCncRequest,
@@ -406,7 +406,7 @@ unsafe fn data(
 ///
 /// # Safety
 /// `call` points to a call and that to its data, `indices` to room for as many numbers as `room`; `request`,
-/// `ads_error` and `error` are null or point to room for one.
+/// `ads_error` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_dispatch(
     call: *const AdsCncCall,

@@ -143,7 +143,7 @@ unsafe fn part<'a>(stream: Stream, part: &AdsCncPart) -> Result<(Field, Bytes<'a
 ///
 /// # Safety
 /// `parts` points to as many as `count` and each to its data, `buffer` to `room` bytes; `length` and `error`
-/// are null or point to room for one.
+/// are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_build(
     stream: u32,

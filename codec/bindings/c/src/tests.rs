@@ -181,7 +181,7 @@ fn functions_take_the_arguments_that_they_list() {
     let mut seen = Vec::new();
     for at in 0..30 {
         let mut info = zero::<AdsCncFunctionInfo>();
-        // SAFETY: there is room for it.
+        // SAFETY: `info` has room for the information.
         assert!(unsafe { ads_cnc_function_info(at, &mut info) });
         let mut request = AdsCncRequest { function: at, ..zero() };
         let operation = string(info.operation);
@@ -333,7 +333,7 @@ fn streams_are_decoded_and_built() {
                     .iter()
                     .filter_map(|it| {
                         let mut info = zero();
-                        // SAFETY: there is room for it.
+                        // SAFETY: `info` has room for the information.
                         assert!(unsafe { ads_cnc_field_info(number, it.field, &mut info) });
                         let is_number = by_number && [1, 2].contains(&info.kind) && info.size > 0;
                         let data =
@@ -405,7 +405,7 @@ fn replies_are_compared_with_their_request() {
 fn addresses_are_parsed() {
     let words = |group| {
         let mut it = zero::<AdsCncGroup>();
-        // SAFETY: there is room for it.
+        // SAFETY: `info` has room for the information.
         let is_there = unsafe { ads_cnc_group(group, &mut it) };
         let all = [it.task, it.access, it.addressing, it.table, it.object_class, it.attribute];
         is_there.then(|| (all.map(string).join(" "), it.instance))

@@ -9,8 +9,8 @@ use crate::clients::Scenario;
 use crate::clients::scenario::{ExpectedAnswer, ExpectedRequest, ReadLength, read, write};
 use crate::clients::script::ScenarioScript;
 
-/// Number of objects of channel 1 in the default model: its own, the platform's, three for each of
-/// three axes, and the program stream.
+/// Number of objects of channel 1 in the default model: its own with the program stream, the
+/// platform's, and three for each of three axes.
 const COUNT: u32 = 30;
 
 fn content(offset: u32, size: u32) -> ExpectedRequest {

@@ -21,8 +21,8 @@ pub const PAIRS: usize = 200;
 /// The seed that selects the pairs; it is constant, so that the following list is complete.
 const SEED: u32 = 24;
 
-/// Fields whose defect hides a defect of another field in a later function. Only reading elements
-/// shows a wrong dimension, while a description alone shows the breach of its other clauses. The value
+/// Pairs in which a defect of the first field hides one of the second. Only a read of elements by handle
+/// shows a wrong dimension (VAR-4); the description alone shows a breach of VAR-8. The value
 /// of a parameter is compared with the value of the variable with its name.
 const MASKED: [(&str, &str); 3] = [
     ("variable-handle-read", "variable-description.dimensions"),

@@ -82,7 +82,8 @@ mod tests {
         assert_eq!(lives(times(0, Some(3), None).unwrap()), [a, a, a, no, no, no, no, no, no]);
         assert_eq!(lives(times(2, Some(5), None).unwrap()), [no, no, a, a, a, no, no, no, no]);
         assert_eq!(lives(times(1, Some(2), Some(4)).unwrap()), [no, a, no, no, no, b, no, no, no]);
-        // The parameter exists until the end of the period and is deleted at the beginning of the next.
+        // Without `goes`, the parameter exists until the end of each period and is deleted at the
+        // beginning of the next.
         assert_eq!(lives(times(1, None, Some(4)).unwrap()), [no, a, a, a, no, b, b, b, no]);
         assert_eq!(lives(times(0, Some(2), Some(3)).unwrap()), [a, a, no, b, b, no, c, c, no]);
     }

@@ -87,7 +87,7 @@ impl SampleSizes {
     const MOST: u32 = 256;
     /// Minimum, however many lists there are.
     const LEAST: u32 = 4;
-    /// The sizes if the target has few lists.
+    /// The sizes before the lists are counted, and if the target has few.
     pub(crate) const DEFAULT: Self =
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 

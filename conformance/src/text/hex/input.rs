@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// An invalid character in hex text.
+/// An invalid character in hex text, or a byte with only one digit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HexError {
     /// The line, starting at 1.

@@ -1,0 +1,84 @@
+//! The chains of functions: each takes its requests, or the expectations of its replies, from the replies of
+//! earlier ones. And the clauses that define a function.
+
+use std::collections::HashSet;
+
+use ads_cnc::operation::{Function, Service};
+
+/// The functions whose answers the requests of `function`, or the expectations of its answer, are taken
+/// from.
+const fn sources(function: Function) -> &'static [Function] {
+    use Function::*;
+    match function {
+        ReadDescriptors => &[CountObjects],
+        ReadObject | WriteObject | WriteProgramStream => &[ReadDescriptors],
+        DescribeByIndex | DescribeExtended => &[CountVariables],
+        HandleByName | DescribeByName | ReadByName | WriteByName => &[DescribeByIndex],
+        AxisHandleByName | AxisReadByName | AxisWriteByName => &[DescribeByIndex],
+        ReadByHandle | WriteByHandle => &[DescribeByIndex, HandleByName],
+        DynamicNameByIndex => &[CountDynamic],
+        DynamicValueByName => &[DynamicNameByIndex],
+        DynamicValueByIndex => &[CountDynamic, DynamicNameByIndex],
+        CountElements => &[FindInstance],
+        ReadElementName | ReadElementType | ReadElementLength => &[CountElements],
+        ReadElementUnit | ReadElementWriteFlag => &[CountElements],
+        ReadElement | WriteElement => &[CountElements, ReadElementLength, ReadElementType],
+        _ => &[],
+    }
+}
+
+/// All functions before `function` in a chain.
+pub(super) fn before(function: Function) -> HashSet<Function> {
+    let mut all = HashSet::new();
+    let mut open = vec![function];
+    while let Some(next) = open.pop() {
+        open.extend(sources(next).iter().filter(|source| all.insert(**source)));
+    }
+    all
+}
+
+/// Whether the requests or expectations of `function` depend on the answers of `earlier`.
+pub(crate) fn follows(function: Function, earlier: Function) -> bool {
+    before(function).contains(&earlier)
+}
+
+/// The function that a chain begins with.
+pub(super) fn origin(function: Function) -> Function {
+    let mut first = function;
+    while let [source, ..] = sources(first) {
+        first = *source;
+    }
+    first
+}
+
+/// Whether the clause defines the function, or a field of its request or reply.
+pub(super) fn defines(clause: &str, function: Function) -> bool {
+    let spec = function.spec();
+    let streams = [spec.request, spec.reply].into_iter().flatten();
+    spec.clause == clause
+        || streams.into_iter().any(|stream| {
+            let mut fields = stream.fields().filter_map(|field| field.spec());
+            stream.layout().clause == clause || fields.any(|field| field.clause == clause)
+        })
+}
+
+/// Whether only functions have the clause, so that a failure of it shows a function broken.
+pub(super) fn is_of_functions(clause: &str) -> bool {
+    let area = clause.split_once('-').map_or(clause, |(area, _)| area);
+    !matches!(area, "GEN" | "ADR" | "ADS" | "OBJ")
+}
+
+/// Whether a function uses a service, or one whose answers it takes.
+pub(super) fn uses(function: Function, service: Service) -> bool {
+    let is_of_service = |one: &Function| one.spec().service == service;
+    is_of_service(&function) || before(function).iter().any(is_of_service)
+}
+
+/// Whether the first clause can be the cause of a failure of the second: not if both define the same
+/// function, or the second one an earlier function.
+pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
+    let homes = |clause| Function::ALL.iter().filter(move |one| defines(clause, **one));
+    // An address is no cause if the function itself fails.
+    (homes(cause).next().is_some() || homes(clause).next().is_none())
+        && homes(cause).all(|home| !homes(clause).any(|one| one == home || follows(*home, *one)))
+}
