@@ -204,10 +204,10 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("\"P1\", value = 4711", "\"P\", value = 4711", "begins with P, V.L., V.P. or V.S."),
     ("name = \"V.P.offset\"", "name = \"V.P.count\"", "configured twice"),
     ("while = \"example_subroutine_w\"", "while = \"nobody\"", "no own object \"nobody\""),
-    ("value = 4711 },\n  # While", "comes = \"2\" },\n  # While", "a number and its unit"),
+    ("value = 4711 },\n  # While", "comes = \"2\" },\n  # While", "a number with the unit"),
     ("value = 4711 },\n  # While", "goes = 2 },\n  # While", "expected a text"),
     ("value = 4711 },\n  # While", "goes = \"0s\" },\n  # While", "goes must be later than comes"),
-    ("value = 4711 },\n  # While", "goes = \"25000min\" },\n  # While", "at most 24 hours"),
+    ("value = 4711 },\n  # While", "goes = \"25000min\" },\n  # While", "the maximum is 24 hours"),
     ("value = 4711 },\n  # While", "period = \"2s\" },\n  # While", "the whole period"),
     (
         "value = 4711 },\n  # While",
