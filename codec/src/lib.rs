@@ -92,6 +92,24 @@
 //! maps the sections of the manuals to this crate; [`layout`] contains the field table of every stream.
 //! Where the manuals contradict each other, [`errata`] lists the reading that this crate implements.
 //!
+//! # Common mistakes
+//! - Decode the bytes that were received, not the whole buffer: some ADS libraries do not return their
+//!   number, and a reply may be shorter than the read length.
+//! - Send each request to [`Operation::port`](operation::Operation::port): a CNC has one AMS port for
+//!   each task.
+//! - Check the [`Effect`](operation::Effect) of a function before you offer it: some change a value, and
+//!   some may move an axis.
+//!
+//! # Debugging
+//! The command `ads-cnc` of the package `ads-cnc-conformance` shows bytes field by field (`explain`),
+//! serves a simulated CNC (`serve`), judges captured traffic (`check`) and prints a dissector for
+//! Wireshark (`wireshark`). With [`layout`] a program shows bytes itself.
+//!
+//! # Limits
+//! The crate covers the functions of a CNC and the ADS services that carry them: no notifications, sum
+//! commands, PLC symbols, routing or encryption. It checks a value against its type and size, not
+//! against a machine. The bytes are those of the manuals; nothing was tried on a real machine.
+//!
 //! # IDs
 //! IDs such as ADR-1, GEN-6 or VAR-9 are requirements. The crate `ads-cnc-vectors` contains their texts,
 //! with the sections in both editions. IDs such as E-17 are errata: see [`errata`].

@@ -228,6 +228,7 @@ impl From<&Exchange> for Evidence {
         let evidence = Self {
             call: exchange.to_string(),
             function,
+            compared: function.into_iter().collect(),
             request_stream: spec.and_then(|spec| spec.request).map(|stream| stream.layout().name),
             reply_stream: spec.and_then(|spec| spec.reply).map(|stream| stream.layout().name),
             sent: Evidence::start(&exchange.data).to_vec(),

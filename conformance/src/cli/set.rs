@@ -120,15 +120,21 @@ impl Set {
         Ok(judge(&ty, &bytes, new.as_deref()))
     }
 
-    /// The error in the name or the value of a write that is not permitted; `None` if the device does not
+    /// The error in the name or the value of a write that no file permits; `None` if the device does not
     /// show one.
     fn wrong(&self, question: &Lookup) -> Option<ToolError> {
+        if self.target.has_file() {
+            return None;
+        }
         let mut session = self.open(None).ok()?;
         let found = find(&mut session, question).and_then(|object| {
             check(&object)?;
             self.value(&object, &mut session).map(drop)
         });
-        found.err().filter(|error| matches!(error.exit(), Exit::Failure | Exit::Usage))
+        found.err().filter(|error| {
+            use ToolError::{Absent, Ads, Unable, Usage};
+            matches!(error, Absent(_) | Ads { .. } | Unable(_) | Usage(_))
+        })
     }
 
     /// Parses the value by the type of the object and the length of its value.

@@ -194,8 +194,8 @@ impl TargetArgs {
         }
     }
 
-    /// Checks a write with the gate of a device before connecting, because a rejected write needs no
-    /// connection. A dry run shows the rejected write instead.
+    /// Checks a write with the gate of a device before connecting. A dry run shows the rejected write
+    /// instead.
     pub(super) fn ask_gate(
         &self,
         check: impl FnOnce(&Session) -> Result<(), ToolError>,

@@ -11,7 +11,7 @@ use ads_cnc::operation::{Function, Service};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::chain::{before, can_explain, defines, follows, is_of_functions, origin, uses};
+use super::chain::{before, can_explain, defines, follows, is_of_functions, origin};
 use super::{
     Body, Case, CaseOutcome, CaseSubject, Judgement, Needs, RequirementVerdict, Verdict, gravest,
 };
@@ -37,14 +37,22 @@ struct Root {
     clause: &'static str,
     /// The variable or object; `None` for several, or for none in particular.
     subject: Option<String>,
-    /// Whether it is about a variable that is not one of the Service Interface.
+    /// Whether it is about several variables, one of them not of the Service Interface.
     is_of_others: bool,
+    /// Whether the check expects a rejection: an accepted request spoils no later function.
+    is_rejection: bool,
     /// The functions whose replies the check compares.
     compared: Vec<Function>,
     check: (String, String, String),
 }
 
 impl Root {
+    /// Whether it can explain a check of a later function: not if a request was accepted that must be
+    /// rejected, nor if it compares more replies than that check.
+    fn explains_later(&self, compared: &[Function]) -> bool {
+        !self.is_rejection && self.compared.len() <= compared.len().max(1)
+    }
+
     /// Whether a check that compares replies of `functions` fails because the function of this one is
     /// broken, which this one shows by fewer replies.
     fn spoils(&self, clause: &str, functions: &[Function]) -> bool {
@@ -61,12 +69,21 @@ impl Root {
 /// What explains the failures of a run.
 struct Causes {
     roots: Vec<Root>,
-    /// The service that functions of several chains use, and its clause.
-    service: Option<(Service, &'static str)>,
+    /// The clause of the service that all of them use.
+    service: Option<&'static str>,
     /// Whether all failures are of one chain.
     is_one_chain: bool,
     /// The clause of the request that several of them use, and these.
     request: Option<(&'static str, Vec<Function>)>,
+}
+
+impl Causes {
+    fn of(outcomes: &[CaseOutcome]) -> Self {
+        let roots = roots(outcomes);
+        let (service, request) = (service_of(&roots, outcomes), request_of(&roots));
+        let chains: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
+        Self { roots, service, is_one_chain: chains.len() == 1, request }
+    }
 }
 
 fn site(judgement: &Judgement) -> (Option<Function>, Option<&str>) {
@@ -90,16 +107,27 @@ fn check(case: &str, judgement: &Judgement) -> (String, String, String) {
 
 fn roots(outcomes: &[CaseOutcome]) -> Vec<Root> {
     let mut all = Vec::new();
-    for (case, judgement) in judgements(outcomes).filter(|(_, one)| is_broken(one.verdict)) {
+    for (case, judgement) in broken(outcomes) {
         let (Some(function), subject) = site(judgement) else { continue };
         let clause = judgement.requirement;
         if is_of_functions(clause) && defines(clause, function) {
             // The failures that are not stored are about others.
-            let is_of_others = subject.is_some_and(|name| !name.contains(".SERVICE."));
+            let is_of_others =
+                judgement.more > 0 && subject.is_some_and(|name| !name.contains(".SERVICE."));
+            let is_rejection =
+                judgement.evidence.as_ref().is_some_and(|evidence| evidence.is_rejection);
             let subject = subject.filter(|_| judgement.more == 0).map(str::to_owned);
-            let check = check(case, judgement);
+            let check = check(&case.id, judgement);
             let compared = compared(judgement).to_vec();
-            all.push(Root { function, clause, subject, is_of_others, compared, check });
+            all.push(Root {
+                function,
+                clause,
+                subject,
+                is_of_others,
+                is_rejection,
+                compared,
+                check,
+            });
         }
     }
     // The one that compares the fewest replies first: it can only be spoiled by one before it.
@@ -118,7 +146,9 @@ fn roots(outcomes: &[CaseOutcome]) -> Vec<Root> {
         let before = before(root.function);
         simplest.iter().any(|other| {
             let (one, other_subject) = (root.subject.as_deref(), other.subject.as_deref());
-            before.contains(&other.function) && related(one, other_subject)
+            other.explains_later(&root.compared)
+                && before.contains(&other.function)
+                && related(one, other_subject)
         })
     };
     let first: Vec<bool> = simplest.iter().map(|root| !has_earlier(root)).collect();
@@ -132,43 +162,40 @@ fn is_of_device(case: &Case) -> bool {
     matches!(case.subject, CaseSubject::Target | CaseSubject::CapturedCnc)
 }
 
-fn judgements(outcomes: &[CaseOutcome]) -> impl Iterator<Item = (&str, &Judgement)> {
+/// The broken checks of a device.
+fn broken(outcomes: &[CaseOutcome]) -> impl Iterator<Item = (&Case, &Judgement)> {
     outcomes.iter().filter(|outcome| is_of_device(&outcome.case)).flat_map(|outcome| {
         let judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
-        judged.map(|judgement| (outcome.case.id.as_str(), judgement))
+        let broken = judged.filter(|one| is_broken(one.verdict));
+        broken.map(|judgement| (&outcome.case, judgement))
     })
 }
 
 /// Number of chains that must fail for their service to be the cause: each service has functions of three.
 const CHAINS_OF_SERVICE: usize = 3;
 
-/// The functions whose replies fail, and for each the one that its chain begins with.
-fn origins(outcomes: &[CaseOutcome]) -> HashSet<(Function, Function)> {
-    let broken = judgements(outcomes)
-        .filter(|(_, one)| is_broken(one.verdict) && is_of_functions(one.requirement));
-    broken.filter_map(|(_, one)| site(one).0).map(|one| (one, origin(one))).collect()
+/// The clause of the service, if functions of all chains fail, all of them of this service, and its clause
+/// fails too.
+fn service_of(roots: &[Root], outcomes: &[CaseOutcome]) -> Option<&'static str> {
+    let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
+    let service = roots.first()?.function.spec().service;
+    let clause = match service {
+        Service::Read => ADS_1.as_str(),
+        Service::ReadWrite => ADS_3.as_str(),
+        _ => return None,
+    };
+    let is_alone = roots.iter().all(|root| root.function.spec().service == service);
+    let fails = broken(outcomes).any(|(_, one)| one.requirement == clause);
+    (origins.len() >= CHAINS_OF_SERVICE && is_alone && fails).then_some(clause)
 }
 
-/// The service whose clause fails, and functions of all chains with it.
-fn service_of(outcomes: &[CaseOutcome]) -> Option<(Service, &'static str)> {
-    let services = [(Service::Read, ADS_1.as_str()), (Service::ReadWrite, ADS_3.as_str())];
-    let origins = origins(outcomes);
-    services.into_iter().find(|(service, clause)| {
-        let mine = origins.iter().filter(|(function, _)| uses(*function, *service));
-        let chains: HashSet<Function> = mine.map(|(_, origin)| *origin).collect();
-        chains.len() >= CHAINS_OF_SERVICE
-            && judgements(outcomes)
-                .any(|(_, one)| one.requirement == *clause && is_broken(one.verdict))
-    })
-}
-
-/// The clause of a request that several functions have, if it and all of several of them fail.
+/// The clause of a request that several functions have, if it fails for several of them, and these.
 fn request_of(roots: &[Root]) -> Option<(&'static str, Vec<Function>)> {
     let request = |root: &Root| root.function.spec().request;
     let by_clause =
         |root: &&Root| request(root).is_some_and(|stream| stream.layout().clause == root.clause);
     roots.iter().filter(by_clause).find_map(|root| {
-        let alike = roots.iter().filter(|other| request(other) == request(root));
+        let alike = roots.iter().filter(by_clause).filter(|one| request(one) == request(root));
         let mut functions: Vec<Function> = alike.map(|other| other.function).collect();
         functions.sort_unstable();
         functions.dedup();
@@ -184,7 +211,7 @@ fn cause(
 ) -> Option<&'static str> {
     let clause = judgement.requirement;
     let is_of_frames = case.needs == Needs::Frames && !matches!(case.body, Body::Traffic);
-    if !is_of_device(case) || is_of_frames {
+    if is_of_frames {
         return None;
     }
     if is_one_of(clause, &SPECIFIC) {
@@ -196,10 +223,8 @@ fn cause(
         return roots.iter().find(is_of_others).map(|root| root.clause);
     }
     let (function, subject) = site(judgement);
-    if let Some((service, of_service)) = *service
-        && (clause == of_service || function.is_none_or(|one| uses(one, service)))
-    {
-        return (clause != of_service).then_some(of_service);
+    if let Some(service) = *service {
+        return (clause != service).then_some(service);
     }
     let explains = |root: &&Root| match &root.subject {
         // Failures that are not stored may be about others.
@@ -222,6 +247,9 @@ fn cause(
     }
     let earlier = before(function);
     let is_earlier = |root: &&Root| {
+        if root.function != function && !root.explains_later(compared(judgement)) {
+            return false;
+        }
         if is_of_functions(clause) {
             if defines(clause, function) {
                 return earlier.contains(&root.function);
@@ -244,71 +272,95 @@ fn cause(
             || *is_one_chain && is_one_of(clause, &[ADS_1, ADS_3]);
         root.spoils(clause, compared) || uses && is_any
     };
-    roots().find(is_earlier).or_else(|| roots().find(spoils)).map(|root| root.clause)
+    let found = roots().find(is_earlier).or_else(|| roots().find(spoils));
+    found.map(|root| root.clause).filter(|found| *found != clause)
 }
 
 /// Makes a failed check inconclusive if it only follows from another failure: that of an earlier function, of
 /// a service, of a shared request, or of another clause that the same check can fail for.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
-    let roots = roots(outcomes);
-    if roots.is_empty() {
-        return single_out(outcomes);
+    let causes = Causes::of(outcomes);
+    let broken: Vec<(&Case, &Judgement)> = broken(outcomes).collect();
+    let mut found: Vec<Option<&'static str>> =
+        broken.iter().map(|(case, judgement)| cause(case, judgement, &causes)).collect();
+    let unexplained = broken.iter().zip(&found).filter(|(_, cause)| cause.is_none());
+    let alone: Vec<&Judgement> =
+        unexplained.map(|((_, one), _)| *one).filter(|one| shows_one_clause(one)).collect();
+    for ((_, judgement), cause) in broken.iter().zip(&mut found) {
+        *cause = cause.or_else(|| single_out(judgement, &alone));
     }
-    let (service, request) = (service_of(outcomes), request_of(&roots));
-    let chains: HashSet<Function> =
-        origins(outcomes).into_iter().map(|(_, origin)| origin).collect();
-    let causes = Causes { roots, service, is_one_chain: chains.len() == 1, request };
-    for outcome in &mut *outcomes {
-        for verdict in &mut outcome.verdicts {
-            follow(verdict, |judgement| cause(&outcome.case, judgement, &causes));
-        }
-    }
-    single_out(outcomes);
-}
-
-/// Of the clauses that a check can fail for, those follow that no other check shows broken, if another
-/// check of the same functions shows one of the others broken.
-fn single_out(outcomes: &mut [CaseOutcome]) {
-    let broken =
-        judgements(outcomes).map(|(_, one)| one).filter(|one| one.verdict == Verdict::Fail);
-    let alone: HashSet<(&'static str, Option<Function>)> = broken
-        .filter(|one| one.together.is_empty())
-        .map(|one| (one.requirement, site(one).0))
-        .collect();
+    let clauses: Vec<&'static str> = broken.iter().map(|(_, one)| one.requirement).collect();
+    let mut settled = found.iter().map(|cause| cause.and_then(|one| settle(one, &clauses, &found)));
+    let settled: Vec<Option<&'static str>> = settled.by_ref().collect();
+    let mut settled = settled.into_iter();
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
         for verdict in &mut outcome.verdicts {
-            let clause = verdict.requirement;
-            let is_alone = alone.iter().any(|(other, _)| *other == clause);
-            if is_alone || is_one_of(clause, &GENERAL) {
-                continue;
-            }
-            follow(verdict, |judgement| {
-                let function = site(judgement).0;
-                let is_same = |one: &Option<Function>| {
-                    *one == function
-                        || one.is_some_and(|one| {
-                            compared(judgement).contains(&one)
-                                || function.is_some_and(|function| follows(function, one))
-                        })
-                };
-                let explains = |other: &&str| {
-                    can_explain(other, clause)
-                        && alone.iter().any(|(one, at)| one == other && is_same(at))
-                };
-                judgement.together.iter().copied().find(explains)
-            });
+            follow(verdict, || settled.next().flatten());
         }
     }
 }
 
-fn follow(verdict: &mut RequirementVerdict, cause: impl Fn(&Judgement) -> Option<&'static str>) {
-    for judgement in &mut verdict.judgements {
-        if !is_broken(judgement.verdict) {
-            continue;
+/// The clause that fails at the end of a chain of causes; `None` if none does, so that the check fails
+/// itself.
+fn settle(
+    cause: &'static str,
+    clauses: &[&'static str],
+    causes: &[Option<&'static str>],
+) -> Option<&'static str> {
+    let mut seen = vec![cause];
+    let mut open = vec![cause];
+    while let Some(clause) = open.pop() {
+        for (_, cause) in clauses.iter().zip(causes).filter(|(one, _)| **one == clause) {
+            match cause {
+                None => return Some(clause),
+                Some(next) if !seen.contains(next) => {
+                    seen.push(next);
+                    open.push(next);
+                }
+                Some(_) => {}
+            }
         }
-        if let Some(clause) = cause(judgement)
-            && clause != judgement.requirement
-        {
+    }
+    None
+}
+
+/// Whether a check that failed shows that its clause is broken, and no other.
+const fn shows_one_clause(judgement: &Judgement) -> bool {
+    matches!(judgement.verdict, Verdict::Fail) && judgement.together.is_empty()
+}
+
+/// Of the clauses that a check can fail for, the one that another check of the same functions and subject
+/// shows broken, if no check shows this clause broken.
+fn single_out(judgement: &Judgement, alone: &[&Judgement]) -> Option<&'static str> {
+    let clause = judgement.requirement;
+    if alone.iter().any(|one| one.requirement == clause) || is_one_of(clause, &GENERAL) {
+        return None;
+    }
+    let (function, subject) = site(judgement);
+    let is_about_it = |one: &Judgement| {
+        let (other, other_subject) = site(one);
+        let is_same_function = other == function
+            || other.is_some_and(|other| {
+                compared(judgement).contains(&other)
+                    || function.is_some_and(|function| follows(function, other))
+            });
+        // Failures that are not stored may be about others.
+        let is_same_subject = one.more > 0
+            || judgement.more == 0 && related(subject, other_subject)
+            || other_subject.is_none();
+        is_same_function && is_same_subject
+    };
+    let explains = |other: &&'static str| {
+        can_explain(other, clause)
+            && alone.iter().any(|one| one.requirement == *other && is_about_it(one))
+    };
+    judgement.together.iter().copied().find(explains)
+}
+
+/// Makes the broken checks inconclusive that have a cause.
+fn follow(verdict: &mut RequirementVerdict, mut cause: impl FnMut() -> Option<&'static str>) {
+    for judgement in verdict.judgements.iter_mut().filter(|one| is_broken(one.verdict)) {
+        if let Some(clause) = cause() {
             judgement.verdict = Verdict::Inconclusive;
             judgement.follows = Some(clause);
         }
@@ -455,7 +507,79 @@ mod tests {
             ("one", VAR_4, Function::DescribeByIndex, ""),
             ("one", VAR_3, Function::DescribeByIndex, ""),
             ("other", VAR_15, Function::DescribeExtended, ""),
+            ("other", VAR_3, Function::DescribeExtended, ""),
         ];
-        assert_eq!(attributed(&all), [follows_from(VAR_3), FAILS, follows_from(VAR_3)]);
+        let follows = follows_from(VAR_3);
+        assert_eq!(attributed(&all), [follows, FAILS, follows, FAILS]);
+        // The request of one function alone explains nothing of another.
+        assert_eq!(attributed(&all[..3])[2], FAILS);
+    }
+
+    #[test]
+    fn a_comparison_follows_from_the_simpler_check() {
+        use Function::{ReadByHandle, ReadByName};
+        let alone = outcome(("alone", VAR_14, ReadByName, "V.E.a"));
+        let mut both = outcome(("both", VAR_11, ReadByHandle, "V.E.a"));
+        let evidence = both.verdicts[0].judgements[0].evidence.as_mut().unwrap();
+        evidence.compared = vec![ReadByHandle, ReadByName];
+        assert_eq!(attribute_one(&mut [alone, both.clone()]), [None, Some("VAR-14")]);
+        let other = outcome(("alone", VAR_14, ReadByName, "V.E.b"));
+        assert_eq!(attribute_one(&mut [other, both.clone()]), [None, None]);
+        assert_eq!(attribute_one(&mut [both]), [None]);
+    }
+
+    #[test]
+    fn of_two_clauses_of_a_check_the_one_fails_that_another_check_shows() {
+        let mut both = outcome(("both", SDA_12, Function::CountDynamic, ""));
+        both.verdicts[0].judgements[0].together = vec![DYN_1.as_str()];
+        let alone = |function| outcome(("alone", DYN_1, function, ""));
+        let one = &mut [alone(Function::CountDynamic), both.clone()];
+        assert_eq!(attribute_one(one), [None, Some("DYN-1")]);
+        let one = &mut [alone(Function::CountObjects), both.clone()];
+        assert_eq!(attribute_one(one), [None, None]);
+        assert_eq!(attribute_one(&mut [both]), [None]);
+    }
+
+    /// An accepted request explains no failure of a later function.
+    #[test]
+    fn a_missing_rejection_explains_no_later_function() {
+        let mut accepted = outcome(("far", VAR_2, Function::CountVariables, "V.E.a"));
+        let described = outcome(("size", VAR_8, Function::DescribeByIndex, "V.E.a"));
+        let wrong = [accepted.clone(), described.clone()];
+        assert_eq!(attribute_one(&mut wrong.clone()), [None, Some("VAR-2")]);
+        accepted.verdicts[0].judgements[0].evidence.as_mut().unwrap().is_rejection = true;
+        assert_eq!(attribute_one(&mut [accepted, described]), [None, None]);
+    }
+
+    #[test]
+    fn each_named_cause_fails() {
+        use Function::*;
+        let all = [
+            ("a", VAR_1, CountVariables, ""),
+            ("b", VAR_3, DescribeByIndex, ""),
+            ("c", VAR_4, DescribeByIndex, "V.E.a"),
+            ("d", VAR_3, DescribeExtended, ""),
+            ("e", VAR_15, DescribeExtended, "V.E.a"),
+            ("f", VAR_9, HandleByName, "V.E.b"),
+            ("g", VAR_14, ReadByName, "V.E.a"),
+            ("h", VAR_11, ReadByHandle, "V.E.a"),
+            ("i", ADS_3, ReadByName, ""),
+            ("j", SVC_1, ReadByName, "V.G.SERVICE.UUID"),
+            ("k", COM_1, CountObjects, ""),
+            ("l", ADS_1, CountObjects, ""),
+        ];
+        for chosen in 1_u32..1 << all.len() {
+            let some = (0..all.len()).filter(|one| chosen & (1 << one) != 0);
+            let mut outcomes: Vec<CaseOutcome> = some.map(|one| outcome(all[one])).collect();
+            attribute(&mut outcomes);
+            let verdicts = || outcomes.iter().flat_map(|one| &one.verdicts);
+            let fails = |clause| {
+                verdicts().any(|one| one.requirement == clause && one.verdict == Verdict::Fail)
+            };
+            for cause in verdicts().filter_map(|one| one.judgements[0].follows) {
+                assert!(fails(cause), "{chosen:#b}: {cause}");
+            }
+            assert!(verdicts().any(|one| one.verdict == Verdict::Fail), "{chosen:#b}");
+        }
     }
 }

@@ -3,7 +3,7 @@
 
 use std::collections::HashSet;
 
-use ads_cnc::operation::{Function, Service};
+use ads_cnc::operation::Function;
 
 /// The functions whose answers the requests of `function`, or the expectations of its answer, are taken
 /// from.
@@ -66,12 +66,6 @@ pub(super) fn defines(clause: &str, function: Function) -> bool {
 pub(super) fn is_of_functions(clause: &str) -> bool {
     let area = clause.split_once('-').map_or(clause, |(area, _)| area);
     !matches!(area, "GEN" | "ADR" | "ADS" | "OBJ")
-}
-
-/// Whether a function uses a service, or one whose answers it takes.
-pub(super) fn uses(function: Function, service: Service) -> bool {
-    let is_of_service = |one: &Function| one.spec().service == service;
-    is_of_service(&function) || before(function).iter().any(is_of_service)
 }
 
 /// Whether the first clause can be the cause of a failure of the second: not if both define the same

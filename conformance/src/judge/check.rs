@@ -316,8 +316,9 @@ impl Record {
         let mut same: Vec<_> = same.collect();
         let is_new = !passed && same.iter().all(|one| one.together != together);
         if !is_new && same.len() >= if passed { 1 } else { STORED_MAX } {
-            if let Some(last) = same.last_mut() {
-                last.more += 1;
+            let alike = same.iter().rposition(|one| one.together == together);
+            if let Some(stored) = alike.and_then(|index| same.get_mut(index)) {
+                stored.more += 1;
             }
             return;
         }

@@ -16,6 +16,8 @@ pub struct Evidence {
     pub function: Option<Function>,
     /// The functions called since the previous check, whose replies the check may compare.
     pub compared: Vec<Function>,
+    /// Whether the reply must be a rejection.
+    pub is_rejection: bool,
     /// Name of the stream in the request's data, if the function is documented.
     pub request_stream: Option<&'static str>,
     /// Name of the stream in the reply's data.

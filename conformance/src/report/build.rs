@@ -83,6 +83,10 @@ impl Report {
         }
         // A device was not judged completely if the gate rejected requests.
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
+        if ended.is_some() {
+            // The cases after the end are not judged.
+            tally.add(Verdict::Interrupted, false);
+        }
         tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
         let is_whole = |left: &&LeftOut| !outcomes.iter().any(|one| one.case.id == left.id);

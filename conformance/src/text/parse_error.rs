@@ -58,7 +58,9 @@ pub(crate) fn in_words(message: &str, map: &str) -> String {
     // The parser of TOML takes a bare word for what it begins like.
     let bare = ["invalid boolean", "invalid float", "string values must be quoted"];
     if bare.iter().any(|start| message.starts_with(start)) {
-        return "expected a value: a text in double quotes, or a day as YYYY-MM-DD".to_owned();
+        return "expected a value: a number, true or false, a text in double quotes, or a day as \
+                YYYY-MM-DD"
+            .to_owned();
     }
     let other = || {
         let unknown = |what: &str| {
@@ -128,7 +130,7 @@ fn of_type(wanted: &str, map: &str) -> String {
         _ if matches!(wanted, "u64" | "usize" | "i8" | "i16" | "i32" | "i64") => {
             "a whole number".to_owned()
         }
-        _ if wanted.starts_with('f') => "a number".to_owned(),
+        _ if matches!(wanted, "f32" | "f64") => "a number".to_owned(),
         _ => wanted.to_owned(),
     }
 }

@@ -78,7 +78,10 @@ fn forgotten_checks() -> Vec<Seed> {
             _ => None,
         };
         let called = those.iter().find_map(refusal)?;
-        let what = format!("{stream}: what is {} is accepted", class.replace('-', " "));
+        let what = format!(
+            "{stream}: a stream that is rejected as {} is accepted",
+            class.replace('-', " ")
+        );
         let id = format!("codec.accepts.{class}.{stream}");
         Some(seed(id, broken(those.into_iter()), what, CodecFault::Accepts(called, stream)))
     };

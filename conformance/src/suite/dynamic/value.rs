@@ -57,7 +57,7 @@ fn value(
     let expected = || format!("the value of {name}, the name of index {index}");
     let mut checks =
         vec![PendingCheck::new(probe, rules, named.success().is_some(), expected, &named)];
-    let mut real = |probe: &Probe<'_>, rule: ClauseId, exchange: &Exchange| {
+    let mut real = |probe: &mut Probe<'_>, rule: ClauseId, exchange: &Exchange| {
         let is_real = exchange.success().is_some_and(|data| DynamicValue::decode(data).is_ok());
         let expected = || format!("a REAL64 of {name}");
         checks.push(PendingCheck::new(probe, rule, is_real, expected, exchange));

@@ -142,6 +142,7 @@ impl Probe<'_> {
                 })?;
             }
             self.target.objects = Some(all);
+            self.end_comparison();
         }
         let all = self.target.objects.clone();
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
@@ -166,6 +167,7 @@ impl Probe<'_> {
                 })?;
             }
             self.target.instances = Some(all);
+            self.end_comparison();
         }
         let all = self.target.instances.clone();
         all.filter(|all| !all.is_empty()).or_not_applicable("the target names no instance")

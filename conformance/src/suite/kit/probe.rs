@@ -184,6 +184,7 @@ impl<'s> Probe<'s> {
         if !self.interrupted {
             self.record.add(rule, verdict, expected, found, || self.last.clone());
         }
+        self.end_comparison();
     }
 
     /// Sends a call. The exchange becomes the evidence of the following checks.
@@ -361,6 +362,18 @@ impl<'s> Probe<'s> {
         self.subject = None;
     }
 
+    /// Notes that the reply of the last call must be a rejection.
+    pub(crate) fn expect_rejection(&mut self) {
+        if let Some(last) = &mut self.last {
+            last.is_rejection = true;
+        }
+    }
+
+    /// Lets the next check compare only replies from now on.
+    pub(crate) fn end_comparison(&mut self) {
+        self.compared.clear();
+    }
+
     /// The evidence of the last call.
     pub(crate) fn evidence(&self) -> Option<Evidence> {
         self.last.clone()
@@ -384,7 +397,7 @@ impl Checks for Probe<'_> {
         if !self.interrupted {
             self.record.add_all(rules, kept, expected, found, || self.last.clone());
         }
-        self.compared.clear();
+        self.end_comparison();
         kept
     }
 }

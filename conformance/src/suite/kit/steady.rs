@@ -79,7 +79,8 @@ impl Steady {
             |probe, _| probe.try_ask(other),
             |before, read| before == read,
         )?;
-        self.judge(probe, rules, &what, compared, |probe, rules, (before, read, _)| {
+        self.judge(probe, rules, &what, compared, |probe, rules, (before, read, evidence)| {
+            probe.set_evidence(evidence.map(|evidence| *evidence));
             let expected = || format!("{} of {what}", Hex(before));
             probe.check(rules, false, expected, || Hex(read));
         });
@@ -109,7 +110,8 @@ impl Steady {
             _ => Some(!matches!(compared, Compared::Differs(..))),
         };
         let rules = rules_by_index(probe, clause, logical, by_index, outcome)?;
-        self.judge(probe, &rules, &what, compared, |probe, rules, (before, read, _)| {
+        self.judge(probe, &rules, &what, compared, |probe, rules, (before, read, evidence)| {
+            probe.set_evidence(evidence.map(|evidence| *evidence));
             probe.check(rules, false, || format!("{} of {what}", Hex(before)), || Hex(read));
         });
         Ok(())
@@ -126,6 +128,9 @@ impl Steady {
     ) {
         let rules: Vec<Rule> = rules.rules().collect();
         self.judged |= !matches!(compared, Compared::NoValue | Compared::Moved);
+        if matches!(compared, Compared::NoValue | Compared::Moved) {
+            probe.end_comparison();
+        }
         match compared {
             Compared::NoValue => {}
             Compared::NoAnswer => {
@@ -208,7 +213,7 @@ pub(crate) struct PendingCheck {
 impl PendingCheck {
     /// Creates a check with the last call as its evidence.
     pub(crate) fn new(
-        probe: &Probe<'_>,
+        probe: &mut Probe<'_>,
         rules: impl Rules,
         passed: bool,
         expected: impl Describe,
@@ -216,7 +221,9 @@ impl PendingCheck {
     ) -> Self {
         let words = (!passed).then(|| (expected.describe(), found.describe()));
         let (expected, found) = words.unwrap_or_default();
-        Self { rules: rules.rules().collect(), passed, expected, found, evidence: probe.evidence() }
+        let evidence = probe.evidence();
+        probe.end_comparison();
+        Self { rules: rules.rules().collect(), passed, expected, found, evidence }
     }
 
     fn record(self, probe: &mut Probe<'_>) {

@@ -73,6 +73,7 @@ fn is_nowhere(
 ) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
     let exchange = probe.send(request)?;
+    probe.expect_rejection();
     let data = exchange.success();
     let Some(data) = data else {
         // An error instead of the result (0, 0): that this is wrong is assumed.

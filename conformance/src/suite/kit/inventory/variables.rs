@@ -39,6 +39,7 @@ impl Probe<'_> {
             let indices = self.sample(ItemKind::Variable, 0..count);
             all.extend(self.described(channel, (name, kind), indices)?);
         }
+        self.end_comparison();
         applicable(!all.is_empty(), "the target has no variable")?;
         Ok(all)
     }
@@ -54,6 +55,7 @@ impl Probe<'_> {
             }
             all.extend(self.described(channel, (name, kind), 0..count)?);
         }
+        self.end_comparison();
         Ok(Some(all))
     }
 

@@ -25,6 +25,7 @@ impl Probe<'_> {
         let accepted = self.call(&sibling)?;
         let (is_vacuous, shown) = (accepted.success().is_none(), self.last.clone());
         let exchange = self.call(&request)?;
+        self.expect_rejection();
         let expected = || format!("an error number for {what}");
         let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
         match given {
@@ -78,6 +79,7 @@ impl Probe<'_> {
         request: impl Into<Request<'a>>,
     ) -> Step {
         let exchange = self.send(request)?;
+        self.expect_rejection();
         let expected = || format!("an error number for {what}");
         self.check(rules, exchange.is_rejected(), expected, &exchange);
         Ok(())
