@@ -184,7 +184,8 @@ fn device_info_and_state_are_returned() {
         for task in [GEO, SDA, COM] {
             let device = port(client, net_id, task);
             let info = device.get_info().unwrap();
-            assert_eq!((&*info.name, info.major, info.minor), ("ads-cnc serve", 0, 1));
+            let minor = env!("CARGO_PKG_VERSION_MINOR").parse().unwrap();
+            assert_eq!((&*info.name, info.major, info.minor), ("ads-cnc serve", 0, minor));
             assert_eq!(device.get_state().unwrap(), (ads::AdsState::Run, 0));
         }
         let plc = port(client, net_id, 851);

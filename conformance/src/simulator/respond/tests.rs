@@ -69,7 +69,8 @@ fn invalid_requests_are_answered_with_errors() {
 fn device_info_and_state_are_answered() {
     for port in [551, 552, 553] {
         let info = ask(Command::READ_DEVICE_INFO, port, &[]).1;
-        assert_eq!(info[..8], [0, 0, 0, 0, 0, 1, 0, 0]);
+        let minor: u8 = env!("CARGO_PKG_VERSION_MINOR").parse().unwrap();
+        assert_eq!(info[..8], [0, 0, 0, 0, 0, minor, 0, 0]);
         assert_eq!(info[8..], *b"ads-cnc serve\0\0\0");
         assert_eq!(ask(Command::READ_STATE, port, &[]).1, [0, 0, 0, 0, 5, 0, 0, 0]);
     }
