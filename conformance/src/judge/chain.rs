@@ -71,7 +71,12 @@ pub(super) fn is_of_functions(clause: &str) -> bool {
 /// Whether the first clause can be the cause of a failure of the second: not if both define the same
 /// function, or the second one an earlier function.
 pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
-    let homes = |clause| Function::ALL.iter().filter(move |one| defines(clause, **one));
+    // All clauses of streaming are about one function.
+    let is_of = |clause: &str, function| {
+        defines(clause, function)
+            || clause.starts_with("STM") && function == Function::WriteProgramStream
+    };
+    let homes = |clause| Function::ALL.iter().filter(move |one| is_of(clause, **one));
     // An address is no cause if the function itself fails.
     (homes(cause).next().is_some() || homes(clause).next().is_none())
         && homes(cause).all(|home| !homes(clause).any(|one| one == home || follows(*home, *one)))

@@ -34,11 +34,7 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let expected = || format!("an address of the {class} ({channel}, {axis})");
         probe.check(SDA_1, data.is_some(), expected, found);
     }
-    // (0, 0) has no group of a class that could be wrong.
-    let of_instance =
-        |rule: &&Rule| address != Some(ObjectAddress::NONE) || rule.id != ADR_5.as_str();
-    let of_instance: Vec<Rule> = rules.iter().filter(of_instance).copied().collect();
-    probe.check(&of_instance, first.is_some(), expected, found);
+    probe.check(rules, first.is_some(), expected, found);
     if let Some(first) = first {
         let group = first.class_group();
         let same = (group.class, u32::from(group.instance)) == (class, channel);
@@ -243,20 +239,19 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
                     ElementAddress::new(group, offset)
                 };
                 let what = format!("an axis {:#x} after {one}", bit >> 16);
-                let rules = [ADR_7, SDA_5];
                 let (there, first) = (CountElements::new(one.first)?, far(one.first));
-                probe.refuses(rules, &what, CountElements::new(first)?, there)?;
+                probe.refuses(ADR_7, &what, CountElements::new(first)?, there)?;
                 let Some(element) = one.elements().next() else { continue };
                 for (there, far) in
                     attribute_reads(element).into_iter().zip(attribute_reads(far(element)))
                 {
-                    probe.refuses(rules, &what, far, there)?;
+                    probe.refuses(ADR_7, &what, far, there)?;
                 }
                 let Some(length) = probe.length_of(element)? else { continue };
                 if let (Ok(there), Ok(far)) =
                     (ReadElement::new(element, length), ReadElement::new(far(element), length))
                 {
-                    probe.refuses(rules, &what, far, there)?;
+                    probe.refuses(ADR_7, &what, far, there)?;
                 }
             }
         }
