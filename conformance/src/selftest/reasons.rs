@@ -24,7 +24,6 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[
     (SelfTestGroup::Cnc, "read-element-unit.first-index", ANY_TEXT),
     (SelfTestGroup::Cnc, "read-element-unit.next-index", ANY_TEXT),
     (SelfTestGroup::Cnc, "read-element.first-index", CONTENT),
-    (SelfTestGroup::Cnc, "read-element.stale", CONTENT),
     (SelfTestGroup::Cnc, "write-by-handle.unknown-channel-is-first", NOT_WRITTEN),
     (SelfTestGroup::Cnc, "write-by-name.unknown-channel-is-first", NOT_WRITTEN),
     (SelfTestGroup::Cnc, "write-element.unknown-axis-is-first", NOT_WRITTEN),
