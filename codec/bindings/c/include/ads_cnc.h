@@ -34,7 +34,7 @@ extern "C" {
 #endif
 
 /* The ABI that this header describes: the minor version of the library. */
-#define ADS_CNC_ABI 1
+#define ADS_CNC_ABI 2
 
 /* The number of a function, stream or field that does not exist. */
 #define ADS_CNC_NONE 0xFFFFFFFFu

@@ -1,7 +1,7 @@
 // A codec for the byte streams that read and write an ISG/TwinCAT CNC over ADS. The codec is WebAssembly;
 // ads_cnc.h documents its functions. The build appends generated code to this file.
 
-const ABI = 1,
+const ABI = 2,
   NONE = 0xffffffff;
 const wasm = Uint8Array.from(atob(WASM_BASE64), (letter) => letter.charCodeAt(0));
 const { exports: codec } = new WebAssembly.Instance(new WebAssembly.Module(wasm), {});

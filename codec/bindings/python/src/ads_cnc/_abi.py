@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
-ABI = 1
+ABI = 2
 NONE = 0xFFFFFFFF
 UINT32 = ctypes.c_uint32
 
