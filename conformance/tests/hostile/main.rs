@@ -1,11 +1,16 @@
 //! Limits of memory and time with hostile peers: runs the built command against servers, testees,
 //! clients and captures that send without end.
 
+#[path = "../common/mod.rs"]
 mod common;
+
+mod captures;
+mod deadline;
 
 use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::net::{SocketAddr, TcpStream};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::thread;
@@ -14,8 +19,6 @@ use std::time::{Duration, Instant};
 use ads_cnc::Encode as _;
 use ads_cnc::ads::{AdsError, AmsHeader, Command as AdsCommand, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request};
-use ads_cnc_conformance::capture::Capture;
-use ads_cnc_conformance::client::Tap as _;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 use common::connect;
@@ -35,12 +38,12 @@ struct Ended {
 /// Runs the command to its end and checks that it never uses more than `MEMORY_MAX`.
 #[track_caller]
 fn run(args: &[&str]) -> Ended {
-    run_beside(args, || ()).0
+    run_beside(args, |_| ()).0
 }
 
-/// Like [`run`], with something else running at the same time.
+/// Like [`run`], with something else running at the same time; it gets the file that stderr is written to.
 #[track_caller]
-fn run_beside<T>(args: &[&str], beside: impl FnOnce() -> T) -> (Ended, T) {
+fn run_beside<T>(args: &[&str], beside: impl FnOnce(&Path) -> T) -> (Ended, T) {
     let (out, err) = (TestFile::new(".out", b""), TestFile::new(".err", b""));
     let begun = Instant::now();
     let mut child = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
@@ -60,7 +63,7 @@ fn run_beside<T>(args: &[&str], beside: impl FnOnce() -> T) -> (Ended, T) {
         }
         most
     });
-    let done = beside();
+    let done = beside(&err.0);
     let until = begun + Duration::from_secs(240);
     let status = loop {
         if let Some(status) = child.try_wait().unwrap() {
@@ -274,82 +277,6 @@ fn a_device_on_which_everything_exists() {
     assert!(matches!(ended.code, Some(1 | 3)), "{}", ended.stderr);
 }
 
-/// With a slow device, a run ends at the deadline, and the notes of the remaining cases state this.
-#[test]
-fn a_deadline_ends_a_run() {
-    let cnc = Cnc::with_default_model().unwrap();
-    let addr = serving(move |frame, out| {
-        thread::sleep(Duration::from_millis(100));
-        out.write_all(&right(&cnc, frame))
-    });
-    let (addr, json) = (addr.to_string(), TestFile::new(".json", b""));
-    let args = ["run", "--seed", "1", "--deadline", "2", "--json", json.path()];
-    let ended = run(&against(&addr, &args));
-    assert_eq!(ended.code, Some(3), "{}", ended.stdout);
-    assert!(ended.time < Duration::from_secs(20), "{:?}", ended.time);
-    assert!(ended.stdout.contains("the deadline of 2 s has passed"), "{}", ended.stdout);
-    let report = fs::read_to_string(&json.0).unwrap();
-    assert!(report.matches("the deadline of 2 s has passed").count() > 50);
-}
-
-/// A changed value is restored after the deadline, and no other value is changed.
-#[test]
-fn a_deadline_ends_writes() {
-    let cnc = Cnc::with_default_model().unwrap();
-    let addr = serving(move |frame, out| {
-        thread::sleep(Duration::from_millis(100));
-        out.write_all(&right(&cnc, frame))
-    });
-    let (addr, json) = (addr.to_string(), TestFile::new(".json", b""));
-    let table = |name| format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n");
-    let names = ["V.E.test", "V.E.vartest", "V.E.Testvar", "V.E.Variable_1"];
-    let allow = TestFile::allowing(&names.map(table).concat());
-    let rest = ["--allow-write", allow.path(), "--json", json.path(), "--deadline", "2"];
-    let run_it = ["run", "--seed", "1", "--only", "write-by-name", "--only", "write-by-handle"];
-    let ended = run(&against(&addr, &[&run_it[..], &rest].concat()));
-    assert_eq!(ended.code, Some(3), "{}{}", ended.stdout, ended.stderr);
-    assert!(ended.time < Duration::from_secs(20), "{:?}", ended.time);
-    assert!(ended.stdout.contains("the deadline of 2 s has passed"), "{}", ended.stdout);
-    for name in ["V.E.test", "V.E.vartest"] {
-        let value = |addr: Option<&str>| match addr {
-            Some(addr) => run(&against(addr, &["get", name, "--format", "csv"])).stdout,
-            None => run(&["get", name, "--format", "csv"]).stdout,
-        };
-        assert_eq!(value(Some(&addr)), value(None));
-    }
-
-    // The search for an object by its name reads lists without end.
-    let allow = TestFile::allowing("[[object]]\nchannel = 1\nname = \"no_such_object\"\n");
-    let addr = everything().to_string();
-    let set = ["set", "no_such_object", "1", "--allow-write", allow.path(), "--deadline", "2"];
-    let ended = run(&against(&addr, &set));
-    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
-    assert!(ended.stderr.contains("the deadline of 2 s has passed"), "{}", ended.stderr);
-}
-
-/// A testee that needs half a second for each answer, and a client that never ends.
-#[cfg(unix)]
-#[test]
-fn a_deadline_ends_a_testee_and_a_client() {
-    const HELLO: &str = r#"{"protocol":1,"testee":{"name":"slow"},"capabilities":{"ops":["decode","encode"],"streams":["variable-description"],"editions":["en-1.05"]}}"#;
-    let script = format!(
-        "#!/bin/sh\nread -r hello\necho '{HELLO}'\nwhile read -r line; do\nsleep 0.5\n\
-         seq=${{line#*\\\"seq\\\":}}; seq=${{seq%%,*}}\n\
-         echo '{{\"seq\":'$seq',\"unsupported\":{{\"what\":\"op\"}}}}'\ndone\n"
-    );
-    let script = TestFile::new(".sh", script.as_bytes());
-    let testee = format!("sh {}", script.path());
-    for options in [["--testee", &testee], ["--client", "cat; sleep 1000"]] {
-        let json = TestFile::new(".json", b"");
-        let args = ["run", "--seed", "1", "--deadline", "2", "--json", json.path()];
-        let ended = run(&[&args[..], &options].concat());
-        assert!(matches!(ended.code, Some(1 | 3)), "{options:?}: {}", ended.stderr);
-        assert!(ended.time < Duration::from_secs(15), "{options:?}: {:?}", ended.time);
-        let report = fs::read_to_string(&json.0).unwrap();
-        assert!(report.contains("the deadline of 2 s has passed"), "{options:?}: {report}");
-    }
-}
-
 /// Testees with long answers.
 #[cfg(unix)]
 #[test]
@@ -394,18 +321,15 @@ fn a_testee_with_long_answers() {
     }
 }
 
-#[allow(clippy::disallowed_methods, reason = "to the tool under test")]
-fn try_connect(addr: SocketAddr) -> Option<TcpStream> {
-    TcpStream::connect(addr).ok()
+/// The address that the tool listens on, once it has printed it.
+fn listens_on(stderr: &str) -> Option<SocketAddr> {
+    let (addr, _) = stderr.split_once("waiting for a client on ")?.1.split_once(',')?;
+    addr.parse().ok()
 }
 
 /// A client that sends without end, over more connections than allowed.
 #[test]
 fn a_client_without_end() {
-    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
-    let addr = listener.local_addr().unwrap();
-    drop(listener);
-    let listen = addr.to_string();
     let long = {
         let mut header = AmsHeader::request(
             ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort::SDA },
@@ -419,14 +343,14 @@ fn a_client_without_end() {
         payload.extend(vec![7; 60_000]);
         FrameRef::new(header, &payload).unwrap().encode_to_vec().unwrap()
     };
-    let args = ["run", "--client-listen", &listen, "--seed", "1"];
-    let (ended, ()) = run_beside(&args, || {
-        // The tool needs some time before it listens.
-        let first = (0..200).find_map(|_| {
+    let args = ["run", "--client-listen", "127.0.0.1:0", "--seed", "1"];
+    let (ended, ()) = run_beside(&args, |stderr| {
+        let addr = (0..400).find_map(|_| {
             thread::sleep(Duration::from_millis(50));
-            try_connect(addr)
+            listens_on(&fs::read_to_string(stderr).unwrap())
         });
-        let mut first = first.expect("the tool listens");
+        let addr = addr.expect("the tool listens");
+        let mut first = connect(addr);
         first.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
         let mut answer = [0; 42];
         for number in 0..5000_u32 {
@@ -450,85 +374,4 @@ fn clients_are_awaited_on_loopback_only() {
     let ended = run(&["run", "--client-listen", "0.0.0.0:0"]);
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);
     assert!(ended.stderr.contains("--allow-remote"), "{}", ended.stderr);
-}
-
-/// A capture of requests on one connection, with the given replies.
-fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -> TestFile {
-    let file = TestFile::new(".pcapng", b"");
-    let mut capture = Capture::create(&file.0).unwrap();
-    let end = |port| SocketAddr::from(([127, 0, 0, 1], port));
-    capture.opened(end(50_000), end(48898));
-    let ams = |port| ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort(port) };
-    for number in 0..count {
-        let header = AmsHeader::request(ams(552), ams(0x8000), AdsCommand::READ, number);
-        let payload = [0x03_u8, 0x03, 0x12, 0, 0, 0, 0, 0, 4, 0, 0, 0];
-        capture.sent(&FrameRef::new(header, &payload).unwrap().encode_to_vec().unwrap());
-        if let Some(header) = answer(number, &header) {
-            capture.received(&FrameRef::new(header, &[0; 12]).unwrap().encode_to_vec().unwrap());
-        }
-    }
-    capture.closed();
-    capture.finish().unwrap();
-    file
-}
-
-/// Long and short requests without replies, on one connection or on many open ones.
-#[test]
-fn requests_without_replies_are_dropped() {
-    for (connections, requests, bytes) in
-        [(1, 1800_u32, 60_000_u32), (200, 1800, 60_000), (1800, 1800, 60_000), (80, 320_000, 4)]
-    {
-        let file = TestFile::new(".pcapng", b"");
-        let mut capture = Capture::create(&file.0).unwrap();
-        let end = |port| SocketAddr::from(([127, 0, 0, 1], port));
-        let ams =
-            |port| ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort(port) };
-        let mut payload = vec![0; 12 + bytes as usize];
-        payload[8..12].copy_from_slice(&bytes.to_le_bytes());
-        for number in 0..requests {
-            if number % (requests / connections) == 0 {
-                let opened = u16::try_from(number / (requests / connections)).unwrap();
-                capture.opened(end(50_000 + opened), end(48898));
-            }
-            let header = AmsHeader::request(ams(552), ams(0x8000), AdsCommand::WRITE, number);
-            capture.sent(&FrameRef::new(header, &payload).unwrap().encode_to_vec().unwrap());
-        }
-        capture.finish().unwrap();
-        let ended = run(&["check", file.path()]);
-        let told =
-            "of these dropped: more than 4096 on a connection, or 16 MiB, waited for replies";
-        assert!(ended.stdout.contains(told), "{connections}: {}", ended.stdout);
-    }
-}
-
-/// Twice the number of requests takes at most about twice the time, with any replies.
-#[test]
-fn captures_are_checked_in_linear_time() {
-    type Answer = fn(u32, &AmsHeader) -> Option<AmsHeader>;
-    let ways: [(&str, Answer); 5] = [
-        ("answered", |_, header| Some(header.response())),
-        ("not answered", |_, _| None),
-        ("answered from elsewhere", |_, header| {
-            let right = header.response();
-            Some(AmsHeader { target: right.source, source: right.target, ..right })
-        }),
-        ("answered to other invoke IDs", |number, header| {
-            Some(AmsHeader { invoke_id: !number, ..header.response() })
-        }),
-        ("answered by another command with one invoke ID", |_, header| {
-            Some(AmsHeader { invoke_id: 7, command: AdsCommand::WRITE, ..header.response() })
-        }),
-    ];
-    let mut usual = Duration::ZERO;
-    for (what, answer) in ways {
-        let file = captured(60_000, answer);
-        let ended = run(&["check", file.path()]);
-        eprintln!("{what}: {:?}, exit {:?}", ended.time, ended.code);
-        assert!(ended.code.is_some_and(|code| code < 6), "{what}: {}", ended.stderr);
-        if usual.is_zero() {
-            usual = ended.time;
-        }
-        // With a linear search of the waiting requests, this took more than thirty times as long.
-        assert!(ended.time < usual * 6 + Duration::from_secs(2), "{what}: {:?}", ended.time);
-    }
 }
