@@ -2,10 +2,12 @@
 
 use std::io::{self, Write as _};
 
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::Function;
+
 use super::message::print_error;
-use crate::judge::{Exit, names};
+use crate::judge::{Exit, clauses_of, names};
 use crate::matrix::{self, RequirementRow};
-use crate::tables::Tables;
 use crate::text::did_you_mean;
 
 /// Print requirements: text, sources, rulings, vectors, cases and tests
@@ -41,26 +43,15 @@ enum RequirementsFormat {
 impl Requirements {
     pub(super) fn execute(&self) -> Exit {
         let mut rows = matrix::matrix();
-        let tables = Tables::new();
-        rows.retain(|row| self.matches(row, &tables));
-        if rows.is_empty() {
-            let rows = matrix::matrix();
-            let ids = rows.iter().flat_map(|row| {
-                let id = row.id.as_str();
-                let area = id.split('-').next().unwrap_or(id);
-                [area, id].into_iter().chain(row.cases.iter().map(String::as_str))
-            });
-            let streams = tables.streams.iter().map(|stream| stream.name);
-            let functions = tables.functions.iter().map(|function| function.id.as_str());
-            let ids: Vec<&str> = ids.chain(streams).chain(functions).collect();
-            for word in self.wanted.iter().chain(&self.only) {
-                let near = did_you_mean(word, ids.iter().copied());
-                print_error(format_args!(
-                    "no requirement, area, stream, function or case has the ID {word}{near}"
-                ));
-            }
+        let unknown: Vec<&String> =
+            self.words().filter(|word| !rows.iter().any(|row| is_named(row, word))).collect();
+        if !unknown.is_empty() {
+            unknown.into_iter().for_each(|word| print_error(no_such(word, &rows)));
             return Exit::Nothing;
         }
+        rows.retain(|row| {
+            self.words().next().is_none() || self.words().any(|word| is_named(row, word))
+        });
         let text = match self.format {
             RequirementsFormat::Text => Ok(matrix::to_text(&rows)),
             RequirementsFormat::Markdown => Ok(matrix::to_markdown(&rows)),
@@ -82,29 +73,45 @@ impl Requirements {
         }
     }
 
-    fn matches(&self, row: &RequirementRow, tables: &Tables) -> bool {
-        let has = |only: &str, ids: &[String], prefix: &str| {
-            ids.iter().any(|id| only.eq_ignore_ascii_case(&format!("{prefix}{id}")))
-        };
-        let named = |only: &String| {
-            names(only, &row.id)
-                || clauses(only, tables).any(|clause| names(clause, &row.id))
-                || has(only, &row.cases, "")
-                || has(only, &row.accepted, "vec-")
-                || has(only, &row.rejected, "vec-")
-        };
-        let wanted = || self.wanted.iter().chain(&self.only);
-        wanted().next().is_none() || wanted().any(named)
+    fn words(&self) -> impl Iterator<Item = &String> {
+        self.wanted.iter().chain(&self.only)
     }
 }
 
-/// The clauses of the stream or function of this name.
-fn clauses<'t>(name: &'t str, tables: &'t Tables) -> impl Iterator<Item = &'static str> + 't {
-    let streams = tables.streams.iter().filter(|stream| name.eq_ignore_ascii_case(stream.name));
-    let streams = streams.flat_map(|stream| {
-        let fields = stream.fields.iter().map(|field| field.clause);
-        [stream.clause].into_iter().chain(fields)
+/// Whether the word names a row: its area, ID, a case or vector of it, or a stream or function that it
+/// defines.
+fn is_named(row: &RequirementRow, word: &str) -> bool {
+    let has = |ids: &[String], prefix: &str| {
+        ids.iter().any(|id| word.eq_ignore_ascii_case(&format!("{prefix}{id}")))
+    };
+    names(word, &row.id)
+        || clauses(word).iter().any(|clause| names(clause, &row.id))
+        || has(&row.cases, "")
+        || has(&row.accepted, "vec-")
+        || has(&row.rejected, "vec-")
+}
+
+/// The message for a word that names no row.
+fn no_such(word: &str, rows: &[RequirementRow]) -> String {
+    let ids = rows.iter().flat_map(|row| {
+        let area = row.id.split('-').next().unwrap_or(&row.id);
+        [area, &row.id].into_iter().chain(row.cases.iter().map(String::as_str))
     });
-    let functions = tables.functions.iter().filter(|one| name.eq_ignore_ascii_case(&one.id));
-    streams.chain(functions.map(|function| function.clause))
+    let functions: Vec<String> = Function::ALL.iter().map(|one| id(*one)).collect();
+    let streams = Stream::all().map(|stream| stream.layout().name);
+    let near = did_you_mean(word, ids.chain(streams).chain(functions.iter().map(String::as_str)));
+    format!("no requirement, area, stream, function or case has the ID {word}{near}")
+}
+
+/// The clauses of the stream or function of this name.
+fn clauses(name: &str) -> Vec<&'static str> {
+    let streams = Stream::by_name(&name.to_ascii_lowercase()).into_iter();
+    let functions = Function::ALL.iter().filter(|one| name.eq_ignore_ascii_case(&id(**one)));
+    let functions = functions.map(|function| function.spec().clause);
+    streams.flat_map(clauses_of).chain(functions).collect()
+}
+
+/// The name of the function's type.
+fn id(function: Function) -> String {
+    format!("{function:?}")
 }

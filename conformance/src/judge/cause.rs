@@ -12,13 +12,12 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::chain::{before, can_explain, defines, follows, is_of_functions, origin};
-use super::{
-    Body, Case, CaseOutcome, CaseSubject, Judgement, Needs, RequirementVerdict, Verdict, gravest,
-};
+use super::root::{Check, Root, broken, is_broken, is_of_device, roots};
+use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
 
 /// Clauses whose checks look for one error only, such as reversed bytes. No error of another clause looks
 /// like it, so they always fail.
-const SPECIFIC: [ClauseId; 8] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, ADS_7, SVC_1];
+const SPECIFIC: [ClauseId; 7] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, ADS_7];
 
 /// Clauses of every function: an error of the function itself looks like an error of these.
 const GENERAL: [ClauseId; 5] = [ADS_1, ADS_3, GEN_5, GEN_6, OBJ_1];
@@ -27,148 +26,24 @@ fn is_one_of(clause: &str, list: &[ClauseId]) -> bool {
     list.iter().any(|one| one.as_str() == clause)
 }
 
-const fn is_broken(verdict: Verdict) -> bool {
-    matches!(verdict, Verdict::Fail | Verdict::Vacuous)
-}
-
-/// A failed check of a function by a clause that defines it, with no failed one before it.
-struct Root {
-    function: Function,
-    clause: &'static str,
-    /// The variable or object; `None` for several, or for none in particular.
-    subject: Option<String>,
-    /// Whether it is about several variables, one of them not of the Service Interface.
-    is_of_others: bool,
-    /// Whether the check expects a rejection: an accepted request spoils no later function.
-    is_rejection: bool,
-    /// The functions whose replies the check compares.
-    compared: Vec<Function>,
-    check: (String, String, String),
-}
-
-impl Root {
-    /// Whether it can explain a check of a later function: not if a request was accepted that must be
-    /// rejected, nor if it compares more replies than that check.
-    fn explains_later(&self, compared: &[Function]) -> bool {
-        !self.is_rejection && self.compared.len() <= compared.len().max(1)
-    }
-
-    /// Whether a check that compares replies of `functions` fails because the function of this one is
-    /// broken, which this one shows by fewer replies.
-    fn spoils(&self, clause: &str, functions: &[Function]) -> bool {
-        let mut homes = before(self.function);
-        homes.insert(self.function);
-        self.compared.len() < functions.len()
-            && functions.contains(&self.function)
-            && self.compared.iter().all(|function| functions.contains(function))
-            && is_of_functions(clause)
-            && !homes.into_iter().any(|home| defines(clause, home))
-    }
-}
-
 /// What explains the failures of a run.
-struct Causes {
-    roots: Vec<Root>,
+struct Causes<'a> {
+    roots: Vec<Root<'a>>,
     /// The clause of the service that all of them use.
     service: Option<&'static str>,
     /// Whether all failures are of one chain.
     is_one_chain: bool,
-    /// The clause of the request that several of them use, and these.
+    /// The clause of a request that fails for several functions, and these.
     request: Option<(&'static str, Vec<Function>)>,
 }
 
-impl Causes {
-    fn of(outcomes: &[CaseOutcome]) -> Self {
-        let roots = roots(outcomes);
-        let (service, request) = (service_of(&roots, outcomes), request_of(&roots));
+impl<'a> Causes<'a> {
+    fn of(broken: &[Check<'a>]) -> Self {
+        let roots = roots(broken);
+        let (service, request) = (service_of(&roots, broken), request_of(&roots));
         let chains: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
         Self { roots, service, is_one_chain: chains.len() == 1, request }
     }
-}
-
-fn site(judgement: &Judgement) -> (Option<Function>, Option<&str>) {
-    let evidence = judgement.evidence.as_ref();
-    let subject = evidence.and_then(|evidence| evidence.subject.as_deref());
-    (evidence.and_then(|evidence| evidence.function), subject)
-}
-
-fn compared(judgement: &Judgement) -> &[Function] {
-    judgement.evidence.as_ref().map_or(&[], |evidence| &evidence.compared)
-}
-
-/// Whether the two can be about the same: one of them may be about all.
-fn related(one: Option<&str>, other: Option<&str>) -> bool {
-    one.is_none() || other.is_none() || one == other
-}
-
-fn check(case: &str, judgement: &Judgement) -> (String, String, String) {
-    (case.to_owned(), judgement.expected.clone(), judgement.found.clone())
-}
-
-fn roots(outcomes: &[CaseOutcome]) -> Vec<Root> {
-    let mut all = Vec::new();
-    for (case, judgement) in broken(outcomes) {
-        let (Some(function), subject) = site(judgement) else { continue };
-        let clause = judgement.requirement;
-        if is_of_functions(clause) && defines(clause, function) {
-            // The failures that are not stored are about others.
-            let is_of_others =
-                judgement.more > 0 && subject.is_some_and(|name| !name.contains(".SERVICE."));
-            let is_rejection =
-                judgement.evidence.as_ref().is_some_and(|evidence| evidence.is_rejection);
-            let subject = subject.filter(|_| judgement.more == 0).map(str::to_owned);
-            let check = check(&case.id, judgement);
-            let compared = compared(judgement).to_vec();
-            all.push(Root {
-                function,
-                clause,
-                subject,
-                is_of_others,
-                is_rejection,
-                compared,
-                check,
-            });
-        }
-    }
-    // The one that compares the fewest replies first: it can only be spoiled by one before it.
-    all.sort_by_key(|root| root.compared.len());
-    let mut simplest: Vec<Root> = Vec::new();
-    for root in all {
-        let is_about = |other: &Root| related(root.subject.as_deref(), other.subject.as_deref());
-        if !simplest
-            .iter()
-            .any(|other| other.spoils(root.clause, &root.compared) && is_about(other))
-        {
-            simplest.push(root);
-        }
-    }
-    let has_earlier = |root: &Root| {
-        let before = before(root.function);
-        simplest.iter().any(|other| {
-            let (one, other_subject) = (root.subject.as_deref(), other.subject.as_deref());
-            other.explains_later(&root.compared)
-                && before.contains(&other.function)
-                && related(one, other_subject)
-        })
-    };
-    let first: Vec<bool> = simplest.iter().map(|root| !has_earlier(root)).collect();
-    let mut first = first.into_iter();
-    simplest.retain(|_| first.next().unwrap_or_default());
-    simplest
-}
-
-/// Whether a case judges replies of a device.
-fn is_of_device(case: &Case) -> bool {
-    matches!(case.subject, CaseSubject::Target | CaseSubject::CapturedCnc)
-}
-
-/// The broken checks of a device.
-fn broken(outcomes: &[CaseOutcome]) -> impl Iterator<Item = (&Case, &Judgement)> {
-    outcomes.iter().filter(|outcome| is_of_device(&outcome.case)).flat_map(|outcome| {
-        let judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
-        let broken = judged.filter(|one| is_broken(one.verdict));
-        broken.map(|judgement| (&outcome.case, judgement))
-    })
 }
 
 /// Number of chains that must fail for their service to be the cause: each service has functions of three.
@@ -176,7 +51,7 @@ const CHAINS_OF_SERVICE: usize = 3;
 
 /// The clause of the service, if functions of all chains fail, all of them of this service, and its clause
 /// fails too.
-fn service_of(roots: &[Root], outcomes: &[CaseOutcome]) -> Option<&'static str> {
+fn service_of(roots: &[Root<'_>], broken: &[Check<'_>]) -> Option<&'static str> {
     let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
     let service = roots.first()?.function.spec().service;
     let clause = match service {
@@ -185,59 +60,53 @@ fn service_of(roots: &[Root], outcomes: &[CaseOutcome]) -> Option<&'static str> 
         _ => return None,
     };
     let is_alone = roots.iter().all(|root| root.function.spec().service == service);
-    let fails = broken(outcomes).any(|(_, one)| one.requirement == clause);
+    let fails = broken.iter().any(|one| one.clause() == clause);
     (origins.len() >= CHAINS_OF_SERVICE && is_alone && fails).then_some(clause)
 }
 
 /// The clause of a request that several functions have, if it fails for several of them, and these.
-fn request_of(roots: &[Root]) -> Option<(&'static str, Vec<Function>)> {
-    let request = |root: &Root| root.function.spec().request;
-    let by_clause =
-        |root: &&Root| request(root).is_some_and(|stream| stream.layout().clause == root.clause);
+fn request_of(roots: &[Root<'_>]) -> Option<(&'static str, Vec<Function>)> {
+    let request = |root: &Root<'_>| root.function.spec().request;
+    let by_clause = |root: &&Root<'_>| {
+        request(root).is_some_and(|stream| stream.layout().clause == root.check.clause())
+    };
     roots.iter().filter(by_clause).find_map(|root| {
         let alike = roots.iter().filter(by_clause).filter(|one| request(one) == request(root));
         let mut functions: Vec<Function> = alike.map(|other| other.function).collect();
         functions.sort_unstable();
         functions.dedup();
-        (functions.len() > 1).then_some((root.clause, functions))
+        (functions.len() > 1).then_some((root.check.clause(), functions))
     })
 }
 
 /// The clause whose failure explains this one.
 fn cause(
-    case: &Case,
-    judgement: &Judgement,
-    Causes { roots, service, is_one_chain, request }: &Causes,
+    check: Check<'_>,
+    Causes { roots, service, is_one_chain, request }: &Causes<'_>,
 ) -> Option<&'static str> {
-    let clause = judgement.requirement;
-    let is_of_frames = case.needs == Needs::Frames && !matches!(case.body, Body::Traffic);
-    if is_of_frames {
+    let (clause, function) = (check.clause(), check.function());
+    if check.case.needs == Needs::Frames && !matches!(check.case.body, Body::Traffic) {
         return None;
     }
-    if is_one_of(clause, &SPECIFIC) {
-        let is_of_others = |root: &&Root| {
-            clause == SVC_1.as_str()
-                && root.is_of_others
-                && site(judgement).0 == Some(root.function)
-        };
-        return roots.iter().find(is_of_others).map(|root| root.clause);
+    if clause == SVC_1.as_str() {
+        // A type of the interface's variables is wrong too if the function returns other variables wrong.
+        let is_of_all =
+            |root: &&Root<'_>| root.is_not_of_services() && function == Some(root.function);
+        return roots.iter().find(is_of_all).map(|root| root.check.clause());
     }
-    let (function, subject) = site(judgement);
+    if is_one_of(clause, &SPECIFIC) {
+        return None;
+    }
     if let Some(service) = *service {
         return (clause != service).then_some(service);
     }
-    let explains = |root: &&Root| match &root.subject {
-        // Failures that are not stored may be about others.
-        Some(_) if judgement.more > 0 => false,
-        one => related(one.as_deref(), subject),
-    };
-    let roots = || roots.iter().filter(explains);
+    let roots = || roots.iter().filter(|root| root.check.is_about_all_of(check));
     let Some(function) = function else {
-        let is_before_home = |root: &&Root| {
+        let is_before_home = |root: &&Root<'_>| {
             let mut homes = Function::ALL.iter().filter(|one| defines(clause, **one));
-            homes.any(|home| before(*home).contains(&root.function))
+            homes.any(|home| follows(*home, root.function))
         };
-        return roots().find(is_before_home).map(|root| root.clause);
+        return roots().find(is_before_home).map(|root| root.check.clause());
     };
     if let Some((shared, functions)) = request
         && functions.contains(&function)
@@ -245,9 +114,12 @@ fn cause(
     {
         return (clause != *shared).then_some(*shared);
     }
+    if roots().any(|root| root.check.is_same_as(check)) {
+        return None;
+    }
     let earlier = before(function);
-    let is_earlier = |root: &&Root| {
-        if root.function != function && !root.explains_later(compared(judgement)) {
+    let is_earlier = |root: &&Root<'_>| {
+        if root.function != function && !root.explains_later(check) {
             return false;
         }
         if is_of_functions(clause) {
@@ -256,48 +128,44 @@ fn cause(
             }
             let mut homes = earlier.iter().filter(|one| defines(clause, **one)).peekable();
             if homes.peek().is_some() {
-                return homes.any(|home| before(*home).contains(&root.function));
+                return homes.any(|home| follows(*home, root.function));
             }
         }
         earlier.contains(&root.function) || root.function == function && is_one_of(clause, &GENERAL)
     };
-    let same = check(&case.id, judgement);
-    if roots().any(|root| root.check == same) {
-        return None;
-    }
-    let spoils = |root: &&Root| {
-        let compared = compared(judgement);
-        let uses = root.function == function || compared.contains(&root.function);
-        let is_any = judgement.verdict == Verdict::Vacuous
+    let is_compared = |root: &&Root<'_>| {
+        let uses = root.function == function || check.compared().contains(&root.function);
+        let is_any = check.judgement.verdict == Verdict::Vacuous
             || *is_one_chain && is_one_of(clause, &[ADS_1, ADS_3]);
-        root.spoils(clause, compared) || uses && is_any
+        root.explains_comparison(check) || uses && is_any
     };
-    let found = roots().find(is_earlier).or_else(|| roots().find(spoils));
-    found.map(|root| root.clause).filter(|found| *found != clause)
+    let found = roots().find(is_earlier).or_else(|| roots().find(is_compared));
+    found.map(|root| root.check.clause()).filter(|found| *found != clause)
 }
 
-/// Makes a failed check inconclusive if it only follows from another failure: that of an earlier function, of
-/// a service, of a shared request, or of another clause that the same check can fail for.
-pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
-    let causes = Causes::of(outcomes);
-    let broken: Vec<(&Case, &Judgement)> = broken(outcomes).collect();
-    let mut found: Vec<Option<&'static str>> =
-        broken.iter().map(|(case, judgement)| cause(case, judgement, &causes)).collect();
-    let unexplained = broken.iter().zip(&found).filter(|(_, cause)| cause.is_none());
-    let alone: Vec<&Judgement> =
-        unexplained.map(|((_, one), _)| *one).filter(|one| shows_one_clause(one)).collect();
-    for ((_, judgement), cause) in broken.iter().zip(&mut found) {
-        *cause = cause.or_else(|| single_out(judgement, &alone));
+/// Of the clauses that a check can fail for, the one that another check of the same functions and subject
+/// shows broken, if no check shows this clause broken. `alone`: the checks that can fail for one clause only.
+fn single_out(check: Check<'_>, alone: &[Check<'_>]) -> Option<&'static str> {
+    let clause = check.clause();
+    if alone.iter().any(|one| one.clause() == clause) || is_one_of(clause, &GENERAL) {
+        return None;
     }
-    let clauses: Vec<&'static str> = broken.iter().map(|(_, one)| one.requirement).collect();
-    let mut settled = found.iter().map(|cause| cause.and_then(|one| settle(one, &clauses, &found)));
-    let settled: Vec<Option<&'static str>> = settled.by_ref().collect();
-    let mut settled = settled.into_iter();
-    for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
-        for verdict in &mut outcome.verdicts {
-            follow(verdict, || settled.next().flatten());
-        }
-    }
+    let is_of_same_function = |other: Option<Function>| {
+        other == check.function()
+            || other.is_some_and(|other| {
+                check.compared().contains(&other)
+                    || check.function().is_some_and(|function| follows(function, other))
+            })
+    };
+    let explains = |other: &&'static str| {
+        can_explain(other, clause)
+            && alone.iter().any(|one| {
+                one.clause() == *other
+                    && is_of_same_function(one.function())
+                    && one.is_about_all_of(check)
+            })
+    };
+    check.judgement.together.iter().copied().find(explains)
 }
 
 /// The clause that fails at the end of a chain of causes; `None` if none does, so that the check fails
@@ -324,37 +192,31 @@ fn settle(
     None
 }
 
-/// Whether a check that failed shows that its clause is broken, and no other.
-const fn shows_one_clause(judgement: &Judgement) -> bool {
-    matches!(judgement.verdict, Verdict::Fail) && judgement.together.is_empty()
-}
-
-/// Of the clauses that a check can fail for, the one that another check of the same functions and subject
-/// shows broken, if no check shows this clause broken.
-fn single_out(judgement: &Judgement, alone: &[&Judgement]) -> Option<&'static str> {
-    let clause = judgement.requirement;
-    if alone.iter().any(|one| one.requirement == clause) || is_one_of(clause, &GENERAL) {
-        return None;
+/// Makes a failed check inconclusive if it only follows from another failure: that of an earlier function, of
+/// a service, of a shared request, or of another clause that the same check can fail for.
+pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
+    let broken: Vec<Check<'_>> = broken(outcomes).collect();
+    let causes = Causes::of(&broken);
+    let mut found: Vec<Option<&'static str>> =
+        broken.iter().map(|check| cause(*check, &causes)).collect();
+    let is_alone = |check: &Check<'_>| {
+        check.judgement.verdict == Verdict::Fail && check.judgement.together.is_empty()
+    };
+    let unexplained = broken.iter().zip(&found).filter(|(_, cause)| cause.is_none());
+    let alone: Vec<Check<'_>> =
+        unexplained.map(|(check, _)| *check).filter(|check| is_alone(check)).collect();
+    for (check, cause) in broken.iter().zip(&mut found) {
+        *cause = cause.or_else(|| single_out(*check, &alone));
     }
-    let (function, subject) = site(judgement);
-    let is_about_it = |one: &Judgement| {
-        let (other, other_subject) = site(one);
-        let is_same_function = other == function
-            || other.is_some_and(|other| {
-                compared(judgement).contains(&other)
-                    || function.is_some_and(|function| follows(function, other))
-            });
-        // Failures that are not stored may be about others.
-        let is_same_subject = one.more > 0
-            || judgement.more == 0 && related(subject, other_subject)
-            || other_subject.is_none();
-        is_same_function && is_same_subject
-    };
-    let explains = |other: &&'static str| {
-        can_explain(other, clause)
-            && alone.iter().any(|one| one.requirement == *other && is_about_it(one))
-    };
-    judgement.together.iter().copied().find(explains)
+    let clauses: Vec<&'static str> = broken.iter().map(|check| check.clause()).collect();
+    let settled: Vec<Option<&'static str>> =
+        found.iter().map(|cause| cause.and_then(|one| settle(one, &clauses, &found))).collect();
+    let mut settled = settled.into_iter();
+    for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
+        for verdict in &mut outcome.verdicts {
+            follow(verdict, || settled.next().flatten());
+        }
+    }
 }
 
 /// Makes the broken checks inconclusive that have a cause.
@@ -375,7 +237,7 @@ fn follow(verdict: &mut RequirementVerdict, mut cause: impl FnMut() -> Option<&'
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::{CaseSubject, Evidence};
+    use crate::judge::{Case, CaseSubject, Evidence, Judgement};
 
     /// A failed check: case, clause, function, subject.
     type Failed = (&'static str, ClauseId, Function, &'static str);

@@ -1,11 +1,12 @@
-//! The chains of functions: each takes its requests, or the expectations of its replies, from the replies of
-//! earlier ones. And the clauses that define a function.
+//! The chains of functions, and the clauses that define a function. A function takes its requests, or the
+//! expectations of its replies, from the replies of earlier ones in its chain.
 
 use std::collections::HashSet;
 
+use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 
-/// The functions whose answers the requests of `function`, or the expectations of its answer, are taken
+/// The functions whose replies the requests of `function`, or the expectations of its reply, are taken
 /// from.
 const fn sources(function: Function) -> &'static [Function] {
     use Function::*;
@@ -37,7 +38,7 @@ pub(super) fn before(function: Function) -> HashSet<Function> {
     all
 }
 
-/// Whether the requests or expectations of `function` depend on the answers of `earlier`.
+/// Whether the requests or expectations of `function` depend on the replies of `earlier`.
 pub(crate) fn follows(function: Function, earlier: Function) -> bool {
     before(function).contains(&earlier)
 }
@@ -51,15 +52,17 @@ pub(super) fn origin(function: Function) -> Function {
     first
 }
 
+/// The clauses of a stream and its fields.
+pub(crate) fn clauses_of(stream: Stream) -> impl Iterator<Item = &'static str> {
+    let layout = stream.layout();
+    layout.fields.iter().map(|field| field.clause).chain([layout.clause])
+}
+
 /// Whether the clause defines the function, or a field of its request or reply.
 pub(super) fn defines(clause: &str, function: Function) -> bool {
     let spec = function.spec();
-    let streams = [spec.request, spec.reply].into_iter().flatten();
-    spec.clause == clause
-        || streams.into_iter().any(|stream| {
-            let mut fields = stream.fields().filter_map(|field| field.spec());
-            stream.layout().clause == clause || fields.any(|field| field.clause == clause)
-        })
+    let mut streams = [spec.request, spec.reply].into_iter().flatten();
+    spec.clause == clause || streams.any(|stream| clauses_of(stream).any(|one| one == clause))
 }
 
 /// Whether only functions have the clause, so that a failure of it shows a function broken.

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirements;
@@ -11,7 +10,7 @@ use ads_cnc_vectors::requirements;
 use super::observation::Observation;
 use crate::judge::{
     Body, Case, CaseOutcome, CaseSubject, Checks, Describe, Evidence, Needs, Record, Rule, Rules,
-    Stop, Verdict,
+    Stop, Verdict, clauses_of,
 };
 
 /// Declares [`Topic`].
@@ -146,17 +145,11 @@ fn of_area(area: &str, subject: CaseSubject, also: Vec<&'static str>) -> Vec<&'s
         }
         let stream = if subject == CaseSubject::CapturedClient { spec.request } else { spec.reply };
         all.push(spec.clause);
-        all.extend(stream.into_iter().flat_map(clauses));
+        all.extend(stream.into_iter().flat_map(clauses_of));
     }
     // Only IDs of the catalogue, in its order.
     let all: BTreeSet<&str> = all.into_iter().collect();
     requirements().iter().filter_map(|known| all.get(known.id.as_str()).copied()).collect()
-}
-
-/// The requirements of a stream and its fields.
-fn clauses(stream: Stream) -> impl Iterator<Item = &'static str> {
-    let layout = stream.layout();
-    layout.fields.iter().map(|field| field.clause).chain([layout.clause])
 }
 
 /// The records of all topics.

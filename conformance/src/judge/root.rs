@@ -1,0 +1,148 @@
+//! The checks that can be the cause of other failures.
+
+use std::collections::HashSet;
+
+use ads_cnc::operation::Function;
+
+use super::chain::{before, defines, is_of_functions};
+use super::{Case, CaseOutcome, CaseSubject, Judgement, Verdict};
+
+pub(super) const fn is_broken(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Fail | Verdict::Vacuous)
+}
+
+/// Whether a case judges replies of a device.
+pub(super) fn is_of_device(case: &Case) -> bool {
+    matches!(case.subject, CaseSubject::Target | CaseSubject::CapturedCnc)
+}
+
+/// The broken checks of a device.
+pub(super) fn broken(outcomes: &[CaseOutcome]) -> impl Iterator<Item = Check<'_>> {
+    outcomes.iter().filter(|outcome| is_of_device(&outcome.case)).flat_map(|outcome| {
+        let judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
+        let broken = judged.filter(|one| is_broken(one.verdict));
+        broken.map(|judgement| Check { case: &outcome.case, judgement })
+    })
+}
+
+/// A broken check.
+#[derive(Clone, Copy)]
+pub(super) struct Check<'a> {
+    pub(super) case: &'a Case,
+    pub(super) judgement: &'a Judgement,
+}
+
+impl<'a> Check<'a> {
+    pub(super) const fn clause(self) -> &'static str {
+        self.judgement.requirement
+    }
+
+    pub(super) fn function(self) -> Option<Function> {
+        self.judgement.evidence.as_ref().and_then(|evidence| evidence.function)
+    }
+
+    /// The variable or object of the first failure.
+    fn first_subject(self) -> Option<&'a str> {
+        self.judgement.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref())
+    }
+
+    /// The variable or object; `None` for several, or for none in particular. Failures that are not stored
+    /// are about others.
+    fn subject(self) -> Option<&'a str> {
+        self.first_subject().filter(|_| self.judgement.more == 0)
+    }
+
+    /// The functions whose replies the check compares.
+    pub(super) fn compared(self) -> &'a [Function] {
+        self.judgement.evidence.as_ref().map_or(&[], |evidence| &evidence.compared)
+    }
+
+    /// Whether this check can explain all failures of the other one by its subject: one of them may be
+    /// about all.
+    pub(super) fn is_about_all_of(self, other: Self) -> bool {
+        match (self.subject(), other.first_subject()) {
+            (Some(_), _) if other.judgement.more > 0 => false,
+            (Some(one), Some(other)) => one == other,
+            _ => true,
+        }
+    }
+
+    /// Whether the two can have the same subject.
+    fn may_share_subject(self, other: Self) -> bool {
+        let (one, other) = (self.subject(), other.subject());
+        one.is_none() || other.is_none() || one == other
+    }
+
+    /// Whether both are the same check, by other clauses.
+    pub(super) fn is_same_as(self, other: Self) -> bool {
+        let (one, two) = (self.judgement, other.judgement);
+        self.case.id == other.case.id && one.expected == two.expected && one.found == two.found
+    }
+}
+
+/// A broken check of a function by a clause that defines it, with no broken one before it.
+#[derive(Clone, Copy)]
+pub(super) struct Root<'a> {
+    pub(super) function: Function,
+    pub(super) check: Check<'a>,
+}
+
+impl<'a> Root<'a> {
+    fn of(check: Check<'a>) -> Option<Self> {
+        let (clause, function) = (check.clause(), check.function()?);
+        let is_root = is_of_functions(clause) && defines(clause, function);
+        is_root.then_some(Self { function, check })
+    }
+
+    /// Whether it is about several variables, one of them not of the Service Interface.
+    pub(super) fn is_not_of_services(&self) -> bool {
+        let is_other = |name: &str| !name.contains(".SERVICE.");
+        self.check.judgement.more > 0 && self.check.first_subject().is_some_and(is_other)
+    }
+
+    /// Whether it can explain a check of a later function: not if a request was accepted that must be
+    /// rejected, nor if it compares more replies than that check.
+    pub(super) fn explains_later(&self, check: Check<'_>) -> bool {
+        let evidence = self.check.judgement.evidence.as_ref();
+        !evidence.is_some_and(|evidence| evidence.is_rejection)
+            && self.check.compared().len() <= check.compared().len().max(1)
+    }
+
+    /// Whether a check that compares several replies fails because the function of this one is broken, which
+    /// this one shows by fewer replies.
+    pub(super) fn explains_comparison(&self, check: Check<'_>) -> bool {
+        let (mine, compared) = (self.check.compared(), check.compared());
+        let mut homes = before(self.function);
+        homes.insert(self.function);
+        mine.len() < compared.len()
+            && compared.contains(&self.function)
+            && mine.iter().all(|function| compared.contains(function))
+            && is_of_functions(check.clause())
+            && !homes.into_iter().any(|home| defines(check.clause(), home))
+    }
+}
+
+/// The roots of all failures.
+pub(super) fn roots<'a>(broken: &[Check<'a>]) -> Vec<Root<'a>> {
+    let mut all: Vec<Root<'_>> = broken.iter().filter_map(|check| Root::of(*check)).collect();
+    // Only a check that compares fewer replies explains a comparison.
+    all.sort_by_key(|root| root.check.compared().len());
+    let mut simplest: Vec<Root<'_>> = Vec::new();
+    for root in all {
+        let explains = |other: &Root<'_>| {
+            other.explains_comparison(root.check) && other.check.may_share_subject(root.check)
+        };
+        if !simplest.iter().any(explains) {
+            simplest.push(root);
+        }
+    }
+    let is_first = |root: &&Root<'_>| {
+        let before: HashSet<Function> = before(root.function);
+        !simplest.iter().any(|other| {
+            before.contains(&other.function)
+                && other.explains_later(root.check)
+                && other.check.may_share_subject(root.check)
+        })
+    };
+    simplest.iter().filter(is_first).copied().collect()
+}
