@@ -13,8 +13,7 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// A deadline after this time from now; if it is beyond the range of the clock, there is no
-    /// deadline.
+    /// The deadline after this time from now. A time that the clock cannot represent sets no deadline.
     pub fn after(time: Duration) -> Self {
         Self { at: Instant::now().checked_add(time), after: time }
     }

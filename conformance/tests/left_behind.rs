@@ -1,4 +1,4 @@
-//! An interrupted run leaves no process of a testee or a client behind.
+//! An interrupted run terminates all processes of its testee or client.
 
 #![cfg(unix)]
 

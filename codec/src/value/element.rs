@@ -172,7 +172,7 @@ impl<'a> Elements<'a> {
         to_usize(self.shape.count())
     }
 
-    /// Returns `true` if there are no elements, because a dimension is 0.
+    /// Whether the array is empty: one of its dimensions is 0.
     pub fn is_empty(&self) -> bool {
         self.shape.count() == 0
     }

@@ -28,7 +28,7 @@ pub enum ExplainSubject {
     Stream(Stream),
     /// Data of a request to this address, or of its reply.
     Place(ServiceAddress),
-    /// Only the address is explained; there are no bytes.
+    /// An address without data.
     Address(ServiceAddress),
     /// Consecutive AMS/TCP frames, and the address for replies whose request is missing.
     Frames(Option<ServiceAddress>),

@@ -104,9 +104,8 @@ fn differences(now: &Report, before: &Report) -> Vec<String> {
 }
 
 /// Writes the changes since an earlier report, new failures last; if quiet, only their numbers. Returns
-/// the exit code:
-/// [`Exit::Failure`] for a new failure, otherwise [`Exit::Nothing`] if a requirement is no longer
-/// judged.
+/// [`Exit::Failure`] if a requirement newly fails, else [`Exit::Nothing`] if one is no longer judged, else
+/// [`Exit::Success`].
 pub fn compare(
     now: &Report,
     before: &Report,

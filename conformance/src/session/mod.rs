@@ -281,7 +281,7 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If there is no valid reply; the command is optional.
+    /// If the CNC sends no valid reply: a CNC need not support the command.
     pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, ToolError> {
         self.inquire(task)
     }
@@ -301,7 +301,7 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If there is no valid reply; the command is optional.
+    /// If the CNC sends no valid reply: a CNC need not support the command.
     pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, ToolError> {
         self.inquire(task)
     }

@@ -174,8 +174,7 @@ impl TrafficJudge {
             (Some(now), Some(then)) => now.since(then),
             _ => return,
         };
-        // A missing reply is no fault if the CNC's side or the rest of the connection was not
-        // captured.
+        // A missing reply fails only if the capture has the CNC's side and the rest of the connection.
         let followed = ending.unseen.is_none() && ending.last > packet;
         if waited > REPLY_TIMEOUT && !lost.joined && followed {
             let rule = service_clause(asked.header.command);
