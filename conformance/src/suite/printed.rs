@@ -62,16 +62,16 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     let received = exchange.success();
     let found = received.map_or_else(|| exchange.result(), |bytes| Hex(bytes.to_vec()).to_string());
     let wrong = wrong_requirements(reply, stream, &expected, received);
-    for id in reply.cited().into_iter().map(|one| one.id.as_str()) {
-        // A target that claims the printed examples is judged at the level of the example.
-        let rule = Rule { id, level: Some(reply.level()) };
-        let passed = match received {
-            Some(bytes) if bytes != expected => !wrong.contains(&id),
-            received => received.is_some(),
-        };
-        let printed = || format!("{} as printed", spaced(&expected));
-        probe.check_reply(rule, passed, &expected, printed, &found);
-    }
+    // A target that claims the printed examples is judged at the level of the example.
+    let level = Some(reply.level());
+    let rules = reply.cited().into_iter().map(|one| Rule { id: one.id.as_str(), level });
+    let (failed, passed): (Vec<Rule>, Vec<Rule>) = rules.partition(|rule| match received {
+        Some(bytes) => bytes != expected && wrong.contains(&rule.id),
+        None => true,
+    });
+    let printed = || format!("{} as printed", spaced(&expected));
+    probe.check_reply(&passed, true, &expected, printed, &found);
+    probe.check_reply(&failed, false, &expected, printed, &found);
     Ok(())
 }
 

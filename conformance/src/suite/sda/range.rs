@@ -104,7 +104,13 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
     // An axis place exists with or without an axis.
     for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
         for class in OF_PLACES {
-            is_there(probe, &[of_axes(class, SDA_5)], class, channel, place)?;
+            // If the first channel is not found either, the group of the class may be wrong.
+            let first = numbers.first().copied().unwrap_or(channel);
+            let first = probe.address_of(class, first, 0)?;
+            let has_group = first.is_some_and(|first| matches!(first.first_element(), Ok(Some(_))));
+            let clauses = if has_group { &[SDA_5][..] } else { &[SDA_5, ADR_5] };
+            let rules: Vec<Rule> = clauses.iter().map(|id| of_axes(class, *id)).collect();
+            is_there(probe, &rules, class, channel, place)?;
         }
     }
     let axes = probe.target.profile.platform_axes;
