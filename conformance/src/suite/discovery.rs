@@ -137,7 +137,7 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
 /// Approximate number of requests that the cases send for a channel, independent of its lists.
 const PER_CHANNEL: u64 = 2_000;
 
-/// Approximate number of requests that the cases send for a list; `tests/large.rs` compares the sum
+/// Approximate number of requests that the cases send for a list; `tests/library/large.rs` compares the sum
 /// with the number of requests sent.
 fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     let (list, item) = match kind {

@@ -1,0 +1,237 @@
+//! Clients as processes: running for the whole run or started for each action, crashing, hanging, or
+//! connecting by themselves.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::process::{Command, Output, Stdio};
+
+use crate::common::connect;
+use crate::common::file::TestFile;
+use serde_json::Value;
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+/// The report of a run of this project's client, with its exit code.
+fn run(options: &str, args: &[&str]) -> (Option<i32>, Value) {
+    let client = format!("\"{}\" client {options}", env!("CARGO_BIN_EXE_ads-cnc"));
+    let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"], args].concat());
+    let report = serde_json::from_slice(&output.stdout).unwrap_or_else(|error| {
+        panic!("{error}: {}", String::from_utf8_lossy(&output.stderr));
+    });
+    (output.status.code(), report)
+}
+
+/// The failures of a case: requirement, found result, last received bytes.
+fn failures(report: &Value, id: &str) -> Vec<(String, String, Value)> {
+    let cases = report["cases"].as_array().unwrap();
+    let case = cases.iter().find(|case| case["id"] == id).unwrap();
+    let failed = case["failures"].as_array().into_iter().flatten();
+    let text = |value: &Value| value.as_str().unwrap().to_owned();
+    failed
+        .filter(|one| one["verdict"] == "fail")
+        .map(|one| (text(&one["requirement"]), text(&one["found"]), one["evidence"].clone()))
+        .collect()
+}
+
+#[test]
+fn a_running_client_passes_everything() {
+    let (code, report) = run("", &[]);
+    assert_eq!(code, Some(0), "{report:#}");
+    assert_eq!(report["target"]["name"], "ads-cnc");
+    assert_eq!(report["target"]["language"], "Rust");
+    assert_eq!(report["subjects"][0]["subject"], "client");
+    assert!(report["frames"].as_u64().unwrap() > 200);
+}
+
+/// A client that does not answer hello, or misspells an action in its answer, is reported in a few
+/// lines.
+#[test]
+fn a_failed_start_is_reported_briefly() {
+    let hello = r#"{"protocol":1,"client":{"name":"x"},"actions":["read-by-nam"]}"#;
+    for (option, command, parts) in [
+        ("--client", format!("echo '{hello}'"), ["\"read-by-nam\"", "did you mean read-by-name"]),
+        (
+            "--client",
+            "echo gone >&2; exit 7".to_owned(),
+            ["exit status: 7", "its stderr ends with: \"gone\""],
+        ),
+        ("--testee", "echo gone >&2; exit 7".to_owned(), ["exit status: 7", "--check-protocol"]),
+    ] {
+        let output = ads_cnc(&["run", option, &command]);
+        let shown = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{shown}");
+        assert!(parts.iter().all(|part| shown.contains(part)), "{shown}");
+        assert!(shown.lines().count() <= 8, "{shown}");
+    }
+    // Only the protocol of testees can be checked step by step.
+    let output = ads_cnc(&["run", "--client", "exit 7", "--check-protocol"]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+}
+
+#[test]
+fn a_client_started_for_each_action_passes() {
+    let (code, report) = run("--once", &["--only", "VAR-14", "--only", "STM"]);
+    assert_eq!(code, Some(0), "{report:#}");
+    assert!(report["cases"].as_array().unwrap().len() > 30);
+}
+
+/// A crash is reported with the bytes that caused it, and the run continues.
+#[test]
+fn a_crash_is_reported_with_its_bytes() {
+    for options in ["--defect client.dies", "--once --defect client.dies"] {
+        let (code, report) = run(options, &["--only", "ADS-3"]);
+        assert_eq!(code, Some(1));
+        let failed = failures(&report, "client-name-data-length-huge");
+        let (_, found, evidence) = failed.iter().find(|(id, ..)| id == "ADS-3").unwrap();
+        assert!(found.starts_with("it died: "), "{found}");
+        let bytes = evidence["frame_received"].as_str().unwrap();
+        assert!(bytes.contains("ff ff ff ff"), "{evidence:#}");
+        let others = report["cases"].as_array().unwrap().iter();
+        assert!(others.filter(|case| case["verdict"] == "pass").count() > 50);
+    }
+}
+
+/// The traffic of a client is captured, and `check` detects the same error.
+#[test]
+fn the_traffic_of_a_client_is_captured() {
+    let file = TestFile::new(".pcapng", b"");
+    let only = ["--only", "client-handle", "--capture", file.path()];
+    let (code, report) = run("--defect client.port", &only);
+    assert_eq!(code, Some(1), "{report:#}");
+    let checked = ads_cnc(&["check", file.path(), "--any-port", "--json", "-"]);
+    let report: Value = serde_json::from_slice(&checked.stdout).unwrap();
+    let cases = report["cases"].as_array().unwrap().iter();
+    let found = cases.flat_map(|case| case["failures"].as_array().into_iter().flatten());
+    let mut found = found.map(|failure| failure["requirement"].as_str().unwrap());
+    assert!(found.any(|id| id == "GEN-4"), "{report:#}");
+}
+
+/// An answer that violates the protocol fails only the requirement of the protocol.
+#[test]
+fn an_invalid_answer_fails_only_the_protocol() {
+    let (code, report) = run("--defect client.garbles", &["--only", "VAR-14"]);
+    assert_eq!(code, Some(1), "{report:#}");
+    let cases = report["cases"].as_array().unwrap().iter();
+    let all = cases.flat_map(|case| case["failures"].as_array().into_iter().flatten());
+    let failed: Vec<&Value> = all.filter(|one| one["verdict"] == "fail").collect();
+    assert!(!failed.is_empty());
+    assert!(failed.iter().all(|one| one["requirement"] == "CLIENT"), "{failed:#?}");
+}
+
+/// A wrong result follows from a request to the wrong port.
+#[test]
+fn a_result_follows_from_the_request() {
+    let (_, report) = run("--defect client.port", &["--only", "client-read-real"]);
+    let failed = failures(&report, "client-read-real");
+    let ids: Vec<&str> = failed.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(ids[..1], ["GEN-4"], "{report:#}");
+    let case = &report["cases"].as_array().unwrap()[0];
+    let real = case["requirements"].as_array().unwrap().iter();
+    let mut real = real.filter(|one| one["requirement"] == "GEN-1");
+    assert_eq!(real.next().unwrap()["verdict"], "inconclusive", "{case:#}");
+}
+
+#[test]
+fn a_hanging_client_is_reported_and_ended() {
+    let (code, report) = run(
+        "--defect client.hangs",
+        &[
+            "--only",
+            "client-name-silence",
+            "--only",
+            "client-name-more",
+            "--client-timeout",
+            "1500",
+        ],
+    );
+    assert_eq!(code, Some(1));
+    let failed = failures(&report, "client-name-silence");
+    assert!(failed.iter().any(|(id, found, _)| id == "CLIENT" && found.starts_with("it hung")));
+    assert!(failures(&report, "client-name-more").is_empty());
+}
+
+/// Starting may take longer than the time limit of an action.
+#[cfg(unix)]
+#[test]
+fn hello_has_time_to_start() {
+    let client = format!("sleep 2; exec \"{}\" client", env!("CARGO_BIN_EXE_ads-cnc"));
+    let only = ["--only", "client-name-more", "--client-timeout", "1500"];
+    let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"][..], &only].concat());
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{report:#}");
+}
+
+/// Two lines are not an answer, for either kind of client.
+#[cfg(unix)]
+#[test]
+fn a_second_line_is_reported() {
+    let told = |stays: bool, said: &str| {
+        let hello = format!(
+            r#"{{"protocol":1,"client":{{"name":"sh"}},"actions":["read-by-name"],"stays":{stays}}}"#
+        );
+        let hello = format!("printf '%s\\n' '{hello}'");
+        let client = match stays {
+            true => format!("{hello}; while read l; do test \"$l\" = '{BYE}' || {said}; done"),
+            false => format!("test $ADS_CNC_DO = hello && {hello} || {said}"),
+        };
+        let only = ["--only", "client-name-more", "--only", "client-name-closed"];
+        let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"][..], &only].concat());
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let failed = failures(&report, "client-manners").into_iter();
+        failed.map(|(_, found, _)| found).collect::<Vec<_>>()
+    };
+    let [one, two] = ["echo '{\"error\":\"x\"}'", "printf '{\"error\":\"x\"}\\nmore\\n'"];
+    for stays in [false, true] {
+        assert_eq!(told(stays, one), [""; 0], "stays: {stays}");
+        assert_eq!(told(stays, two), ["the additional line \"more\""; 2], "stays: {stays}");
+    }
+}
+
+/// The message that tells a running client to end.
+#[cfg(unix)]
+const BYE: &str = r#"{"cmd":"bye"}"#;
+
+#[test]
+fn a_missing_answer_fails_only_the_protocol() {
+    let output = ads_cnc(&["run", "--client", "no-such-client-anywhere", "--json", "-"]);
+    assert_eq!(output.status.code(), Some(1));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let failed = failures(&report, "client-manners");
+    assert_eq!(failed.len(), 1, "{report:#}");
+    assert_eq!(ads_cnc(&["run", "--client", "x", "--target", "y"]).status.code(), Some(2));
+    assert_eq!(ads_cnc(&["run", "--client", "x", "--only", "VRA"]).status.code(), Some(2));
+}
+
+/// A client that connects by itself is judged by its requests.
+#[test]
+fn a_connecting_client_is_judged() {
+    let listen = |request: &[u8]| {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args(["run", "--client-listen", "127.0.0.1:0", "--json", "-"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(process.stderr.take().unwrap()).read_line(&mut line).unwrap();
+        let addr = line.split([' ', ',']).find(|word| word.starts_with("127.0.0.1:")).unwrap();
+        let mut stream = connect(addr.parse().unwrap());
+        stream.write_all(request).unwrap();
+        stream.read_exact(&mut [0; 38]).unwrap();
+        drop(stream);
+        let output = process.wait_with_output().unwrap();
+        (output.status.code(), serde_json::from_slice::<Value>(&output.stdout).unwrap())
+    };
+    let mut request =
+        vec![0, 0, 44, 0, 0, 0, 127, 0, 0, 1, 1, 1, 0x29, 2, 10, 0, 0, 9, 1, 1, 0, 0x80];
+    request.extend([2, 0, 4, 0, 12, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]);
+    request.extend([1, 1, 0x13, 0, 0, 0, 0, 0, 4, 0, 0, 0]);
+    let (code, report) = listen(&request);
+    assert_eq!(code, Some(0), "{report:#}");
+    // The same request to the port of another task.
+    request[12] = 0x28;
+    let (code, report) = listen(&request);
+    assert_eq!(code, Some(1));
+    assert_eq!(failures(&report, "client-requests")[0].0, "GEN-4");
+}

@@ -1,0 +1,95 @@
+//! The manuals do not state whether SDA or GEO has a class: if one task does not have it, the tools
+//! query the other.
+
+use std::net::SocketAddr;
+use std::process::{Command, Output};
+
+use crate::common::fake::{Reaction, reacting};
+use ads_cnc::Encode as _;
+use ads_cnc::address::{Class, Group};
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, ReadWriteReplyRef};
+use ads_cnc::operation::Call;
+use ads_cnc_conformance::simulator::{Cnc, NET_ID};
+
+/// The task that has the position controller.
+#[derive(Clone, Copy, Debug)]
+enum Only {
+    /// GEO; SDA rejects it.
+    Geo,
+    /// No task; the port of GEO does not exist.
+    Nobody,
+}
+
+fn cnc(only: Only) -> SocketAddr {
+    let cnc = Cnc::with_default_model().unwrap();
+    reacting(move |frame| {
+        let call = Call::from_frame(frame).unwrap().unwrap();
+        let of_class = match call.index_group.parts() {
+            Some(Group::Class(group)) => group.class == Class::PositionController,
+            _ => false,
+        };
+        Reaction::Send(match (only, call.port) {
+            (Only::Nobody, AmsPort::GEO) => {
+                to(frame.header(), AdsError::TARGET_PORT_NOT_FOUND, &[])
+            }
+            (_, AmsPort::SDA) if of_class => {
+                let result = AdsError::INVALID_GROUP;
+                let reply = ReadWriteReplyRef { result, data: None }.encode_to_vec().unwrap();
+                to(frame.header(), AdsError::NO_ERROR, &reply)
+            }
+            _ => {
+                let mut answer = Vec::new();
+                cnc.respond(NET_ID, frame, &mut answer);
+                answer
+            }
+        })
+    })
+}
+
+/// The reply to a request.
+fn to(asked: AmsHeader, error: AdsError, data: &[u8]) -> Vec<u8> {
+    let header = AmsHeader { error, ..asked.response() };
+    FrameRef::new(header, data).unwrap().encode_to_vec().unwrap()
+}
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+fn call(addr: SocketAddr, args: &[&str]) -> Output {
+    ads_cnc(&[args, &["--target", &addr.to_string(), "--net-id", "127.0.0.1.1.1"]].concat())
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+#[test]
+fn classes_missing_at_sda_are_found_at_geo() {
+    let addr = cnc(Only::Geo);
+    let found = call(addr, &["browse", "--content"]);
+    assert_eq!(text(&found.stdout), text(&ads_cnc(&["browse", "--content"]).stdout));
+    assert_eq!(text(&found.stderr), "ads-cnc: position controller: served by the GEO task\n");
+
+    let place = ["example.gain", "--of", "position controller axis 2"];
+    let value = call(addr, &[&["get", "--json"], &place[..]].concat());
+    assert_eq!(value.status.code(), Some(0), "{}", text(&value.stderr));
+    let value: serde_json::Value = serde_json::from_slice(&value.stdout).unwrap();
+    let object = &value["objects"][0];
+    assert_eq!((&object["port"], &object["value"]), (&551.into(), &33.5.into()));
+
+    // No entry allows writes to GEO.
+    let set = call(addr, &[&["set"], &place[..], &["1"]].concat());
+    let why = text(&set.stderr);
+    assert_eq!(set.status.code(), Some(4), "{why}");
+    assert!(why.contains("\"write element content\" is not sent to port 551"), "{why}");
+}
+
+#[test]
+fn geo_is_optional() {
+    let found = call(cnc(Only::Nobody), &["browse", "--of", "*controller*"]);
+    assert_eq!(found.status.code(), Some(3));
+    let said = text(&found.stderr);
+    assert!(said.contains("position controller: the SDA task has no instance\n"), "{said}");
+    assert!(said.contains("the GEO task could not be queried: AMS error 0x6. "), "{said}");
+}

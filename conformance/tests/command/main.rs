@@ -1,0 +1,34 @@
+//! Tests that run the built command, or connect to it. They are one program, because linking takes longer than most of them.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../kept/mod.rs"]
+mod kept;
+
+mod ads_client;
+mod capture;
+mod client_process;
+mod commands;
+mod completions;
+mod explain;
+mod gate;
+mod geo;
+mod hostile;
+mod interrupt;
+mod left_behind;
+mod model;
+mod named_only;
+mod permission;
+mod profile;
+mod reports;
+mod run;
+mod select;
+mod selftest;
+mod serve;
+mod service;
+mod session;
+mod stream;
+mod testee;
+mod tools;
+mod traffic;
+mod tripwire;

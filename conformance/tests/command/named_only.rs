@@ -1,0 +1,445 @@
+//! Only values in the file for `--allow-write` are written, whatever handles and addresses the device
+//! returns. The log of the simulated CNC, after its defect, counts the writes.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, BufRead as _, BufReader, Read as _, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::process::{Command, Output};
+use std::sync::{Arc, Mutex};
+use std::thread::{self, JoinHandle};
+
+use crate::common::file::TestFile;
+use crate::common::harmless::number;
+use crate::common::{Serve, connect};
+use ads_cnc_conformance::client::{Client, Target};
+use ads_cnc_conformance::faults::{self, Faulty, Seed};
+use ads_cnc_conformance::gate::{Allowed, Gate};
+use ads_cnc_conformance::judge::Selection;
+use ads_cnc_conformance::net;
+use ads_cnc_conformance::profile::Profile;
+use ads_cnc_conformance::simulator::{Cnc, LocalCnc, NET_ID};
+use ads_cnc_conformance::suite;
+
+/// A simulated CNC, and a thread that reads its log.
+struct Logged {
+    serve: Serve,
+    log: JoinHandle<Vec<String>>,
+}
+
+impl Logged {
+    fn start(options: &[&str]) -> Self {
+        let log = ["--log", "ads_cnc_conformance::simulator=debug"];
+        let mut serve = Serve::logging(&[&log[..], options].concat());
+        let stderr = BufReader::new(serve.process.stderr.take().unwrap());
+        let writes = |line: &String| line.contains("write to a ");
+        let log =
+            thread::spawn(move || stderr.lines().map_while(Result::ok).filter(writes).collect());
+        Self { serve, log }
+    }
+
+    /// The number of writes to each variable, parameter and content.
+    fn end(self) -> BTreeMap<String, usize> {
+        drop(self.serve);
+        let mut writes = BTreeMap::new();
+        for line in self.log.join().unwrap() {
+            let (_, what) = line.split_once("write to a ").unwrap();
+            *writes.entry(what.to_owned()).or_default() += 1;
+        }
+        writes
+    }
+}
+
+/// Runs the cases that write, with this file.
+fn run(addr: &str, file: &TestFile, cases: &[&str]) -> Output {
+    let only: Vec<&str> = cases.iter().flat_map(|case| ["--only", case]).collect();
+    let target = ["--target", addr, "--net-id", "127.0.0.1.1.1", "--timeout", "500"];
+    let allow = ["--seed", "1", "--allow-write", file.path()];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    command.arg("run").args(target).args(allow).args(only).output().unwrap()
+}
+
+/// A file with one entry, the entry as it appears in the log, and the cases that write such values.
+struct Named {
+    table: &'static str,
+    log: &'static str,
+    cases: &'static [&'static str],
+}
+
+const VARIABLE: Named = Named {
+    table: "[[variable]]\nchannel = 1\nname = \"V.E.Variable_1\"\n",
+    log: "variable channel=1 name=V.E.Variable_1",
+    cases: &["write-by-handle", "write-by-name"],
+};
+const ARRAY: Named = Named {
+    table: "[[variable]]\nchannel = 1\nname = \"V.E.test\"\n",
+    log: "variable channel=1 name=V.E.test",
+    cases: &["write-by-handle", "write-elements-by-handle"],
+};
+const OBJECT: Named = Named {
+    table: "[[object]]\nchannel = 1\nname = \"example_subroutine_w\"\n",
+    log: "content name=example_subroutine_w owner=Channel(0)",
+    cases: &["write-objects", "write-objects-by-index"],
+};
+
+/// Runs against a CNC with this defect: the number of writes to the named value, and the writes to
+/// others.
+fn tried(defect: &str, named: &Named) -> (usize, BTreeMap<String, usize>) {
+    let cnc = Logged::start(&["--defect", defect]);
+    let file = TestFile::allowing(named.table);
+    let output = run(&cnc.serve.addr, &file, named.cases);
+    // A CNC that writes wrongly may be left changed, which is exit code 6.
+    assert!(matches!(output.status.code(), Some(0..=4 | 6)), "{defect}: {output:?}");
+    let mut writes = cnc.end();
+    (writes.remove(named.log).unwrap_or(0), writes)
+}
+
+/// Tries defects; returns the writes to values that are not named, and the number of defects with
+/// writes to the named value.
+fn all(defects: Vec<(&'static str, &'static Named)>) -> (BTreeMap<String, usize>, usize) {
+    let (queue, found) = (Mutex::new(defects.into_iter()), Mutex::new((BTreeMap::new(), 0)));
+    thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().unwrap().next();
+                    let Some((id, named)) = next else { break };
+                    let (count, others) = tried(id, named);
+                    let mut found = found.lock().unwrap();
+                    found.1 += usize::from(count > 0);
+                    for (what, count) in others {
+                        found.0.insert(format!("{id}: {what}"), count);
+                    }
+                }
+            });
+        }
+    });
+    found.into_inner().unwrap()
+}
+
+fn seeds(is: impl Fn(&str) -> bool, named: &'static Named) -> Vec<(&'static str, &'static Named)> {
+    let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc() && is(&seed.id));
+    seeds.map(|seed| (seed.id.as_str(), named)).collect()
+}
+
+/// Every defect of handles: returned by name, described, stored and interpreted.
+#[test]
+fn wrong_handles_write_nothing_else() {
+    let is = |id: &str| id.contains("handle");
+    let of_array = |id: &str| is(id) && id.starts_with("cnc.");
+    let defects = [seeds(is, &VARIABLE), seeds(of_array, &ARRAY)].concat();
+    assert!(defects.len() > 50, "{}", defects.len());
+    let (mut others, written) = all(defects);
+    // This defect returns correct handles, but interprets the handle of a write as another one.
+    let misread = "variable-handle-write.handle.flip: variable channel=1 name=V.E.Variable_2";
+    assert!(others.remove(misread).is_some_and(|count| count < 3), "{others:?}");
+    assert!(others.is_empty(), "{others:#?}");
+    assert!(written > 40, "{written}");
+}
+
+/// Every defect of descriptors of objects, of their lists and of addresses, except those that execute
+/// an allowed write elsewhere.
+#[test]
+fn wrong_addresses_write_nothing_else() {
+    let is = |id: &str| {
+        let of_fields = ["object-descriptor.", "object-count."];
+        let of_functions = ["count-objects.", "read-descriptors.", "cnc.com.", "cnc.adr."];
+        of_fields.iter().chain(&of_functions).any(|start| id.starts_with(start))
+    };
+    let defects = seeds(is, &OBJECT);
+    assert!(defects.len() > 110, "{}", defects.len());
+    let (others, written) = all(defects);
+    assert!(others.is_empty(), "{others:#?}");
+    assert!(written > 60, "{written}");
+}
+
+/// The log of a simulated CNC in this process.
+#[derive(Clone, Default)]
+struct Lines(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Lines {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.lock().unwrap().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The writes in the log of a CNC of this process with this defect.
+fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
+    let lines = Lines::default();
+    let writer = lines.clone();
+    let log = tracing_subscriber::fmt()
+        .with_max_level(tracing::Level::DEBUG)
+        .with_ansi(false)
+        .with_writer(move || writer.clone())
+        .finish();
+    tracing::subscriber::with_default(log, || {
+        let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
+        let cnc = Arc::new(Faulty::new(cnc, Some(seed)));
+        let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
+        let allowed = Allowed::from_toml(&format!("{head}{}", named.table)).unwrap();
+        let gate = Gate::queries().with_allowed(Some(allowed));
+        let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
+        let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID)).unwrap();
+        let mut session = suite::TargetState::new(client, Profile::DEVICE);
+        let only = named.cases.iter().map(|case| (*case).to_owned()).collect();
+        let plan = Selection { only, ..Selection::default() }.plan(suite::cases(), 1).unwrap();
+        suite::run(plan.cases, Some(&mut session), None, 1);
+    });
+    let lines = String::from_utf8(lines.0.lock().unwrap().clone()).unwrap();
+    lines.lines().filter_map(|line| Some(line.split_once("write to a ")?.1.to_owned())).collect()
+}
+
+/// The only defects that write values that the file does not name: they return correct handles and
+/// addresses, but interpret those of an allowed write as others.
+const MISREAD: [&str; 3] = [
+    "variable-handle-write.handle.flip",
+    "write-request.data.flip",
+    "write-request.index_offset.flip",
+];
+
+/// Every defect of the CNC, in this process.
+#[test]
+fn no_other_defect_writes_other_values() {
+    let seeds: Vec<_> = faults::all().iter().filter(|seed| seed.is_for_cnc()).collect();
+    assert!(seeds.len() > 900, "{}", seeds.len());
+    let queue = Mutex::new(seeds.into_iter());
+    let found = Mutex::new((BTreeMap::new(), 0));
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(2, usize::from) {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().unwrap().next();
+                    let Some(seed) = next else { break };
+                    for named in [&VARIABLE, &OBJECT] {
+                        let mut writes = written(seed, named);
+                        let is_written = writes.remove(named.log);
+                        let mut found = found.lock().unwrap();
+                        found.1 += usize::from(is_written);
+                        if !writes.is_empty() {
+                            found.0.insert(seed.id.as_str(), writes);
+                        }
+                    }
+                }
+            });
+        }
+    });
+    let (others, written) = found.into_inner().unwrap();
+    assert_eq!(others.keys().copied().collect::<Vec<_>>(), MISREAD, "{others:#?}");
+    assert!(written > 1200, "{written}");
+}
+
+/// Reads a complete frame; `None` if the connection ends.
+fn frame(stream: &mut TcpStream) -> Option<Vec<u8>> {
+    let mut frame = vec![0; 6];
+    stream.read_exact(&mut frame).ok()?;
+    frame.resize(6 + number(&frame, 2) as usize, 0);
+    stream.read_exact(&mut frame[6..]).ok()?;
+    Some(frame)
+}
+
+/// A device that replies like the CNC, except for the changes to replies.
+fn lying(cnc: &str, change: fn(&[u8], &mut [u8])) -> SocketAddr {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let (addr, cnc) = (listener.local_addr().unwrap(), cnc.parse().unwrap());
+    thread::spawn(move || {
+        for client in listener.incoming() {
+            let (mut client, mut cnc) = (client.unwrap(), connect(cnc));
+            thread::spawn(move || {
+                while let Some(request) = frame(&mut client) {
+                    cnc.write_all(&request).unwrap();
+                    let Some(mut reply) = frame(&mut cnc) else { break };
+                    change(&request, &mut reply);
+                    if client.write_all(&reply).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+    });
+    addr
+}
+
+/// The offset of the data of a reply, after the headers, the result and the length.
+const DATA: usize = 46;
+
+fn is_asked(request: &[u8], group: u32, offset: u32) -> bool {
+    request.len() >= 46 && (number(request, 38), number(request, 42)) == (group, offset)
+}
+
+fn put(reply: &mut [u8], at: usize, value: u32) {
+    if let Some(four) = reply.get_mut(at..at + 4) {
+        four.copy_from_slice(&value.to_le_bytes());
+    }
+}
+
+/// Returns the address of mc_command_single_block_w for example_subroutine_w.
+fn shares_an_address(request: &[u8], reply: &mut [u8]) {
+    if request.len() < 42 || number(request, 38) & !0x10_0000 != 0x3_0101 {
+        return;
+    }
+    let objects = reply.get_mut(DATA..).unwrap_or_default().chunks_exact_mut(84);
+    for object in objects.filter(|object| object[20..].starts_with(b"example_subroutine_w\0")) {
+        put(object, 16, 1);
+    }
+}
+
+/// The handle of V.E.Testvar in the simulated CNC.
+fn handle_of_another(cnc: &str) -> u32 {
+    let target = ["--target", cnc, "--net-id", "127.0.0.1.1.1"];
+    let get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["get", "V.E.Testvar"])
+        .args(target)
+        .output()
+        .unwrap();
+    let shown = String::from_utf8(get.stdout).unwrap();
+    let (_, handle) = shown.lines().next().unwrap().rsplit_once("handle 0x").unwrap();
+    u32::from_str_radix(handle, 16).unwrap()
+}
+
+const OTHER: u32 = 0x4040_0003;
+
+/// The device returns the handle of one variable for another name, for all names, and also in the
+/// descriptions by name.
+#[test]
+fn a_handle_of_another_variable_is_not_written() {
+    let every: fn(&[u8], &mut [u8]) = |request, reply| {
+        if is_asked(request, 0x12_2301, 0x46) {
+            put(reply, DATA, OTHER);
+        }
+    };
+    let one: fn(&[u8], &mut [u8]) = |request, reply| {
+        if is_asked(request, 0x12_2301, 0x46) && request.ends_with(b"V.E.test\0") {
+            put(reply, DATA, OTHER);
+        }
+    };
+    let described: fn(&[u8], &mut [u8]) = |request, reply| {
+        let by_name = [0x46, 0x4C].iter().any(|&offset| is_asked(request, 0x12_2301, offset));
+        if by_name && request.ends_with(b"V.E.test\0") {
+            put(reply, DATA, OTHER);
+        }
+    };
+    for change in [every, one, described] {
+        let cnc = Logged::start(&[]);
+        assert_eq!(handle_of_another(&cnc.serve.addr), OTHER);
+        let addr = lying(&cnc.serve.addr, change).to_string();
+        let file = TestFile::allowing(ARRAY.table);
+        let output = run(&addr, &file, &["write-by-handle", "write-elements-by-handle"]);
+        let shown = String::from_utf8(output.stdout).unwrap();
+        // The write is rejected for safety, without a verdict on the device.
+        assert_eq!(output.status.code(), Some(4), "{shown}");
+        assert!(shown.contains("which is not in the file"), "{shown}");
+        assert!(!shown.contains("FAIL"), "{shown}");
+        assert_eq!(cnc.end(), BTreeMap::new());
+
+        // A write by name is still allowed.
+        let cnc = Logged::start(&[]);
+        let addr = lying(&cnc.serve.addr, change).to_string();
+        run(&addr, &file, &["write-by-name"]);
+        let mut writes = cnc.end();
+        assert!(writes.remove(ARRAY.log).is_some_and(|count| count > 2), "{writes:?}");
+        assert_eq!(writes, BTreeMap::new());
+    }
+}
+
+/// On a new connection, the handle is confirmed again before the write that restores the value.
+#[test]
+fn a_lost_connection_leaves_nothing_changed() {
+    let cnc = Logged::start(&[]);
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let (addr, to) = (listener.local_addr().unwrap(), cnc.serve.addr.parse().unwrap());
+    let lost = thread::spawn(move || {
+        let mut writes = 0;
+        for (connection, client) in (1_usize..).zip(listener.incoming()) {
+            let (mut client, mut cnc) = (client.unwrap(), connect(to));
+            while let Some(request) = frame(&mut client) {
+                cnc.write_all(&request).unwrap();
+                let Some(reply) = frame(&mut cnc) else { break };
+                client.write_all(&reply).unwrap();
+                writes += usize::from(is_asked(&request, 0x12_2301, 0x49));
+                // After the write of another value.
+                if writes == 2 && connection == 1 {
+                    break;
+                }
+            }
+            if connection == 2 {
+                return writes;
+            }
+        }
+        0
+    });
+    let value = || {
+        let target = ["--target", &cnc.serve.addr, "--net-id", "127.0.0.1.1.1"];
+        let mut get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+        get.args(["get", "V.E.Variable_1"]).args(target).output().unwrap().stdout
+    };
+    let before = value();
+    let file = TestFile::allowing(VARIABLE.table);
+    let output = run(&addr.to_string(), &file, &["write-by-handle"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(!before.is_empty() && value() == before);
+    assert_eq!(lost.join().unwrap(), 3);
+    assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
+}
+
+/// After a lost connection, the list contains the object's address for another object, too: the value
+/// is not restored, and the last line contains the reason.
+#[test]
+fn a_value_that_is_not_restored_has_a_reason() {
+    let cnc = Logged::start(&[]);
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let (addr, to) = (listener.local_addr().unwrap(), cnc.serve.addr.parse().unwrap());
+    thread::spawn(move || {
+        let mut writes = 0;
+        for (connection, client) in (1_usize..).zip(listener.incoming()) {
+            let (mut client, mut cnc) = (client.unwrap(), connect(to));
+            while let Some(request) = frame(&mut client) {
+                cnc.write_all(&request).unwrap();
+                let Some(mut reply) = frame(&mut cnc) else { break };
+                if connection > 1 {
+                    shares_an_address(&request, &mut reply);
+                }
+                // The tool may have disconnected.
+                if client.write_all(&reply).is_err() {
+                    break;
+                }
+                writes += usize::from(number(&request, 22) & 0xFFFF == 3);
+                // After the write of another value.
+                if writes == 2 && connection == 1 {
+                    break;
+                }
+            }
+        }
+    });
+    let file = TestFile::allowing(OBJECT.table);
+    let output = run(&addr.to_string(), &file, &["write-objects"]);
+    assert_eq!(output.status.code(), Some(6), "{output:?}");
+    let said = String::from_utf8(output.stderr).unwrap();
+    let last = said.lines().last().unwrap();
+    assert!(last.contains("LEFT CHANGED: "), "{said}");
+    let why = "no entry in the file of --allow-write allows it)";
+    assert!(last.contains("(not restored: ") && last.ends_with(why), "{said}");
+}
+
+/// The list contains two objects with the same address.
+#[test]
+fn an_address_of_two_objects_is_not_written() {
+    let cnc = Logged::start(&[]);
+    let addr = lying(&cnc.serve.addr, shares_an_address).to_string();
+    let file = TestFile::allowing(OBJECT.table);
+    let output = run(&addr, &file, OBJECT.cases);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(4), "{shown}");
+    assert!(shown.contains("the device also uses it for mc_command_single_block_w"), "{shown}");
+    let set = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["set", "example_subroutine_w", "TRUE", "--target", &addr])
+        .args(["--net-id", "127.0.0.1.1.1", "--allow-write", file.path()])
+        .output()
+        .unwrap();
+    let why = String::from_utf8(set.stderr).unwrap();
+    assert_eq!(set.status.code(), Some(4), "{why}");
+    assert!(why.contains("mc_command_single_block_w"), "{why}");
+    assert_eq!(cnc.end(), BTreeMap::new());
+}

@@ -1,0 +1,132 @@
+//! The claims of a profile determine the requests to a device, and the functions that it must have.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use crate::common::Serve;
+use crate::common::file::TestFile;
+
+/// A file with this profile.
+fn claiming(text: &str) -> TestFile {
+    TestFile::new(".toml", text.as_bytes())
+}
+
+/// The suite against a simulated CNC as a device, and its report.
+fn run(serve: &[&str], profile: &TestFile) -> (Output, serde_json::Value) {
+    let serve = Serve::start(serve);
+    let json = profile.0.with_extension("json");
+    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["run", "--target", &serve.addr, "--net-id", &serve.net_id, "--profile"])
+        .args([&profile.0, &PathBuf::from("--json"), &json])
+        .output()
+        .unwrap();
+    let report = fs::read(&json)
+        .map_or_else(|_| serde_json::Value::Null, |text| serde_json::from_slice(&text).unwrap());
+    let _gone = fs::remove_file(&json);
+    (output, report)
+}
+
+fn verdict<'r>(report: &'r serde_json::Value, case: &str) -> &'r str {
+    let cases = report["cases"].as_array().unwrap();
+    let one = cases.iter().find(|one| one["id"] == case);
+    one.unwrap_or_else(|| panic!("no case {case}"))["verdict"].as_str().unwrap()
+}
+
+#[test]
+fn unclaimed_functions_are_not_applicable() {
+    let profile = claiming("name = \"panel\"\nsections = [\"variables\"]\nports = [552]\n");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    for case in ["com-count", "com-content", "sda-elements", "dyn-names", "service-variables"] {
+        assert_eq!(verdict(&report, case), "not-applicable", "{case}");
+    }
+    for case in ["var-descriptions", "val-whole-by-name"] {
+        assert_eq!(verdict(&report, case), "pass", "{case}");
+    }
+    assert_eq!(report["profile"]["name"], "panel");
+}
+
+/// The printed profile passes unedited on the simulated CNC; printed for a device, it contains the
+/// channels and axes, and passes there.
+#[test]
+fn a_printed_profile_passes() {
+    let ads_cnc =
+        |args: &[&str]| Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap();
+    let printed = |args: &[&str]| {
+        let output = ads_cnc(&[&["run", "--print-profile"], args].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let example = claiming(&printed(&[]));
+    for seed in ["1", "2", "3"] {
+        let file = example.0.to_str().unwrap();
+        let output = ads_cnc(&["run", "--profile", file, "--only", "VAR", "--seed", seed]);
+        assert_eq!(output.status.code(), Some(0), "{seed}: {output:?}");
+    }
+    let serve = Serve::start(&[]);
+    let filled = printed(&["--target", &serve.addr, "--net-id", &serve.net_id]);
+    for line in ["channels = [1, 2, 6]", "absent-channel = 3", "platform-axes = 5", "spindles = 2"]
+    {
+        assert!(filled.lines().any(|one| one == line), "{filled}");
+    }
+    let (output, _) = run(&[], &claiming(&filled));
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+}
+
+#[test]
+fn claimed_instances_must_work() {
+    // One channel, one spindle and one axis more than the device has.
+    let profile = claiming("channels = [1, 2, 6, 7]\nspindles = 3\nplatform-axes = 6\n");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    for case in ["adr-com-object-access", "adr-decoder-group", "sda-configured-instances"] {
+        assert_eq!(verdict(&report, case), "fail", "{case}");
+    }
+}
+
+#[test]
+fn a_function_claimed_by_name_must_work() {
+    let text = "functions = [\"variable description by name\", \"number of variable elements\", \
+                \"variable description by index\"]\n";
+    let profile = claiming(text);
+    let (output, report) = run(&["--cnc-version", "V4.20.0"], &profile);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    assert_eq!(verdict(&report, "var-described-by-name"), "fail");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert_eq!(verdict(&report, "var-described-by-name"), "pass");
+    // A function that depends on the version is judged if it exists, even without a claim.
+    let profile = claiming("");
+    let (_, report) = run(&["--cnc-version", "V4.20.0"], &profile);
+    assert_eq!(verdict(&report, "var-described-by-name"), "not-applicable");
+}
+
+/// Without a claim to read objects, their descriptors are not wrong.
+#[test]
+fn unclaimed_functions_fail_nothing() {
+    let profile = claiming("functions = [\"number of objects\", \"object descriptors\"]\n");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert_eq!(verdict(&report, "com-content"), "not-applicable");
+    assert_eq!(verdict(&report, "com-descriptors"), "pass");
+}
+
+#[test]
+fn an_invalid_profile_is_wrong_usage() {
+    let profile = claiming("name = \"x\"\nports = [851]\n");
+    let (output, _) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(2));
+    let why = String::from_utf8(output.stderr).unwrap();
+    assert!(why.contains("line 2") && why.contains("551, 552 and 553"), "{why}");
+}
+
+#[test]
+fn a_commented_profile_is_printed() {
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["run", "--print-profile"]).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text, ads_cnc_conformance::profile::EXAMPLE);
+}

@@ -1,0 +1,383 @@
+//! The formats of a report: converted only from the JSON, well-formed, and with the same facts.
+
+mod foreign;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::{env, fs, process};
+
+use crate::common::Serve;
+use ads_cnc_conformance::report::{self, Detail, Display, Report};
+use quick_xml::events::Event;
+use quick_xml::{Reader, XmlVersion};
+use serde_json::{Value, json};
+
+/// A folder that is removed when dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let folder = env::temp_dir().join(format!("ads-cnc-{name}-{}", process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _gone = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+fn run(args: &[&str]) -> Value {
+    let output = ads_cnc(&[&["run", "--json", "-"], args].concat());
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+const FORMS: [&str; 4] = ["html", "junit", "markdown", "badge"];
+const DEFECT: &str = "variable-description.size.flip";
+const VERBOSE: Display = Display { detail: Detail::Verbose, color: false, found_shown: false };
+
+/// A report with all parts: failures with bytes, waivers, a selection.
+fn everything(folder: &Folder) -> Value {
+    let waivers = folder.path("waivers.toml");
+    let entry = |test: &str, requirement: &str| {
+        format!(
+            "[[waiver]]\ntest = \"{test}\"\nrequirement = \"{requirement}\"\nverdict = \"fail\"\n\
+             reason = \"<known> | & \\\"so\\\"\"\nexpires = 9999-12-31\n"
+        )
+    };
+    let text = [entry("var-descriptions", "VAR-8"), entry("com-count", "VAR-8")].concat();
+    fs::write(&waivers, text).unwrap();
+    run(&["--defect", DEFECT, "--only", "VAR", "--waivers", &waivers, "--seed", "7"])
+}
+
+#[test]
+fn json_matches_its_schema_and_is_read_back() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema/report.schema.json");
+    let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    jsonschema::draft202012::meta::validate(&schema).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let folder = Folder::new("schema");
+    let testee = format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"));
+    let noisy = format!("{testee} --miniature noisy");
+    let refusing = format!("{testee} --miniature refuses-all");
+    let client = format!("\"{}\" client", env!("CARGO_BIN_EXE_ads-cnc"));
+    let dying = format!("{client} --defect client.dies");
+    let dying = run(&["--client", &dying, "--only", "client-name-data-length-huge"]);
+    let serve = Serve::start(&[]);
+    let capture = folder.path("run.pcapng");
+    run(&["--only", "VAR-11", "--capture", &capture]);
+    let checked = ads_cnc(&["check", &capture, "--any-port", "--json", "-"]);
+    let checked: Value = serde_json::from_slice(&checked.stdout).unwrap();
+    let reports = [
+        run(&[]),
+        run(&["--testee", &noisy, "--only", "VAR-11"]),
+        run(&["--testee", &refusing, "--only", "VAR-11"]),
+        run(&["--target", &serve.addr, "--net-id", &serve.net_id]),
+        everything(&folder),
+        run(&["--defect", "object-descriptor.size.flip"]),
+        run(&["--defect", "variable-value.value.invert", "--edition", "de-1.051"]),
+        run(&["--defect", "variable-handle-read.index_count.flip"]),
+        run(&["--edition", "en-1.05", "--only", "VAR-20"]),
+        run(&["--client", &client, "--only", "client-name-twice"]),
+        dying,
+        checked,
+    ];
+    for document in reports {
+        let errors: Vec<String> =
+            schema.iter_errors(&document).map(|error| error.to_string()).collect();
+        assert!(errors.is_empty(), "{:?}", &errors[..errors.len().min(5)]);
+        let read = Report::from_json(&document.to_string()).unwrap();
+        assert_eq!(serde_json::to_value(&read).unwrap(), document);
+    }
+}
+
+/// A failure of a protocol names the document of that protocol.
+#[test]
+fn protocol_failures_name_their_document() {
+    for (kind, id, text) in [("client", "CLIENT", "CLIENTS.md"), ("testee", "TESTEE", "README.md")]
+    {
+        let report = run(&[&format!("--{kind}"), "exit 3"]);
+        let cases = report["cases"].as_array().unwrap().iter();
+        let mut failed = cases.flat_map(|case| case["failures"].as_array().into_iter().flatten());
+        let failed = failed.find(|one| one["requirement"] == id).unwrap();
+        assert_eq!(failed["sources"], json!([format!("conformance/adapters/{text}")]));
+        assert!(failed["clause"].as_str().unwrap().ends_with(&format!("a {kind}.")), "{failed:#}");
+        // The failure is counted.
+        let subject = &report["subjects"][0];
+        assert_eq!(subject["totals"]["fail"], 1, "{subject:#}");
+        assert_eq!(subject["areas"].as_array().unwrap().last().unwrap()["area"], id);
+        let read = Report::from_json(&report.to_string()).unwrap();
+        let mut text = Vec::new();
+        report::print(&read, Display::default(), &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains(&format!("NOT PASSED  {kind}: 1 fail ({id}), ")), "{text}");
+    }
+}
+
+#[test]
+fn formats_are_converted_from_the_json_only() {
+    let folder = Folder::new("forms");
+    let json = folder.path("report.json");
+    let mut args = vec!["run".to_owned(), "--defect".to_owned(), DEFECT.to_owned()];
+    args.extend(["--json".to_owned(), json.clone()]);
+    for form in FORMS {
+        args.extend([format!("--{form}"), folder.path(&format!("with-run.{form}"))]);
+    }
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let output = ads_cnc(&args);
+    assert_eq!(output.status.code(), Some(1));
+    for form in FORMS {
+        let option = format!("--{form}");
+        let later = ads_cnc(&["report", &json, &option, "-"]);
+        assert_eq!(later.status.code(), Some(0), "{form}");
+        assert_eq!(later.stdout, folder.read(&format!("with-run.{form}")).into_bytes(), "{form}");
+    }
+    // The console output is the same, too.
+    assert_eq!(ads_cnc(&["report", &json]).stdout, output.stdout);
+}
+
+#[test]
+fn invalid_reports_are_rejected() {
+    let folder = Folder::new("odd");
+    let odd = folder.path("odd.json");
+    for (text, why) in [
+        ("", "the JSON ends too early, at line 1"),
+        ("{\"format\":2}", "report format 2 instead of 1"),
+        ("{\"format\":1,\n\"suit\":1}", "line 2"),
+    ] {
+        fs::write(&odd, text).unwrap();
+        let output = ads_cnc(&["report", &odd]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(why) && said.contains("odd.json"), "{said}");
+    }
+    let both = ads_cnc(&["report", &odd, "--html", "-", "--junit", "-"]);
+    assert_eq!(both.status.code(), Some(2));
+    assert_eq!(ads_cnc(&["report", "/no/such/report.json"]).status.code(), Some(2));
+}
+
+/// Elements by their path, each with its attributes.
+fn elements(xml: &str) -> Vec<(String, Vec<(String, String)>)> {
+    let mut reader = Reader::from_str(xml);
+    let (mut path, mut all) = (Vec::new(), Vec::new());
+    loop {
+        let event = reader.read_event().unwrap();
+        if let Event::Start(element) | Event::Empty(element) = &event {
+            path.push(String::from_utf8(element.name().as_ref().to_vec()).unwrap());
+            let attributes = element.attributes().map(|attribute| {
+                let attribute = attribute.unwrap();
+                let key = String::from_utf8(attribute.key.as_ref().to_vec()).unwrap();
+                let value = attribute.normalized_value(XmlVersion::Implicit1_0).unwrap();
+                (key, value.into_owned())
+            });
+            all.push((path.join("/"), attributes.collect()));
+        }
+        match event {
+            Event::End(_) | Event::Empty(_) => drop(path.pop()),
+            Event::Eof => return all,
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn junit_has_a_test_for_each_case() {
+    let folder = Folder::new("junit");
+    let document = everything(&folder);
+    let report = Report::from_json(&document.to_string()).unwrap();
+    let mut xml = Vec::new();
+    report::to_junit(&report, &mut xml).unwrap();
+    let elements = elements(std::str::from_utf8(&xml).unwrap());
+    let at = |path: &str| -> Vec<&Vec<(String, String)>> {
+        elements.iter().filter(|(at, _)| at == path).map(|(_, attributes)| attributes).collect()
+    };
+    let value = |attributes: &[(String, String)], name: &str| {
+        attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.clone()).unwrap()
+    };
+    let test = "testsuites/testsuite/testcase";
+    let cases = document["cases"].as_array().unwrap();
+    // One more for the stale waiver.
+    assert_eq!(at(test).len(), cases.len() + 1);
+    let root = at("testsuites")[0];
+    for (name, path) in [("tests", ""), ("failures", "/failure"), ("skipped", "/skipped")] {
+        let counted = at(&format!("{test}{path}")).len();
+        assert_eq!(value(root, name), counted.to_string(), "{name}");
+    }
+    // In seconds.
+    let suites = at("testsuites/testsuite");
+    let subjects = suites.iter().filter(|suite| value(suite, "name") != "waivers");
+    let seconds =
+        |attributes: &[(String, String)]| value(attributes, "time").parse::<f64>().unwrap();
+    let sum: f64 = subjects.map(|suite| seconds(suite)).sum();
+    assert!(sum > 0.0 && (seconds(root) - sum).abs() < 0.01, "{root:?}");
+    assert!(at(test).iter().any(|case| case.iter().any(|(name, _)| name == "time")));
+    let errors = document["cases"].as_array().unwrap().iter();
+    let errors = errors.filter(|case| case["verdict"] == "inconclusive" && case["waived"] != true);
+    assert_eq!(value(root, "errors"), errors.count().to_string());
+    let skipped = at(&format!("{test}/skipped"));
+    let why = "waived until 9999-12-31: <known> | & \"so\"";
+    assert!(skipped.iter().any(|one| value(one, "message") == why));
+    let property = "testsuites/testsuite/properties/property";
+    for (name, fact) in [("seed", "7"), ("vectors", &report.vectors), ("only", "VAR")] {
+        let found = at(property).into_iter().find(|one| value(one, "name") == name);
+        assert_eq!(value(found.unwrap(), "value"), fact);
+    }
+}
+
+/// A statement contains each clause once for each subject; a comparison fails for new failures.
+#[test]
+fn reports_are_converted_to_statements_and_compared() {
+    let folder = Folder::new("statement");
+    let (now, before) = (folder.path("now.json"), folder.path("before.json"));
+    fs::write(&now, everything(&folder).to_string()).unwrap();
+    fs::write(&before, run(&["--only", "VAR", "--seed", "7"]).to_string()).unwrap();
+    for form in ["statement.md", "statement.html"] {
+        let file = folder.path(form);
+        assert_eq!(ads_cnc(&["report", &now, "--statement", &file]).status.code(), Some(0));
+        let text = folder.read(form);
+        for part in
+            ["Conformance statement", "VAR-8", "not passed; not met: ", "verified", "seed 7"]
+        {
+            assert!(text.contains(part), "{form}: {part}");
+        }
+    }
+    let against = |one: &str, other: &str| {
+        let output = ads_cnc(&["report", one, "--against", other]);
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (code, shown) = against(&now, &before);
+    assert!(code == Some(1) && shown.contains("\nnewly failing     VAR-8    codec  "), "{shown}");
+    let (code, shown) = against(&before, &now);
+    assert!(code == Some(0) && shown.contains("\nfixed             VAR-8    codec  "), "{shown}");
+    let (code, shown) = against(&now, &now);
+    assert!(
+        code == Some(0) && shown.contains("\n0 newly failing, 0 newly deviating, 0 fixed, "),
+        "{shown}"
+    );
+    let quiet = ads_cnc(&["report", "-q", &now, "--against", &before]).stdout;
+    let quiet = String::from_utf8(quiet).unwrap();
+    assert!(quiet.lines().count() == 1 && quiet.contains(" newly failing, "), "{quiet}");
+}
+
+/// An interrupted run is one line of a comparison and not a success; a comparison of different kinds of
+/// runs has warnings.
+#[test]
+fn a_comparison_with_fewer_verdicts_is_not_a_success() {
+    let folder = Folder::new("less");
+    let (now, before) = (folder.path("now.json"), folder.path("before.json"));
+    let mut document = run(&["--only", "VAR-11", "--seed", "7"]);
+    fs::write(&before, document.to_string()).unwrap();
+    for case in document["cases"].as_array_mut().unwrap() {
+        for one in case["requirements"].as_array_mut().unwrap() {
+            one["verdict"] = json!("interrupted");
+        }
+    }
+    document["only"] = json!(["VAR"]);
+    document["target"]["net_id"] = json!("192.0.2.10.1.1");
+    document["profile"]["claims"]["platform_axes"] = json!(9);
+    fs::write(&now, document.to_string()).unwrap();
+    let output = ads_cnc(&["report", &now, "--against", &before]);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{shown}");
+    assert_eq!(shown.matches("no longer judged  ").count(), 1, "{shown}");
+    for part in [
+        " verdicts: the run was interrupted\n",
+        "\nwarning  different target: ",
+        "\nwarning  different claims of the profile: platform_axes\n",
+        "\nwarning  different selection: VAR-11 before, VAR now\n",
+    ] {
+        assert!(shown.contains(part), "{part:?}: {shown}");
+    }
+}
+
+/// Long rows may break across pages in print, because otherwise the previous page stays empty.
+#[test]
+fn long_rows_may_break_in_print() {
+    let folder = Folder::new("print");
+    let mut document = everything(&folder);
+    let case = document["cases"].as_array().unwrap();
+    let mut failed = case.iter().find(|case| case.get("failures").is_some()).unwrap().clone();
+    let row = |offset, count| json!({"offset": offset, "hex": vec!["6e"; count].join(" "), "field": "name"});
+    let mut failure = failed["failures"][0].clone();
+    failure["evidence"] = json!({"call": "", "result": "", "sent": {
+        "length": 385,
+        "fields": [row(0, 256), row(256, 65), row(321, 64)],
+    }});
+    failed["failures"] = json!([failure]);
+    document["cases"] = json!([failed]);
+    let report = Report::from_json(&document.to_string()).unwrap();
+    let mut html = Vec::new();
+    report::to_html(&report, &mut html).unwrap();
+    let html = String::from_utf8(html).unwrap();
+    assert_eq!(html.matches("<tr class=\" long\">").count(), 2);
+    assert!(html.contains("tr:not(.long), blockquote, .area { break-inside: avoid; }"));
+}
+
+/// The HTML report loads no resources, and the verdicts can be read without a script.
+#[test]
+fn html_is_self_contained() {
+    let folder = Folder::new("html");
+    let report = Report::from_json(&everything(&folder).to_string()).unwrap();
+    let mut html = Vec::new();
+    report::to_html(&report, &mut html).unwrap();
+    let html = String::from_utf8(html).unwrap();
+    for outside in ["http://", "https://", "src=", "url(", "@import", "{{", "{%"] {
+        assert!(!html.contains(outside), "{outside}");
+    }
+    assert_eq!(html.matches("href=").count(), html.matches("href=\"#").count());
+    let (before, script) = html.split_once("<script>").unwrap();
+    assert!(script.contains("</script>\n</body>"));
+    for fact in [
+        "seed 7",
+        "variable-description.size.flip",
+        "1 stale",
+        "prefers-color-scheme",
+        "@media print",
+    ] {
+        assert!(before.contains(fact), "{fact}");
+    }
+    // The differing byte and the expected one, with the clause in both editions.
+    for part in [
+        "<mark>03</mark> 00 00 00",
+        "<mark>02</mark> 00 00 00",
+        "ads-en 1.05 §4.3.2",
+        "ads-de 1.051 §4.3.2",
+    ] {
+        assert!(before.contains(part), "{part}");
+    }
+    for case in &report.cases {
+        assert!(before.contains(&case.id), "{}", case.id);
+    }
+}
+
+#[test]
+fn badges_contain_the_result() {
+    let badge = |args: &[&str]| -> Value {
+        let output = ads_cnc(&[&["run", "--badge", "-"], args].concat());
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let passed = badge(&["--edition", "en-1.05"]);
+    assert_eq!(
+        (&passed["message"], &passed["color"]),
+        (&json!("passed (en-1.05)"), &json!("brightgreen"))
+    );
+    let failed = badge(&["--defect", DEFECT]);
+    assert_eq!(failed["color"], "red");
+    // shields.io rejects other keys.
+    let keys: Vec<&String> = failed.as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["color", "isError", "label", "message", "schemaVersion"]);
+}

@@ -1,0 +1,486 @@
+//! `ads-cnc run` as users call it.
+
+use std::io::{Read as _, Write as _};
+use std::net::SocketAddr;
+use std::process::{Command, Output};
+use std::thread;
+
+use crate::common::Serve;
+use crate::common::file::TestFile;
+use ads_cnc_conformance::net;
+use serde_json::Value;
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+/// An address on this machine with a port that the system chooses.
+fn loopback() -> SocketAddr {
+    SocketAddr::from(([127, 0, 0, 1], 0))
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Without a command, the suite runs against the simulated CNC and passes.
+#[test]
+fn without_a_command_the_suite_runs() {
+    let output = ads_cnc(&[]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{shown}");
+    assert!(shown.contains("\nPASSED  codec: "), "{shown}");
+    let version = env!("CARGO_PKG_VERSION");
+    let device = format!("\ndevice   \"ads-cnc serve\" {version}, state RUN\n");
+    assert!(shown.contains(&device), "{shown}");
+    assert!(!shown.contains("FAIL") && !shown.contains("\n  differs "), "{shown}");
+    // On a busy machine, the run takes long enough to show its progress.
+    let stderr = text(&output.stderr);
+    assert!(stderr.lines().all(|line| line.ends_with(" left")), "{stderr}");
+}
+
+/// A failure names its clause, and shows the sent, received and expected bytes.
+#[test]
+fn a_failure_is_shown_with_its_clause_and_bytes() {
+    let output = ads_cnc(&["run", "--defect", "variable-description.size.flip"]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    let block = shown.split("\n\n").find(|block| block.starts_with("FAIL  VAR-8  "));
+    let block = block.unwrap_or_else(|| panic!("{shown}"));
+    for part in [
+        "ads-en 1.05 §4.3.2; ads-de 1.051 §4.3.2",
+        "\n  The size of a description is the whole variable's in bytes",
+        "\n  var-descriptions: V.G.NP[0].V: expected ",
+        "; found ",
+        " alike, also in ",
+        "\n  again: ads-cnc run --defect variable-description.size.flip --only var-descriptions --seed ",
+        "\n  sent      ReadWrite 0x122301, 0x45 at port 552",
+        "V.G·              kind",
+        "\n  received  ",
+        "  size\n",
+    ] {
+        assert!(block.contains(part), "{part:?} is not in\n{block}");
+    }
+}
+
+/// The JSON report contains the facts of the console.
+#[test]
+fn the_report_is_written_as_json() {
+    let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
+    let output = ads_cnc(&["run", "--json", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0));
+    let report: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    std::fs::remove_file(&file).unwrap();
+    assert_eq!(report["format"], 1);
+    assert_eq!(report["exit_code"], 0);
+    let device = &report["target"]["device"];
+    assert_eq!((&device["name"], &device["state"]), (&"ads-cnc serve".into(), &"RUN".into()));
+    let cases = report["cases"].as_array().unwrap();
+    let of_target = cases.iter().filter(|case| case["subject"] == "target");
+    assert!(of_target.count() > 40);
+    // Every clause that these functions can show is judged.
+    let target = &report["subjects"][1];
+    assert_eq!(target["subject"], "target");
+    let judged: Vec<_> = target["areas"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|area| area["requirements"].as_array().unwrap())
+        .filter(|one| one["verdict"] == "pass")
+        .map(|one| one["requirement"].as_str().unwrap())
+        .collect();
+    for id in [
+        "ADR-1", "ADR-3", "ADR-4", "ADR-5", "ADR-10", "ADR-11", "ADR-12", "COM-1", "COM-2",
+        "COM-3", "COM-4", "COM-5", "COM-6", "COM-7", "VAR-1", "VAR-2", "VAR-3", "VAR-4", "VAR-5",
+        "VAR-6", "VAR-7", "VAR-8", "VAR-9", "VAR-10", "VAR-11", "VAR-14", "VAR-20", "VAR-21",
+        "VAR-24", "ADS-8", "ADS-9",
+    ] {
+        assert!(judged.contains(&id), "{id} is not judged");
+    }
+}
+
+/// A device is judged, and only read.
+#[test]
+fn a_device_is_only_read() {
+    let serve = Serve::start(&[]);
+    let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", "127.0.0.1.1.1"]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{shown}");
+    assert!(shown.contains("are sent only with --malformed"), "{shown}");
+}
+
+/// Without a profile, all channels are judged; the forecast is printed first, and the report contains
+/// the found items. With a profile, only its channels are judged.
+#[test]
+fn a_run_without_a_profile_judges_found_channels() {
+    let serve = Serve::start(&[]);
+    let run = |args: &[&str]| {
+        let target = ["run", "--target", &serve.addr, "--net-id", "127.0.0.1.1.1", "--seed", "1"];
+        let output =
+            ads_cnc(&[&target[..], &["--only", "var-count", "--json", "-"], args].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        (report, text(&output.stderr))
+    };
+    let (report, told) = run(&[]);
+    let channels = serde_json::json!([1, 2, 6]);
+    assert_eq!(report["profile"]["claims"]["channels"], channels);
+    assert_eq!(report["found"]["ports"], serde_json::json!([551, 552, 553]));
+    let found = "channel 1 with 3 axis places, 2 with 3 axis places, 6 with 3 axis places";
+    assert!(
+        told.contains(found) && told.contains("about ") && told.contains(" requests"),
+        "{told}"
+    );
+
+    let profile = std::env::temp_dir().join(format!("ads-cnc-found-{}.toml", std::process::id()));
+    std::fs::write(&profile, "channels = [6]").unwrap();
+    let (report, told) = run(&["--profile", profile.to_str().unwrap()]);
+    std::fs::remove_file(&profile).unwrap();
+    assert_eq!(report["profile"]["claims"]["channels"], serde_json::json!([6]));
+    assert_eq!(report["found"]["ports"], serde_json::json!([]));
+    assert!(told.contains("channel 6 with 3 axis places;"), "{told}");
+}
+
+/// A long list is sampled, and read completely with `--all`.
+#[test]
+fn a_long_list_is_read_completely_with_all() {
+    let model = text(&ads_cnc(&["serve", "--print-model"]).stdout);
+    let (head, tail) = model.split_once("[[channel]]").unwrap();
+    let more: String = (0..300)
+        .map(|one| format!("  {{ name = \"V.E.more_{one}\", type = \"SGN32\" }},\n"))
+        .collect();
+    let tail = tail.replacen("variables = [\n", &format!("variables = [\n{more}"), 1);
+    let file = std::env::temp_dir().join(format!("ads-cnc-long-{}.toml", std::process::id()));
+    std::fs::write(&file, format!("{head}[[channel]]{tail}")).unwrap();
+    let serve = Serve::start(&["--model", file.to_str().unwrap()]);
+    std::fs::remove_file(&file).unwrap();
+    let run = |args: &[&str]| {
+        let target = ["run", "--target", &serve.addr, "--net-id", "127.0.0.1.1.1"];
+        let only = ["--only", "var-extended-descriptions", "--seed", "1"];
+        let output = ads_cnc(&[&target[..], &only, args].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        (text(&output.stdout), text(&output.stderr))
+    };
+    let sampled = "V.E channel 1: 256 of 423; by the seed\n";
+    let (shown, told) = run(&[]);
+    assert!(shown.contains(&format!("sampled  {sampled}")), "{shown}");
+    assert!(told.contains(sampled), "{told}");
+    let (shown, told) = run(&["--all"]);
+    assert!(!shown.contains("sampled") && !told.contains("sampled"), "{shown}{told}");
+    let without = ads_cnc(&["run", "--all"]);
+    assert_eq!(without.status.code(), Some(2), "{without:?}");
+}
+
+/// Malformed requests are only sent to a target on this machine for which a file permits them.
+/// Otherwise, the run does not even connect: a loopback address does not prove that nothing moves.
+#[test]
+fn malformed_requests_need_a_file_that_permits_them() {
+    let serve = Serve::start(&[]);
+    let file = std::env::temp_dir().join(format!("ads-cnc-malformed-{}.toml", std::process::id()));
+    let head = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
+    let net_id = ["--net-id", "127.0.0.1.1.1"];
+    let run = |addr: &str, tables: &str| {
+        std::fs::write(&file, format!("{head}{tables}")).unwrap();
+        let file = ["--allow-write", file.to_str().unwrap()];
+        ads_cnc(&[&["run", "--malformed", "--target", addr], &net_id[..], &file].concat())
+    };
+    let shown = run(&serve.addr, "malformed = true");
+    assert_eq!(shown.status.code(), Some(0), "{}", text(&shown.stdout));
+    assert!(!text(&shown.stdout).contains("are sent only with --malformed"));
+
+    let away = run("192.0.2.1:48898", "address = \"192.0.2.1\"\nmalformed = true");
+    assert_eq!(away.status.code(), Some(4), "{}", text(&away.stderr));
+    let named = run(&serve.addr, "[[variable]]\nchannel = 1\nname = \"V.E.test\"");
+    let other = run(&serve.addr, "malformed = true\naddress = \"192.0.2.1\"");
+    std::fs::remove_file(&file).unwrap();
+    let without =
+        ads_cnc(&[&["run", "--malformed", "--target", &serve.addr], &net_id[..]].concat());
+    for (refused, why) in [
+        (named, "malformed = true"),
+        (without, "malformed = true"),
+        (other, "for the address 192.0.2.1, not for 127.0.0.1"),
+    ] {
+        assert_eq!(refused.status.code(), Some(4), "{}", text(&refused.stderr));
+        assert!(text(&refused.stderr).contains(why), "{}", text(&refused.stderr));
+    }
+}
+
+/// An invalid file is an error even without a target.
+#[test]
+fn a_file_is_read_without_a_target() {
+    let file = TestFile::allowing("");
+    let unused = ads_cnc(&["run", "--allow-write", file.path()]);
+    assert_eq!(unused.status.code(), Some(2), "{}", text(&unused.stderr));
+    assert!(text(&unused.stderr).contains("--allow-write needs --target"), "{unused:?}");
+    for rest in [&["--only", "vec-handle"][..], &["--list"]] {
+        let lost = ads_cnc(&[&["run", "--allow-write", "/no/such/file.toml"], rest].concat());
+        assert_eq!(lost.status.code(), Some(2), "{}", text(&lost.stderr));
+        assert!(text(&lost.stderr).contains("/no/such/file.toml"), "{}", text(&lost.stderr));
+    }
+}
+
+/// A device without device information is judged and passes.
+#[test]
+fn device_information_is_optional() {
+    for defect in ["device-info-reply.result.flip", "device-state-reply.result.flip"] {
+        let serve = Serve::start(&["--defect", defect]);
+        let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", &serve.net_id]);
+        let shown = text(&output.stdout);
+        assert_eq!(output.status.code(), Some(0), "{shown}");
+        let info = defect.contains("info");
+        assert_eq!(shown.contains("\ndevice   "), !info, "{shown}");
+        assert!(!shown.contains(", state "), "{shown}");
+        let (case, clause) = if info { ("info", "ADS-8") } else { ("state", "ADS-9") };
+        assert!(shown.contains(&format!("ads-device-{case}")) && shown.contains(clause), "{shown}");
+    }
+}
+
+/// A device with a wrong field fails.
+#[test]
+fn a_wrong_device_fails() {
+    let serve = Serve::start(&["--defect", "variable-count.count.flip"]);
+    let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", &serve.net_id]);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+}
+
+/// A target that accepts the connection but does not reply is not a success, and the run ends.
+#[test]
+fn a_silent_target_is_not_a_success() {
+    let listener = net::listen(loopback()).unwrap();
+    let addr = listener.local_addr().unwrap().to_string();
+    // The run tries twice, in case the first connection was only idle.
+    let silent = thread::spawn(move || listener.incoming().take(1).map(Result::unwrap).collect());
+    let args = ["run", "--target", &addr, "--net-id", "10.0.0.1.1.1", "--timeout", "20"];
+    let output = ads_cnc(&args);
+    let open: Vec<std::net::TcpStream> = silent.join().unwrap();
+    assert_eq!(open.len(), 1);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("route"), "{}", text(&output.stderr));
+}
+
+/// A target that replies, but is not a CNC or has another NetId, is reported and not judged.
+#[test]
+fn a_target_that_is_not_a_cnc_is_not_judged() {
+    let serve = Serve::start(&[]);
+    let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", "1.2.3.4.1.1"]);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("AMS error 0x7"), "{}", text(&output.stderr));
+
+    let listener = net::listen(loopback()).unwrap();
+    let addr = listener.local_addr().unwrap().to_string();
+    let web = thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        stream.write_all(b"HTTP/1.1 400 Bad Request\r\n\r\n").unwrap();
+        // Wait until the other side has read the bytes and closed the connection.
+        let _closed = stream.read_to_end(&mut Vec::new());
+    });
+    let output = ads_cnc(&["run", "--target", &addr, "--net-id", "1.2.3.4.1.1"]);
+    web.join().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("does not use AMS/TCP"), "{}", text(&output.stderr));
+}
+
+/// A device whose frames are wrong from the first one is judged: only the rule of the frame fails, with
+/// its bytes.
+#[test]
+fn broken_frames_fail_the_rule_of_the_frame() {
+    for (defect, clauses) in [
+        ("ams-tcp-header.reserved.flip", &["ADS-5"][..]),
+        ("ams-tcp-header.length.invert", &["ADS-5"]),
+        ("ams-header.data_length.zero", &["ADS-5"]),
+        ("ams-header.error.flip", &["ADS-5"]),
+        ("ams-header.invoke_id.swap", &["ADS-5"]),
+        ("cnc.ads.header-big-endian", &["ADS-5"]),
+        ("cnc.ads.refused-invoke-id-0", &["ADS-5"]),
+        ("read-reply.length.zero", &["ADS-1", "ADS-4"]),
+        ("cnc.ads.result-missing", &["ADS-1", "ADS-3", "ADS-4"]),
+    ] {
+        let serve = Serve::start(&["--defect", defect]);
+        let file = TestFile::new(".json", b"");
+        let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
+        // A timeout for each wrong frame would take longer than the test may.
+        let args = ["run", "--timeout", "60000", "--json", file.path()];
+        let output = ads_cnc(&[&args[..], &target].concat());
+        assert_eq!(output.status.code(), Some(1), "{defect}: {}", text(&output.stderr));
+        let report: Value = serde_json::from_slice(&std::fs::read(&file.0).unwrap()).unwrap();
+        let cases = report["cases"].as_array().unwrap();
+        let mut failed = Vec::new();
+        for failure in
+            cases.iter().flat_map(|case| case["failures"].as_array().into_iter().flatten())
+        {
+            if failure["verdict"] == "fail" {
+                failed.push(failure["requirement"].as_str().unwrap());
+                let received = failure["evidence"]["frame_received"].as_str();
+                assert!(received.is_some_and(|bytes| !bytes.is_empty()), "{defect}");
+            }
+        }
+        failed.dedup();
+        assert_eq!(failed, clauses, "{defect}");
+    }
+}
+
+/// A wrong frame fails with any selection.
+#[test]
+fn broken_frames_fail_in_every_selection() {
+    let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);
+    let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
+    let output = ads_cnc(&[&["run", "--only", "com-count"][..], &target].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).contains("\n  ads-every-frame: "), "{}", text(&output.stdout));
+}
+
+/// Exit code for a report that cannot be written.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_lost_report_is_an_error() {
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    let status = command.stdout(full).stderr(std::process::Stdio::null()).status().unwrap();
+    assert_eq!(status.code(), Some(70));
+}
+
+/// Each kind of failure has its exit code.
+#[test]
+fn exit_codes() {
+    let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
+    let cases: [(&[&str], i32); 6] = [
+        (&["run", "--target", &nobody, "--net-id", "10.0.0.1.1.1", "--timeout", "500"], 3),
+        (&["run", "--target", "127.0.0.1"], 2),
+        (&["run", "--net-id", "10.0.0.1.1"], 2),
+        (&["run", "--no-such-option"], 2),
+        (&["run", "--defect", "no-such-defect"], 2),
+        (&["run", "--json", "/no/such/folder/report.json"], 2),
+    ];
+    for (args, code) in cases {
+        let output = ads_cnc(args);
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {}", text(&output.stderr));
+        assert!(!output.stderr.is_empty(), "{args:?} says nothing");
+    }
+}
+
+/// A run without a report removes the report of an earlier run; a dry run does not.
+#[test]
+fn the_report_of_an_earlier_run_is_removed() {
+    let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
+    let file = TestFile::new(".json", b"yesterday");
+    let target = ["--target", &nobody, "--net-id", "10.0.0.1.1.1", "--json", file.path()];
+    let dry = ads_cnc(&[&["run", "--dry-run"], &target[..]].concat());
+    assert_eq!((dry.status.code(), file.0.exists()), (Some(0), true), "{dry:?}");
+    let lost = ads_cnc(&[&["run"], &target[..]].concat());
+    assert_eq!((lost.status.code(), file.0.exists()), (Some(3), false), "{lost:?}");
+}
+
+/// With -q, a run that passes only prints its last line.
+#[test]
+fn quiet_prints_only_the_last_line() {
+    let serve = Serve::start(&[]);
+    let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
+    let output = ads_cnc(&[&["run", "-q", "--only", "com-count"], &target[..]].concat());
+    let shown = text(&output.stdout);
+    assert!(shown.starts_with("PASSED  ") && shown.lines().count() == 1, "{shown}");
+    assert_eq!(text(&output.stderr), "");
+}
+
+/// A report that cannot be written is an error before the first request.
+#[test]
+fn reports_are_checked_before_the_run() {
+    for form in ["--json", "--html", "--junit", "--markdown", "--badge"] {
+        let output = ads_cnc(&["run", form, "/no/such/folder/report"]);
+        assert_eq!(output.status.code(), Some(2), "{form}");
+        assert_eq!(text(&output.stdout), "", "{form}");
+        assert!(text(&output.stderr).contains("/no/such/folder/report: "), "{form}");
+    }
+    assert_eq!(ads_cnc(&["run", "--timeout", "0"]).status.code(), Some(2));
+}
+
+/// A vacuous rejection is listed with its sibling, which should be accepted.
+#[test]
+fn a_vacuous_rejection_follows_from_its_sibling() {
+    let defect = ["run", "--defect", "read-write-reply.length.zero", "--only", "read-write-reply"];
+    let output = ads_cnc(&defect);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    assert!(shown.contains(" 3 vacuous "), "{shown}");
+    assert!(!shown.contains("\nVACUOUS"), "{shown}");
+    let list = shown.split("follows from it: ").skip(1).collect::<String>();
+    assert!(list.contains("vec-read-write-reply-length-largest (ADS-3)"), "{shown}");
+}
+
+/// A dry run lists the functions that would be requested, and the writes that a file allows.
+#[test]
+fn a_dry_run_lists_functions_and_writes() {
+    let folder = std::env::temp_dir().join(format!("ads-cnc-dry-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("allow.toml");
+    let target = ["--target", "192.0.2.10", "--net-id", "192.0.2.10.1.1"];
+    let dry = |more: &[&str]| ads_cnc(&[&["run", "--dry-run"], &target[..], more].concat());
+    let listed = text(&dry(&[]).stdout);
+    for part in [
+        "(without --profile, it first searches with the same functions for the ports",
+        "  Read       port 553  number of objects (COM-1)\n",
+        "  ReadWrite  port 551  object address (SDA-",
+        "  and sometimes ReadDeviceInfo and ReadState at the ports 551, 552, 553\n",
+        "  ReadWrite  port 552  read variable value by name (VAR-14)\n",
+        "It writes nothing without a file for --allow-write.\n",
+    ] {
+        assert!(listed.contains(part), "{part:?} is not in\n{listed}");
+    }
+    assert!(!listed.contains("write variable value by name"), "{listed}");
+    let entry = "[[variable]]\nchannel = 1\nname = \"V.E.test[4]\"\n";
+    let head = "target = \"192.0.2.10.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
+    std::fs::write(&file, format!("{head}{entry}")).unwrap();
+    let listed = text(&dry(&["--allow-write", file.to_str().unwrap()]).stdout);
+    assert!(listed.contains("  name = \"V.E.test[4]\"\n"), "{listed}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// With a file that allows no possible write, the run reports this and is not a success.
+#[test]
+fn a_file_without_effect_is_reported() {
+    let folder = std::env::temp_dir().join(format!("ads-cnc-allow-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let serve = Serve::start(&[]);
+    let said_of = |channel: u8, target: &str, expires: &str, name: &str| {
+        let file = folder.join("allow.toml");
+        let entry = format!("[[variable]]\nchannel = {channel}\nname = \"{name}\"\n");
+        let head = format!("target = \"{target}\"\nexpires = {expires}\n");
+        std::fs::write(&file, format!("{head}{entry}")).unwrap();
+        let args = ["run", "--only", "write-by-name", "--target", &serve.addr, "--net-id"];
+        let file = ["--allow-write", file.to_str().unwrap()];
+        let output = ads_cnc(&[&args[..], &[&serve.net_id], &file].concat());
+        (text(&output.stderr), text(&output.stdout), output.status.code())
+    };
+    let said = |target: &str, expires: &str, name: &str| said_of(1, target, expires, name);
+    let rejected = |shown: &str, why: &str| {
+        let above = shown.lines().rev().nth(1).unwrap();
+        assert!(above.starts_with("REJECTED  allow-write: ") && above.contains(why), "{shown}");
+    };
+    let (own, later) = (serve.net_id.as_str(), "9999-12-31T23:59:59Z");
+    let (found, shown, code) = said(own, "2020-01-01T00:00:00Z", "V.E.vartest");
+    assert!(
+        found.contains("nothing will be written: the file of --allow-write expired at"),
+        "{found}"
+    );
+    rejected(&shown, "nothing was written: the file of --allow-write expired at 2020-01-01");
+    assert_eq!(code, Some(4), "{shown}");
+    let (found, shown, code) = said("192.0.2.77.1.1", later, "V.E.vartest");
+    assert!(found.contains("is for 192.0.2.77.1.1, not for 127.0.0.1.1.1"), "{found}");
+    rejected(&shown, "is for 192.0.2.77.1.1, not for 127.0.0.1.1.1");
+    assert_eq!(code, Some(4), "{shown}");
+    for (name, what) in
+        [("V.E.nothere", "variable"), ("V.E.*", "variable"), ("V.E.test[99]", "element")]
+    {
+        let (found, shown, code) = said(own, later, name);
+        assert!(found.contains("nothing was written: "), "{found}");
+        rejected(&shown, &format!("{name} in channel 1: the device has no such {what}"));
+        assert_eq!(code, Some(4), "{shown}");
+    }
+    let (_, shown, code) = said_of(3, own, later, "V.E.vartest");
+    rejected(&shown, "V.E.vartest in channel 3: the device has no such channel");
+    assert_eq!(code, Some(4), "{shown}");
+    let (found, shown, code) = said(own, later, "V.E.vartest");
+    assert!(found.contains("ads-cnc: found ") && !found.contains("nothing "), "{found}");
+    assert!(shown.contains("\nwrote     V.E.vartest (restored)\n"), "{shown}");
+    assert_eq!(code, Some(0), "{shown}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

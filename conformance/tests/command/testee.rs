@@ -1,0 +1,287 @@
+//! Codecs over the testee protocol: this project's codec, with and without a defect, and miniatures
+//! that misbehave in every case.
+
+use std::io::{BufRead as _, BufReader};
+use std::net::TcpStream;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use ads_cnc_conformance::faults;
+use ads_cnc_conformance::judge::{Case, CaseOutcome, CaseSubject, Exit, Needs, TESTEE, Verdict};
+use ads_cnc_conformance::process::{RunningCommand, shell};
+use ads_cnc_conformance::suite;
+use ads_cnc_conformance::testee::{
+    CodecTestee, JudgedTestee, Miniature, Terms, Testee, TesteeProcess, judge,
+};
+
+const OF_A_TESTEE: Terms<'static> =
+    Terms { seed: 7, subject: CaseSubject::Testee, edition: None, strict: false };
+
+fn cases() -> Vec<Case> {
+    suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
+}
+
+/// A few cases, for a testee that must be restarted often.
+fn some() -> Vec<Case> {
+    let every = cases().into_iter().enumerate().filter(|(place, _)| place % 25 == 0);
+    every.map(|(_, case)| case).collect()
+}
+
+fn own() -> String {
+    format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"))
+}
+
+/// Time limit of an answer; a busy machine answers late.
+const WAIT_MAX: Duration = Duration::from_secs(20);
+
+fn process(arguments: &str) -> TesteeProcess {
+    within(WAIT_MAX, arguments)
+}
+
+fn within(timeout: Duration, arguments: &str) -> TesteeProcess {
+    TesteeProcess::new(format!("{} {arguments}", own()), timeout)
+}
+
+fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
+    let mut failed: Vec<&str> = outcomes
+        .iter()
+        .flat_map(|outcome| &outcome.verdicts)
+        .filter(|one| matches!(one.verdict, Verdict::Fail | Verdict::Vacuous))
+        .map(|one| one.requirement)
+        .collect();
+    failed.sort_unstable();
+    failed.dedup();
+    failed
+}
+
+fn exit(judged: &JudgedTestee) -> Exit {
+    Exit::of(judged.outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict))
+}
+
+#[test]
+fn this_codec_passes_over_pipes_and_in_process() {
+    let mut over_pipes = process("");
+    let piped = judge(&mut over_pipes, cases(), OF_A_TESTEE);
+    let mut own = CodecTestee::default();
+    let direct = judge(&mut own, cases(), OF_A_TESTEE);
+    assert_eq!(exit(&piped), Exit::Success, "{:?}", failed(&piped.outcomes));
+    assert_eq!(piped.asked, direct.asked);
+    assert!(piped.asked > 1800, "{}", piped.asked);
+    assert_eq!((piped.restarts, over_pipes.starts), (0, 1));
+    let verdicts = |judged: &JudgedTestee| -> Vec<(String, Verdict)> {
+        judged.outcomes.iter().map(|one| (one.case.id.clone(), one.verdict())).collect()
+    };
+    assert_eq!(verdicts(&piped), verdicts(&direct));
+    assert!(verdicts(&piped).iter().all(|(_, verdict)| *verdict == Verdict::Pass));
+}
+
+#[test]
+fn the_seed_determines_only_the_order() {
+    let with = |seed| {
+        let mut own = CodecTestee::default();
+        let judged = judge(&mut own, cases(), Terms { seed, ..OF_A_TESTEE });
+        judged.outcomes.iter().map(|one| one.verdict()).collect::<Vec<_>>()
+    };
+    assert_eq!(with(1), with(2));
+}
+
+/// Each miniature fails either the protocol or requirements.
+#[test]
+fn miniatures_fail() {
+    for miniature in Miniature::ALL {
+        // These two miniatures test the time limit.
+        let timeout = match miniature {
+            Miniature::Hangs => Duration::from_secs(1),
+            Miniature::Stays => Duration::from_secs(5),
+            _ => WAIT_MAX,
+        };
+        let mut process = within(timeout, &format!("--miniature {}", miniature.name()));
+        let judged = judge(&mut process, some(), OF_A_TESTEE);
+        let failed = failed(&judged.outcomes);
+        let expected = if miniature.is_right() { Exit::Success } else { Exit::Failure };
+        assert_eq!(exit(&judged), expected, "{}: {failed:?}", miniature.name());
+        let by_manners = matches!(
+            miniature,
+            Miniature::KnowsAll
+                | Miniature::Tires
+                | Miniature::Stays
+                | Miniature::Mumbles
+                | Miniature::Miscounts
+        );
+        if by_manners {
+            assert!(failed.contains(&TESTEE), "{}: {failed:?}", miniature.name());
+        }
+        if miniature == Miniature::Stays {
+            assert_eq!(failed, [TESTEE]);
+        }
+        match miniature {
+            Miniature::Hangs => assert!(judged.restarts > 1),
+            Miniature::Crashes => assert!(judged.restarts > 3),
+            Miniature::Miscounts => assert!(process.starts > 3),
+            _ => assert_eq!(process.starts, 1, "{}", miniature.name()),
+        }
+        if miniature == Miniature::Noisy {
+            assert!(process.stderr().len() > 10_000);
+        }
+    }
+}
+
+#[test]
+fn a_rejection_for_another_reason_is_vacuous() {
+    let is_cut = |case: &Case| case.title.contains("truncated");
+    let cut: Vec<Case> = cases().into_iter().filter(is_cut).take(20).collect();
+    assert!(cut.len() > 10);
+    let mut process = process("--miniature refuses-all");
+    let judged = judge(&mut process, cut, OF_A_TESTEE);
+    for outcome in judged.outcomes.iter().filter(|outcome| is_cut(&outcome.case)) {
+        assert!(
+            matches!(outcome.verdict(), Verdict::Vacuous | Verdict::Warning | Verdict::Differs),
+            "{}: {}",
+            outcome.case.id,
+            outcome.verdict()
+        );
+    }
+}
+
+#[test]
+fn unclaimed_operations_are_not_applicable() {
+    let mut process = process("--miniature decodes-only");
+    let judged = judge(&mut process, cases(), OF_A_TESTEE);
+    let of = |id: &str| judged.outcomes.iter().find(|one| one.case.id == id).unwrap();
+    assert_eq!(of("vec-handle-printed").verdict(), Verdict::Pass);
+    assert_eq!(of("vec-handle-printed").checks, 1);
+    let text = judged.outcomes.iter().find(|one| one.case.id.starts_with("seq-")).unwrap();
+    assert_eq!(text.verdict(), Verdict::NotApplicable);
+}
+
+#[test]
+fn a_wrong_field_fails_its_requirement() {
+    for (id, requirement) in [
+        ("variable-description.size.flip", "VAR-8"),
+        ("variable-handle-read.indices.swap", "VAR-11"),
+        ("object-descriptor.index_offset.swap", "COM-5"),
+        ("ams-header.invoke_id.swap", "ADS-5"),
+        ("dynamic-value.value.swap", "GEN-1"),
+    ] {
+        let mut own = CodecTestee { defect: faults::by_id(id).cloned() };
+        let judged = judge(&mut own, cases(), OF_A_TESTEE);
+        assert!(failed(&judged.outcomes).contains(&requirement), "{id}");
+    }
+}
+
+#[test]
+fn a_failed_start_fails_only_the_protocol() {
+    for command in ["ads-cnc-no-such-command", "exit 3"] {
+        let mut process = TesteeProcess::new(command, Duration::from_millis(500));
+        assert!(process.hello().is_err());
+        let judged = judge(&mut process, some(), OF_A_TESTEE);
+        assert_eq!(failed(&judged.outcomes), [TESTEE]);
+        assert!(judged.hello.is_none());
+        let fault = &judged.outcomes.last().unwrap().verdicts[0].judgements[0];
+        assert!(fault.found.contains("crash"), "{}", fault.found);
+    }
+}
+
+#[allow(clippy::disallowed_methods, reason = "to a listener of the test")]
+/// The shell starts `ads-cnc serve` as a child process, which ends with the shell.
+#[test]
+fn a_command_ends_with_the_processes_it_started() {
+    let mut command = shell(&format!(
+        "\"{}\" serve --listen 127.0.0.1:0 && exit 0",
+        env!("CARGO_BIN_EXE_ads-cnc")
+    ));
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let running = RunningCommand::start(command).unwrap();
+    let mut line = String::new();
+    BufReader::new(running.take_stdout().unwrap()).read_line(&mut line).unwrap();
+    let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap();
+    drop(crate::common::connect(addr.parse().unwrap()));
+    drop(running);
+    let begun = Instant::now();
+    while TcpStream::connect(addr).is_ok() {
+        assert!(begun.elapsed() < Duration::from_secs(20), "the simulated CNC still listens");
+    }
+}
+
+/// Testees in one line of shell.
+#[cfg(unix)]
+mod shell {
+    use ads_cnc_conformance::testee::{
+        Question, Testee as _, TesteeProcess, TesteeReaction, check_protocol,
+    };
+
+    use super::WAIT_MAX;
+
+    /// A testee in shell that claims these operations and answers each case with a line.
+    fn shell(ops: &str, line: &str) -> TesteeProcess {
+        let testee = r#""testee":{"name":"sh"}"#;
+        let hello =
+            format!(r#"{{"protocol":1,{testee},"capabilities":{{"ops":[{ops}],"streams":[]}}}}"#);
+        let command =
+            format!("read l; printf '%s\\n' '{hello}'; while read l; do printf '{line}\\n'; done");
+        TesteeProcess::new(command, WAIT_MAX)
+    }
+
+    /// The reaction to an answer to the first case, whose number is 1.
+    fn says(line: &str) -> TesteeReaction {
+        shell("", line).ask(&Question::new("decode", "object-count", "en-1.05"))
+    }
+
+    /// The check of the protocol shows the lines of an adapter, escaped for a terminal.
+    #[test]
+    fn the_protocol_check_escapes_lines() {
+        let findings = check_protocol(&mut shell(r#""\u001b[2J\u0007""#, "\\033[31m"));
+        let all = format!("{findings:#?}");
+        // Nothing is sent after a hello with an unknown operation.
+        assert_eq!(findings.len(), 1, "{all}");
+        let shown = |text: &Option<String>| text.clone().unwrap_or_default();
+        for finding in &findings {
+            let text = [&finding.fault, &finding.received].map(shown).concat();
+            assert!(!text.contains(char::is_control), "{all}");
+        }
+        assert!(findings.iter().any(|one| shown(&one.fault).contains(r"\u{1b}[2J\u{7}")), "{all}");
+    }
+
+    /// An answer has exactly one of the four forms, and is text.
+    #[test]
+    fn an_answer_has_exactly_one_form() {
+        assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), TesteeReaction::Answer(_)));
+        for (line, why) in [
+            (
+                r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#,
+                "the answer has both ok and reject",
+            ),
+            (
+                r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#,
+                "the answer has both reject and error",
+            ),
+            (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "the answer has both ok and error"),
+            (
+                r#"{"seq":1,"unsupported":{"what":"op"},"ok":{}}"#,
+                "the answer has both ok and unsupported",
+            ),
+            (r#"{"seq":1,"ok":{},"reject":null}"#, "null"),
+            (r#"{"seq":1,"reject":{},"reject":{}}"#, "the key reject appears twice"),
+            (r#"{"seq":1}"#, "the answer has none of ok, reject, unsupported and error"),
+            (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
+        ] {
+            let TesteeReaction::Garbled(found) = says(line) else { panic!("{line}") };
+            assert!(found.contains(why), "{line}: {found}");
+        }
+    }
+
+    /// Additional lines are reported, also after the last answer.
+    #[test]
+    fn additional_lines_are_reported() {
+        for (line, is_right) in
+            [(r#"{"seq":1,"ok":{}}"#, true), (r#"{"seq":1,"ok":{}}\n{"seq":1,"ok":{}}"#, false)]
+        {
+            let mut testee = shell("", &format!("{line}\\n' ; exit ; printf '"));
+            let answer = testee.ask(&Question::new("decode", "object-count", "en-1.05"));
+            assert!(matches!(answer, TesteeReaction::Answer(_)), "{answer:?}");
+            let bye = testee.bye();
+            assert_eq!(bye.is_ok(), is_right, "{bye:?}");
+            assert!(is_right || bye.unwrap_err().contains("is not a reply to a request"));
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! `ads-cnc check` and `--capture` as users call them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+use super::maker::{Link, pcap, segments};
+use super::talk::{conversation, everything};
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A folder of this process that is removed when dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path =
+            std::env::temp_dir().join(format!("ads-cnc-capture-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _gone = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The captured traffic of every command that connects to a CNC passes.
+#[test]
+fn the_traffic_of_commands_passes() {
+    let folder = Folder::new("tools");
+    let program = folder.file("program.nc");
+    fs::write(&program, "N10 G01 X100 F1000\n".repeat(200) + "N20 M30\n").unwrap();
+    let calls: [&[&str]; 5] = [
+        &["browse", "--content"],
+        &["browse", "--variables"],
+        &["get", "V.E.Testvar"],
+        &["set", "V.E.Testvar[1]", "7"],
+        &["stream", &program],
+    ];
+    for (place, call) in calls.into_iter().enumerate() {
+        let file = folder.file(&format!("{place}.pcapng"));
+        let said = ads_cnc(&[call, &["--capture", &file]].concat());
+        assert_eq!(said.status.code(), Some(0), "{call:?}: {}", text(&said.stderr));
+        let checked = ads_cnc(&["check", "--any-port", &file]);
+        let shown = text(&checked.stdout);
+        assert_eq!(checked.status.code(), Some(0), "{call:?}: {shown}");
+        assert!(!shown.contains("DIFFERS") && !shown.contains("WARNING"), "{call:?}: {shown}");
+    }
+    // The simulated CNC listens on a port that the system chooses, and the check finds it.
+    let found = ads_cnc(&["check", &folder.file("2.pcapng")]);
+    let note = "judging the connections at other ports, as with --any-port";
+    assert!(text(&found.stderr).contains(note), "{}", text(&found.stderr));
+    assert_eq!(found.status.code(), Some(0));
+    let streamed = text(&ads_cnc(&["check", "--any-port", "-v", &folder.file("4.pcapng")]).stdout);
+    let line = "pass            cap-client-stream: The client streams whole lines and sends rejected data again";
+    assert!(streamed.contains(line), "{streamed}");
+}
+
+/// An incomplete capture is an error.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_incomplete_capture_is_an_error() {
+    let calls: [&[&str]; 3] = [&["get", "V.E.Testvar"], &["browse"], &["run", "--only", "COM-1"]];
+    for call in calls {
+        let said = ads_cnc(&[call, &["--capture", "/dev/full"]].concat());
+        assert_eq!(said.status.code(), Some(70), "{call:?}: {}", text(&said.stderr));
+        assert!(text(&said.stderr).contains("/dev/full: "), "{call:?}: {}", text(&said.stderr));
+    }
+}
+
+/// Every form of the report states that a part of the conversation is missing.
+#[test]
+fn every_report_states_missing_traffic() {
+    let folder = Folder::new("cut");
+    let (file, page, note) =
+        (folder.file("cut.pcapng"), folder.file("cut.html"), folder.file("cut.md"));
+    let said = ads_cnc(&["get", "V.E.matrix", "--capture", &file]);
+    assert_eq!(said.status.code(), Some(0));
+    let whole = fs::read(&file).unwrap();
+    fs::write(&file, &whole[..whole.len() - 70]).unwrap();
+    let checked =
+        ads_cnc(&["check", "--any-port", "-q", &file, "--html", &page, "--markdown", &note]);
+    let shown = text(&checked.stdout);
+    let why = "the file was judged only in part";
+    assert!(shown.starts_with(&format!("note: {why}")), "{shown}");
+    assert_eq!(shown.lines().count(), 2, "{shown}");
+    for file in [page, note] {
+        let report = fs::read_to_string(file).unwrap();
+        assert!(report.contains("Traffic") && report.contains(why));
+    }
+}
+
+/// The list of exchanges contains the requested names and the values of replies.
+#[test]
+fn exchanges_have_names_and_values() {
+    let folder = Folder::new("list");
+    let file = folder.file("list.pcapng");
+    let shown = |name: &str| {
+        ads_cnc(&["get", name, "--capture", &file]);
+        text(&ads_cnc(&["check", "--any-port", &file]).stdout)
+    };
+    let value = "read variable value by name V.E.matrix: 0b 00 0c 00 0d 00 15 00 16 00 17 00\n";
+    assert!(shown("V.E.matrix").contains(value));
+    let refused = "read variable value by name V.E.none: ADS error 0x710 (no such name)\n";
+    assert!(shown("V.E.none").contains(refused));
+}
+
+/// A file that cannot be created is wrong usage, not an internal error.
+#[test]
+fn a_capture_needs_an_existing_folder() {
+    let folder = Folder::new("nowhere");
+    let file = folder.file("none/x.pcapng");
+    let said = ads_cnc(&["get", "V.E.Testvar", "--capture", &file]);
+    assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
+}
+
+/// The suite sends requests that no client should send: only the CNC is judged, unless both are
+/// asked for.
+#[test]
+fn the_suite_fails_as_a_client() {
+    let folder = Folder::new("suite");
+    let (file, report) = (folder.file("run.pcapng"), folder.file("report.json"));
+    let run = ads_cnc(&["run", "--only", "VAR", "--only", "COM", "--capture", &file]);
+    assert_eq!(run.status.code(), Some(0));
+    let checked = ads_cnc(&["check", "--any-port", &file]);
+    assert_eq!(checked.status.code(), Some(0), "{checked:?}");
+    assert!(text(&checked.stderr).contains("the requests are the suite's own"), "{checked:?}");
+    let checked = ads_cnc(&["check", "--any-port", &file, "--own-requests", "--json", &report]);
+    assert_eq!(checked.status.code(), Some(1));
+    let report: Value = serde_json::from_str(&fs::read_to_string(&report).unwrap()).unwrap();
+    let totals = |subject: &str| {
+        let all = report["subjects"].as_array().unwrap();
+        all.iter().find(|one| one["subject"] == subject).unwrap()["totals"].clone()
+    };
+    assert!(totals("captured-cnc")["fail"].is_null(), "{}", totals("captured-cnc"));
+    assert!(totals("captured-client")["fail"].as_u64() > Some(3));
+    assert_eq!(report["target"]["file"], *file);
+    valid(&report, "schema/report.schema.json");
+}
+
+fn valid(value: &Value, schema: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(schema);
+    let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let errors: Vec<String> = schema.iter_errors(value).map(|error| error.to_string()).collect();
+    assert_eq!(errors, [""; 0]);
+}
+
+/// Vectors contain no addresses, and no file is overwritten; `extracted.rs` checks the schema.
+#[test]
+fn vectors_are_extracted() {
+    let folder = Folder::new("vectors");
+    let (file, vectors) = (folder.file("a.pcap"), folder.file("vectors.json"));
+    let talk = conversation(None, everything);
+    fs::write(&file, pcap(&segments(&talk, 1460, (1, 1)), Link::Ethernet)).unwrap();
+    let extract = |place: &str, more: &[&str]| {
+        ads_cnc(&[&["check", &file, "--extract-vectors", place], more].concat())
+    };
+    let first = extract(&vectors, &[]);
+    assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
+    let content = fs::read_to_string(&vectors).unwrap();
+    let document: Value = serde_json::from_str(&content).unwrap();
+    let all = document["vectors"].as_array().unwrap();
+    let streams = |name: &str| all.iter().filter(|one| one["stream"] == name).count();
+    assert!(streams("variable-description") > 5 && streams("ams-frame") > 50, "{}", all.len());
+    assert!(
+        streams("variable-value") > 3
+            && streams("object-descriptor") + streams("object-descriptors") > 3
+    );
+    // The vectors contain neither the NetIds of the conversation nor a requested name.
+    assert!(content.contains("192.0.2.10.1.1") && !content.contains("127.0.0.1"));
+    assert!(!content.contains("Testvar") && content.contains("V.E.Xxxxxxx"));
+    // All vectors decode.
+    let again = extract(&vectors, &[]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(text(&again.stderr).contains("vectors could not be written"));
+    assert_eq!(fs::read_to_string(&vectors).unwrap(), content);
+    // Write them to a folder, with the texts.
+    let into = folder.file("folder");
+    fs::create_dir(&into).unwrap();
+    assert_eq!(extract(&into, &["--keep-texts"]).status.code(), Some(0));
+    let names = fs::read_to_string(Path::new(&into).join("captured-variable-name.json")).unwrap();
+    assert!(names.contains("V.E.Testvar"));
+}
+
+#[test]
+fn a_file_that_is_not_a_capture_is_wrong_usage() {
+    let folder = Folder::new("none");
+    let file = folder.file("none.pcap");
+    let refused = |file: &str, why: &str| {
+        let checked = ads_cnc(&["check", file]);
+        assert_eq!(checked.status.code(), Some(2));
+        assert!(text(&checked.stderr).contains(why), "{}", text(&checked.stderr));
+    };
+    refused(&file, "No such file");
+    fs::write(&file, "").unwrap();
+    refused(&file, "empty");
+    fs::write(&file, "N10 G01 X100\n".repeat(10)).unwrap();
+    refused(&file, "neither pcap nor pcapng");
+    // An empty capture judges nothing.
+    fs::write(&file, pcap(&[], Link::Ethernet)).unwrap();
+    let checked = ads_cnc(&["check", &file]);
+    assert_eq!(checked.status.code(), Some(3), "{}", text(&checked.stdout));
+}
