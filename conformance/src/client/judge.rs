@@ -1,12 +1,22 @@
 //! Checks the headers of received frames.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
+use ads_cnc::operation::Service;
 use ads_cnc_vectors::ids::*;
 
 use super::Client;
 use crate::exchange::{Exchange, ExchangeError, Violation, violations};
 use crate::text::plural;
-use crate::wire_service::{clause, reply_stream};
+use crate::wire_service::{clause, decode_reply, reply_stream};
+
+/// Whether the payload is a reply with a result of 0 or 2 bytes, or a length of 2 bytes.
+fn is_narrow(service: Service, payload: &[u8]) -> bool {
+    let missing: [(usize, &[u8]); 3] = [(0, &[0; 4]), (0, &[0; 2]), (6, &[0; 2])];
+    missing.into_iter().any(|(at, zeros)| {
+        let Some((before, after)) = payload.split_at_checked(at) else { return false };
+        decode_reply(service, &[before, zeros, after].concat()).is_ok()
+    })
+}
 
 impl Client {
     /// Adds the violations in the headers of the received frame.
@@ -38,8 +48,10 @@ impl Client {
                 if let ExchangeError::Malformed(error) = fault {
                     if error.field().stream() == Some(reply_stream(exchange.service)) {
                         add(clause(exchange.service), error.to_string());
-                        // A length is wrong, so the fields after it are shifted.
-                        add(ADS_4, error.to_string());
+                        let payload = exchange.received.get(FrameRef::HEADERS_LEN..);
+                        if payload.is_some_and(|payload| is_narrow(exchange.service, payload)) {
+                            add(ADS_4, error.to_string());
+                        }
                     } else {
                         add(ADS_5, error.to_string());
                     }

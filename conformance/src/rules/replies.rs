@@ -121,9 +121,11 @@ pub(super) fn judge(
         }
         Some(Err(error)) => {
             let spec = request.function().spec();
-            let field = error.field().spec().map(|spec| spec.clause);
-            let field =
-                if error.kind() == ErrorKind::TooMany { Some(VAR_24.as_str()) } else { field };
+            // With a wrong count, every later field is in the wrong bytes.
+            let field = match error.kind() {
+                ErrorKind::TooMany => spec.reply.map(|stream| stream.layout().clause),
+                _ => error.field().spec().map(|spec| spec.clause),
+            };
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
             let mut record = context.records.on(Topic::of_reply(request.function()), observation);
             let clause = if record.knows(clause) { clause } else { spec.clause };

@@ -78,14 +78,22 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     probe.check(GEN_2, shift.is_none(), "name at byte 20, type at byte 52", found);
 }
 
+/// Whether the size is that of the type and the dimensions. A STRING has no fixed size, so that a
+/// wrong number of dimensions looks like padding.
+fn has_size(variable: &Description) -> bool {
+    let Description { var_type, size, dimensions, .. } = variable;
+    let elements = dimensions.iter().try_fold(1_u32, |all, one| all.checked_mul(*one));
+    let whole = |one: u32| elements.and_then(|elements| elements.checked_mul(one)) == Some(*size);
+    var_type.element_size().is_some_and(whole)
+}
+
 fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
     let of_kind = |one: &Description| {
         let name = one.name.text.to_string();
         name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'))
     };
-    let makes_sense = |bytes: &[u8]| {
-        Description::decode(bytes).is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
-    };
+    let makes_sense =
+        |bytes: &[u8]| Description::decode(bytes).is_ok_and(|one| of_kind(&one) && has_size(&one));
     let is_of_kind = Description::decode(bytes).is_ok_and(|one| of_kind(&one));
     let shift = if is_of_kind { None } else { unpacked(bytes, bytes.len(), makes_sense) };
     let found = || format!("{} more between the fields", plural(shift.unwrap_or_default(), "byte"));

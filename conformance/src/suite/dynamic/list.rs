@@ -216,7 +216,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
         let of_kind = is_of(kind, &name);
         probe.check(DYN_2, of_kind, || format!("a name with the prefix {}", prefix(kind)), found);
         let own = seen.insert(name.clone());
-        probe.check([DYN_2, DYN_5], own, "a different name at each index", found);
+        let is_valid_twice = of_kind && !own;
+        probe.check([DYN_2, DYN_5], !is_valid_twice, "a different name at each index", found);
     }
     if let Some(other) = unsteady {
         probe.set_evidence(other.evidence.clone());

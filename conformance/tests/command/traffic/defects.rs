@@ -26,7 +26,7 @@ fn defects_of_a_cnc_fail_their_requirement() {
         ("variable-description.type.invert", "VAR-5"),
         ("variable-description.access.invert", "VAR-6"),
         ("variable-description.size.invert", "VAR-8"),
-        ("variable-description.dimension_count.invert", "VAR-24"),
+        ("variable-description.dimension_count.invert", "VAR-4"),
         ("variable-description.dimensions.invert", "VAR-8"),
         ("variable-description.name.invert", "VAR-3"),
         ("variable-count.count.zero", "VAR-2"),
