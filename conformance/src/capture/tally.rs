@@ -169,7 +169,8 @@ impl CaptureTally {
         if self.segments == 0 && self.elsewhere > 0 {
             let elsewhere = self.elsewhere;
             lines.push(format!(
-                "not read: {elsewhere} TCP segments on other ports; see --port and --any-port"
+                "not read: {} on other ports; see --port and --any-port",
+                plural(elsewhere, "TCP segment")
             ));
         }
         lines.extend(self.missing());

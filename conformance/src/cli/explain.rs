@@ -85,7 +85,7 @@ pub(super) struct Explain {
     json: bool,
 
     /// When to colour the output; auto: on a terminal, unless NO_COLOR is set
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, hide_short_help = true, value_name = "WHEN", default_value = "auto")]
     color: Color,
 
     /// List the streams: name, requirement, maximum number of bytes, title

@@ -44,7 +44,7 @@ use crate::text::nearest;
 #[command(name = "ads-cnc", version)]
 struct Cli {
     /// Log to stderr: a level (error, warn, info, debug, trace), or a list of module=level
-    #[arg(long, global = true, value_name = "LEVEL|FILTER")]
+    #[arg(long, hide_short_help = true, global = true, value_name = "LEVEL|FILTER")]
     log: Option<log::Filter>,
 
     /// `run` if none is specified.

@@ -99,22 +99,22 @@ impl NameArgs {
         }
         if is_absent && !is_variable {
             return Some(format!(
-                "ads-cnc browse{device} --filter \"{name}\" searches every channel for similar \
-                 names, and with --variables for variables"
+                "to search every channel for similar names, and with --variables for variables: \
+                 ads-cnc browse{device} --filter \"{name}\""
             ));
         }
-        let browse = format!("{browse} lists similar variables");
+        let browse = format!("to search for similar variables: {browse}");
         Some(match error {
             ToolError::Ads { function: Function::WriteByName, .. }
                 if ["V.P.", "V.L.", "V.S."].iter().any(|kind| name.starts_with(kind)) =>
             {
                 format!(
                     "writing V.P, V.L and V.S by name needs a CNC from V4.18.0, V3.1.3115, \
-                     V3.1.3081.07, V2.11.2847 or V2.11.2077 on (ads-de 1.051, section 4.1). {browse}"
+                     V3.1.3081.07, V2.11.2847 or V2.11.2077 on (ads-de 1.051, section 4.1); {browse}"
                 )
             }
             _ if lacks_axis => {
-                format!("specify the axis: --axis INDEX, or its name, as in {name}.X. {browse}")
+                format!("specify the axis: --axis INDEX, or its name, as in {name}.X; {browse}")
             }
             _ => browse,
         })

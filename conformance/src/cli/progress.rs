@@ -136,7 +136,11 @@ impl Drop for Watch {
 
 pub(super) fn progress_text(counts: Counts, unit: &str, elapsed: Duration) -> String {
     let Counts { all, done, failed, requests } = counts;
-    let mut text = format!("{done} of {all} {unit}");
+    // Their number is unknown until the peer has introduced itself.
+    let mut text = match all {
+        0 => "waiting for the first message".to_owned(),
+        _ => format!("{done} of {all} {unit}"),
+    };
     if requests > 0 {
         text.push_str(&format!(", {}", plural(requests, "request")));
     }

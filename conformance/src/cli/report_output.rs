@@ -32,7 +32,7 @@ pub(super) struct ReportFormats {
     markdown: Option<PathBuf>,
 
     /// Write the JSON of a badge for an endpoint of shields.io
-    #[arg(long, help_heading = HEADING, value_name = "FILE")]
+    #[arg(long, hide_short_help = true, help_heading = HEADING, value_name = "FILE")]
     badge: Option<PathBuf>,
 }
 

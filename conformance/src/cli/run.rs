@@ -80,7 +80,7 @@ pub(super) struct Run {
     testee: Option<String>,
 
     /// Check the protocol of the testee step by step; for authors of adapters
-    #[arg(long, requires = "testee",
+    #[arg(long, hide_short_help = true, requires = "testee",
         conflicts_with_all = ["client", "client_listen", "only", "list", "json", "waivers"])]
     check_protocol: bool,
 
@@ -89,7 +89,7 @@ pub(super) struct Run {
     /// The effect on a CNC that accepts them is unknown. Needs `malformed = true` in the file of
     /// --allow-write and a target on loopback. Loopback does not guarantee that no machine moves:
     /// the CNC of an industrial PC and a device behind an SSH tunnel are also reached through it.
-    #[arg(long, requires = "target", conflicts_with_all = ["testee", "client", "client_listen"])]
+    #[arg(long, hide_short_help = true, requires = "target", conflicts_with_all = ["testee", "client", "client_listen"])]
     malformed: bool,
 
     /// Run only these cases: an area (VAR), a requirement (VAR-11), a stream (variable-description)
@@ -99,7 +99,7 @@ pub(super) struct Run {
 
     /// Judge by this edition only, en-1.05 or de-1.051; the simulated CNC follows it [default:
     /// both]
-    #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = Edition::by_name)]
+    #[arg(long, hide_short_help = true, help_heading = SELECTION, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
     /// Set the seed of the order of the cases and of the samples of long lists [default: random;
@@ -115,7 +115,7 @@ pub(super) struct Run {
 
     /// Stop after N failed cases, also known ones (--waivers); all cases of the codec are judged
     /// together
-    #[arg(long, help_heading = SELECTION, value_name = "N",
+    #[arg(long, hide_short_help = true, help_heading = SELECTION, value_name = "N",
         value_parser = clap::value_parser!(u32).range(1..),
         conflicts_with_all = ["testee", "client", "client_listen"])]
     max_fail: Option<u32>,

@@ -39,11 +39,11 @@ pub(super) struct ClientArgs {
 
     /// Allow an address other than loopback for --client-listen. Any machine that reaches it can
     /// read and write the simulated CNC
-    #[arg(long, help_heading = CLIENT, requires = "client_listen")]
+    #[arg(long, hide_short_help = true, help_heading = CLIENT, requires = "client_listen")]
     allow_remote: bool,
 
     /// Time limit for each action of a client, in milliseconds
-    #[arg(long, help_heading = CLIENT, value_name = "MS", default_value_t = 10_000)]
+    #[arg(long, hide_short_help = true, help_heading = CLIENT, value_name = "MS", default_value_t = 10_000)]
     client_timeout: u64,
 }
 

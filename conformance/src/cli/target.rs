@@ -60,7 +60,7 @@ pub(super) struct TargetArgs {
 
     /// AMS NetId of this client; the device needs a route to it [default: this machine's address
     /// and .1.1]
-    #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
+    #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     source_net_id: Option<AmsNetId>,
 
     /// Timeout for a connection and for a reply, in milliseconds [default: 2000]
@@ -69,7 +69,7 @@ pub(super) struct TargetArgs {
     timeout: Option<u64>,
 
     /// Maximum number of requests per second [default: no limit; each waits for the previous reply]
-    #[arg(long, help_heading = TARGET, value_name = "PER_SECOND", value_parser = pace)]
+    #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "PER_SECOND", value_parser = pace)]
     rate: Option<Duration>,
 
     /// File with the allowed writes, the device and the end of the permission [default: no writes]
@@ -101,7 +101,7 @@ pub(super) struct TargetArgs {
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct DeadlineArgs {
     /// Deadline for all requests, in seconds; the rest is reported as not requested
-    #[arg(long, help_heading = TARGET, value_name = "SECONDS", default_value_t = DEADLINE,
+    #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "SECONDS", default_value_t = DEADLINE,
         value_parser = seconds)]
     deadline: u64,
 }

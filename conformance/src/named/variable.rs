@@ -33,6 +33,9 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
 fn told(name: &str, error: &ads_cnc::Error) -> String {
     let error_text = error.to_string();
     let what = match error.kind() {
+        ads_cnc::ErrorKind::Truncated if name.matches('[').count() > name.matches(']').count() => {
+            "\"]\" is missing"
+        }
         ads_cnc::ErrorKind::Truncated => "incomplete",
         _ => error_text.rsplit(": ").next().unwrap_or_default(),
     };

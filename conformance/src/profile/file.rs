@@ -17,7 +17,7 @@ use toml::Spanned;
 
 use super::{LISTED, Profile, Section};
 use crate::edition::{CncVersion, Edition};
-use crate::text::{toml_error, utf8};
+use crate::text::{did_you_mean, toml_error, utf8};
 
 /// A profile with a comment on each key. Its values are the defaults for a device.
 pub const EXAMPLE: &str = include_str!("device.toml");
@@ -296,8 +296,9 @@ fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>,
             if all().any(|known| known == name) {
                 Ok(())
             } else {
+                let near = did_you_mean(name, all());
                 let all: Vec<&str> = all().collect();
-                Err(format!("{name:?} is not a function; functions: {}", all.join(", ")))
+                Err(format!("{name:?} is not a function{near}; functions: {}", all.join(", ")))
             }
         })
     })

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::model::Report;
 use crate::judge::{Exit, LeftChanged, Verdict};
-use crate::text::{json, shorten};
+use crate::text::{json, plural, shorten};
 
 /// The JSON that shields.io reads from an endpoint; it rejects other keys.
 #[derive(Debug, Serialize)]
@@ -23,7 +23,8 @@ struct Badge {
 /// waivers. Of the values that were not restored, the badge names the first and counts the others.
 pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let (word, color) = match report.exit() {
-        Exit::Success => ("passed", "brightgreen"),
+        Exit::Success if report.only.is_empty() => ("passed", "brightgreen"),
+        Exit::Success => ("selection passed", "green"),
         Exit::Failure => ("failed", "red"),
         Exit::Stale => ("stale waiver", "orange"),
         Exit::Nothing => ("inconclusive", "lightgrey"),
@@ -34,10 +35,14 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let of = |verdict: Verdict| -> usize {
         report.subjects.iter().filter_map(|subject| subject.totals.get(&verdict)).sum()
     };
-    let numbers = [(of(Verdict::Fail), "fail"), (of(Verdict::Warning), "warning")];
     let waived: usize = report.subjects.iter().map(|subject| subject.waived).sum();
-    let numbers = numbers.into_iter().chain([(waived, "waived")]).filter(|(number, _)| *number > 0);
-    let numbers = numbers.map(|(number, what)| format!(", {number} {what}"));
+    let numbers = [
+        (of(Verdict::Fail), "requirement", " failed"),
+        (of(Verdict::Warning), "warning", ""),
+        (waived, "failure", " waived"),
+    ];
+    let numbers = numbers.into_iter().filter(|(number, ..)| *number > 0);
+    let numbers = numbers.map(|(number, noun, what)| format!(", {}{what}", plural(number, noun)));
     let numbers: String = numbers.collect();
     let left = match report.left_changed.as_slice() {
         [] => String::new(),

@@ -6,7 +6,7 @@ use std::time::Duration;
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
 use super::display::NAMES_MAX;
-use super::failures::list;
+use super::failures::{differing_field, list};
 use super::model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals,
@@ -304,8 +304,7 @@ fn marked(mut evidence: EvidenceReport, judgement: &Judgement) -> EvidenceReport
     if expected.is_some() || judgement.verdict != Verdict::Fail {
         return evidence;
     }
-    let path = judgement.found.strip_suffix(" is expected");
-    if let Some((path, _)) = path.and_then(|found| found.split_once(": "))
+    if let Some(path) = differing_field(&judgement.found)
         && let Some(bytes) = received.as_mut().or(sent.as_mut())
     {
         bytes.mark_field(path);

@@ -40,12 +40,15 @@ impl Change {
             |one: Option<&RequirementReport>| one.is_some_and(|one| one.verdict.is_judged());
         let is =
             |one: Option<&RequirementReport>, wanted| one.map(|one| one.verdict) == Some(wanted);
-        let deviates = is(now, Verdict::Warning) || is(now, Verdict::Differs);
+        let deviates = |one| is(one, Verdict::Warning) || is(one, Verdict::Differs);
         match (fails(before), fails(now)) {
             (false, true) => Some(Self::NewlyFailing),
             (true, false) if judged(now) => Some(Self::Fixed),
             (true, true) => None,
-            (false, false) if is(before, Verdict::Pass) && deviates => Some(Self::NewlyDeviating),
+            (false, false) if is(before, Verdict::Pass) && deviates(now) => {
+                Some(Self::NewlyDeviating)
+            }
+            (false, false) if deviates(before) && is(now, Verdict::Pass) => Some(Self::Fixed),
             _ if !judged(before) && judged(now) => Some(Self::NewlyJudged),
             _ if judged(before) && !judged(now) => Some(Self::NoLongerJudged),
             _ => None,
@@ -115,8 +118,9 @@ pub fn compare(
     let warnings = differences(now, before);
     let (new, old) = (judged(now), judged(before));
     let mut changes: BTreeMap<(Change, &str, CaseSubject), Vec<String>> = BTreeMap::new();
-    let mut interrupted = 0_usize;
+    let (mut interrupted, mut all) = (0_usize, 0_usize);
     for key in new.keys().chain(old.keys().filter(|key| !new.contains_key(*key))) {
+        all += 1;
         let (before, now) = (old.get(key).copied(), new.get(key).copied());
         let Some(change) = Change::of(before, now) else { continue };
         let is_cut = now.is_some_and(|one| one.verdict == Verdict::Interrupted);
@@ -157,7 +161,7 @@ pub fn compare(
         number(Change::NewlyDeviating),
         number(Change::Fixed),
         number(Change::NewlyJudged),
-        plural(new.len(), "verdict")
+        plural(all, "verdict")
     )?;
     Ok(match (failing, unjudged) {
         (0, 0) => Exit::Success,
@@ -188,6 +192,7 @@ mod tests {
         assert_eq!(change(Pass, Warning), Some(Change::NewlyDeviating));
         assert_eq!(change(Pass, Differs), Some(Change::NewlyDeviating));
         assert_eq!(change(Differs, Warning), None);
+        assert_eq!(change(Warning, Pass), Some(Change::Fixed));
         assert_eq!(change(Fail, Warning), Some(Change::Fixed));
         assert_eq!(change(Pass, Interrupted), Some(Change::NoLongerJudged));
         assert_eq!(Change::of(None, Some(&one(Fail, true))), Some(Change::NewlyJudged));

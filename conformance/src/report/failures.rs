@@ -95,7 +95,7 @@ pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
     let subject = failure.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref());
     let subject = subject.map_or_else(String::new, |subject| format!("{subject}: "));
     // The text of a differing field already contains the expected value.
-    if found.ends_with(" is expected") {
+    if differing_field(&found).is_some() {
         return format!("{subject}{found}");
     }
     if let Some(differing) = failure.evidence.as_ref().and_then(differing) {
@@ -103,6 +103,12 @@ pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
     }
     let found = if found.is_empty() { "nothing" } else { found.as_str() };
     format!("{subject}expected {expected}; found {found}")
+}
+
+/// The path of the field in the text of a difference, such as "size: 24 is expected, not 25".
+pub(super) fn differing_field(text: &str) -> Option<&str> {
+    let (path, difference) = text.split_once(": ")?;
+    (!path.contains(' ') && difference.contains(" is expected")).then_some(path)
 }
 
 /// The first field whose value differs from the expected one, if both have the same fields.

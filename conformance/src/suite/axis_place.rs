@@ -112,7 +112,7 @@ fn too_far(probe: &mut Probe<'_>) -> Step {
         let expected = || {
             format!("a handle other than that of place {} at place {}", axis.index(), far.index())
         };
-        probe.check(VAR_26, given != Some(handle), expected, || format!("{handle:?}"));
+        probe.check(VAR_26, given != Some(handle), expected, || handle.to_string());
     }
     Ok(())
 }

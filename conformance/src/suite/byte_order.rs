@@ -38,7 +38,8 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
             let known = variable.handle.0;
             let swapped = handle.0 != known && handle.0.swap_bytes() == known;
             let expected = || format!("handle {} of {}", variable.handle, variable.name.text);
-            probe.check(GEN_1, !swapped, expected, || format!("{handle:?}"));
+            let found = || format!("{handle} of {}", variable.name.text);
+            probe.check(GEN_1, !swapped, expected, found);
         }
     }
     Ok(())

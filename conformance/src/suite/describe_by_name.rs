@@ -123,10 +123,8 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
             );
             let DescriptionByName { var_type, access, size, dimensions, .. } = &described;
             let found = || {
-                format!(
-                    "{var_type}, {access}, {}, dimensions {dimensions:?}",
-                    plural(*size, "byte")
-                )
+                let size = plural(*size, "byte");
+                format!("{var_type}, {access}, {size}, dimensions {dimensions:?} of {name}")
             };
             probe.check(VAR_28, passed, || format!("{by_index} of {name}, as by index"), found);
             let same = described.handle == *handle;

@@ -92,8 +92,8 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let expected =
                 || format!("the description's handle {} for {}", variable.handle, name.text());
             let rule = assumed(VAR_10);
-            probe.check(rule, handle == variable.handle, expected, || format!("{handle:?}"));
-            let found = || format!("{handle:?} for {} too", name.text());
+            probe.check(rule, handle == variable.handle, expected, || handle.to_string());
+            let found = || format!("{handle} for {} too", name.text());
             probe.check(rule, handles.insert(handle), "a handle that no other name has", found);
             if handle == variable.handle {
                 continue;
