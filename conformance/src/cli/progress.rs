@@ -138,7 +138,7 @@ pub(super) fn progress_text(counts: Counts, unit: &str, elapsed: Duration) -> St
     let Counts { all, done, failed, requests } = counts;
     // Their number is unknown until the peer has introduced itself.
     let mut text = match all {
-        0 => "waiting for the first message".to_owned(),
+        0 if requests == 0 => "waiting for the first message".to_owned(),
         _ => format!("{done} of {all} {unit}"),
     };
     if requests > 0 {

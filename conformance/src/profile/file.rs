@@ -296,9 +296,11 @@ fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>,
             if all().any(|known| known == name) {
                 Ok(())
             } else {
-                let near = did_you_mean(name, all());
-                let all: Vec<&str> = all().collect();
-                Err(format!("{name:?} is not a function{near}; functions: {}", all.join(", ")))
+                let mut hint = did_you_mean(name, all());
+                if hint.is_empty() {
+                    hint = format!("; functions: {}", all().collect::<Vec<_>>().join(", "));
+                }
+                Err(format!("{name:?} is not a function{hint}"))
             }
         })
     })

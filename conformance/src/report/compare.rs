@@ -107,8 +107,8 @@ fn differences(now: &Report, before: &Report) -> Vec<String> {
 }
 
 /// Writes the changes since an earlier report, new failures last; if quiet, only their numbers. Returns
-/// [`Exit::Failure`] if a requirement newly fails, else [`Exit::Nothing`] if one is no longer judged, else
-/// [`Exit::Success`].
+/// the exit code: [`Exit::Failure`] if a requirement newly fails; otherwise [`Exit::Nothing`] if a requirement is
+/// no longer judged; otherwise [`Exit::Success`].
 pub fn compare(
     now: &Report,
     before: &Report,

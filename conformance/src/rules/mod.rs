@@ -31,7 +31,7 @@ pub(crate) use self::objects::check_descriptor;
 pub(crate) use self::observation::Observation;
 pub(crate) use self::requests::function_at;
 pub(crate) use self::topic::{Topic, captured_cases, reply_cases};
-pub(crate) use self::variables::{check_description, check_extended};
+pub(crate) use self::variables::{check_description, check_extended, element_count};
 use crate::wire_service;
 
 /// The requirement of the service with this command.

@@ -272,6 +272,11 @@ fn in_words(ty: VariableType, access: VariableAccess, size: u32, dimensions: &[u
     format!("{ty}, {access}, {}, dimensions {dimensions:?}", plural(size, "byte"))
 }
 
+/// The number of elements of an array; 1 for another variable.
+pub(crate) fn element_count(dimensions: &[u32]) -> u32 {
+    dimensions.iter().fold(1, |all, &n| all.saturating_mul(n))
+}
+
 /// Checks a description by itself.
 pub(crate) fn check_description(record: &mut impl Checks, variable: &Description, kind: &str) {
     let name = variable.name.text.to_string();
@@ -305,7 +310,7 @@ pub(crate) fn check_description(record: &mut impl Checks, variable: &Description
         // The dimensions may be missing.
         record.check([VAR_7, VAR_4], one, "the size of one element without a dimension", found);
     }
-    let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
+    let whole = size.saturating_mul(element_count(&variable.dimensions));
     let expected =
         || format!("{} for {:?} {}", plural(whole, "byte"), variable.dimensions, variable.var_type);
     let found = || format!("{} of {name}", plural(variable.size, "byte"));

@@ -7,6 +7,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Counted, ItemKind, Probe};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step};
+use crate::rules::element_count;
 use crate::text::plural;
 
 #[rustfmt::skip]
@@ -81,10 +82,9 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
 /// Whether the size is that of the type and the dimensions. A STRING has no fixed size, so that a
 /// wrong number of dimensions looks like padding.
 fn has_size(variable: &Description) -> bool {
-    let Description { var_type, size, dimensions, .. } = variable;
-    let elements = dimensions.iter().try_fold(1_u32, |all, one| all.checked_mul(*one));
-    let whole = |one: u32| elements.and_then(|elements| elements.checked_mul(one)) == Some(*size);
-    var_type.element_size().is_some_and(whole)
+    let element = variable.var_type.element_size();
+    let count = element_count(&variable.dimensions);
+    element.is_some_and(|size| size.saturating_mul(count) == variable.size)
 }
 
 fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {

@@ -7,12 +7,13 @@ use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{
-    Compared, Probe, Steady, brackets, compare, each_array, each_variable, element_count,
-    element_name, name_of, order, part, places_tried, same,
+    Compared, Probe, Steady, brackets, compare, each_array, each_variable, element_name, name_of,
+    order, part, places_tried, same,
 };
 use super::row::{CaseRow, case};
 use crate::explain::{ValueFormat, type_by_name};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step};
+use crate::rules::element_count;
 use crate::text::hex::spaced;
 use crate::text::plural;
 

@@ -6,10 +6,11 @@ use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, axis_address, element_count, is_of_service};
+use super::kit::{Probe, axis_address, is_of_service};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Evidence, Needs, Rule, Step, Stop};
 use crate::objects::ValueAddress;
+use crate::rules::element_count;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[

@@ -3,7 +3,7 @@
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use ads_cnc_conformance::faults;
@@ -124,6 +124,20 @@ fn miniatures_fail() {
             assert!(process.stderr().len() > 10_000);
         }
     }
+}
+
+/// The expected value is stated once, and the bytes of the wrong field are marked.
+#[test]
+fn a_wrong_field_is_marked() {
+    let testee = format!("{} --defect variable-description.size.flip", own());
+    let mut run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    run.args(["run", "--only", "VAR-8", "--seed", "1", "--testee", &testee]);
+    let stdout = String::from_utf8(run.output().unwrap().stdout).unwrap();
+    assert!(
+        stdout.contains("vec-description-one-dimension: size: 4 is expected, not 5\n"),
+        "{stdout}"
+    );
+    assert!(stdout.contains("\n    !   12  04 00 00 00 "), "{stdout}");
 }
 
 #[test]

@@ -6,11 +6,7 @@ use ads_cnc_vectors::Level;
 use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Rule, Step, assumed};
-
-/// The number of elements of an array; 1 for another variable.
-pub(crate) fn element_count(dimensions: &[u32]) -> u32 {
-    dimensions.iter().fold(1, |all, &n| all.saturating_mul(n))
-}
+use crate::rules::element_count;
 
 /// Size of one element in bytes; the texts of an array have equal shares of its size.
 pub(crate) fn element_size(variable: &Description) -> Option<usize> {

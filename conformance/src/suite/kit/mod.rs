@@ -36,9 +36,7 @@ pub(crate) use instance::Instance;
 pub(crate) use inventory::{
     INSTANCES_MAX, OBJECTS_MAX, OF_PLACES, VARIABLES_MAX, attribute_reads, element_by_rank, name_of,
 };
-pub(crate) use layout::{
-    brackets, element_count, element_name, element_size, order, part, places_tried,
-};
+pub(crate) use layout::{brackets, element_name, element_size, order, part, places_tried};
 pub(crate) use object_list::{
     descriptors_one_by_one, known_object_count, object_count, read_descriptors,
 };

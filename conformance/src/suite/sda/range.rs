@@ -7,7 +7,7 @@ use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
-use crate::judge::{Checks as _, Rule, Step, applicable, assumed};
+use crate::judge::{Checks as _, OrStop as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe, attribute_reads};
 
 /// Requests an instance that must exist. Another task may serve the class, so a rejection is judged
@@ -102,14 +102,15 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
         }
     }
     // An axis place exists with or without an axis.
-    for &(channel, place) in probe.target.profile.empty_places.clone().iter() {
-        for class in OF_PLACES {
-            // If the first channel is not found either, the group of the class may be wrong.
-            let first = numbers.first().copied().unwrap_or(channel);
-            let first = probe.address_of(class, first, 0)?;
-            let has_group = first.is_some_and(|first| matches!(first.first_element(), Ok(Some(_))));
-            let clauses = if has_group { &[SDA_5][..] } else { &[SDA_5, ADR_5] };
-            let rules: Vec<Rule> = clauses.iter().map(|id| of_axes(class, *id)).collect();
+    let empty_places = probe.target.profile.empty_places.clone();
+    for class in OF_PLACES.into_iter().filter(|_| !empty_places.is_empty()) {
+        // If no instance of the first channel is found, the group of the class may be wrong.
+        let first = numbers.first().or_inconclusive("no channel")?;
+        let first = probe.address_of(class, *first, 0)?;
+        let has_group = first.is_some_and(|first| matches!(first.first_element(), Ok(Some(_))));
+        let clauses = if has_group { &[SDA_5][..] } else { &[SDA_5, ADR_5] };
+        let rules: Vec<Rule> = clauses.iter().map(|id| of_axes(class, *id)).collect();
+        for &(channel, place) in empty_places.iter() {
             is_there(probe, &rules, class, channel, place)?;
         }
     }
