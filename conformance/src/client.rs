@@ -15,7 +15,7 @@ use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, Fra
 use ads_cnc::operation::{Call, Service};
 use ads_cnc_vectors::ids::*;
 
-use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation};
+use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation, incomplete_frame};
 use crate::gate::{Gate, Permit};
 use crate::net::{LocalPeers, Wire};
 use crate::process::progress;
@@ -263,6 +263,15 @@ impl Client {
             self.disconnect();
             came = self.exchange(permit, header, received, violations, &mut strays);
         }
+        let is_incomplete = matches!(
+            came,
+            Err(ExchangeError::Silence(_) | ExchangeError::Closed | ExchangeError::Io(_))
+        );
+        if is_incomplete && let Some(whole) = incomplete_frame(received) {
+            let len = plural(received.len(), "byte");
+            let what = format!("{len} of a frame of {}", plural(whole, "byte"));
+            violations.push(Violation { requirement: ADS_5, what });
+        }
         if let Some(more) = strays.checked_sub(STRAYS_MAX).filter(|more| *more > 0) {
             let what = format!(
                 "{} to other invoke IDs; {STRAYS_MAX} are shown",
@@ -341,16 +350,19 @@ impl Client {
                 let header = frame.header();
                 let (id, asked_id) = (header.invoke_id, sent.invoke_id);
                 let is_other = id != asked_id;
-                // A reply to an earlier request would have another target port, so this is the
-                // reply to this request, with a wrong invoke ID.
                 if !is_other || is_reply(&sent, &header) {
                     if is_other {
                         violations.push(Violation::of_invoke_id(id, asked_id));
                     }
-                    if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
-                        let what = format!("{} after the reply", plural(more, "unexpected byte"));
+                    let more = received.get(len..).unwrap_or_default();
+                    if !more.is_empty() {
+                        let more_len = plural(more.len(), "unexpected byte");
+                        let what = format!("{more_len} after the reply");
                         violations.push(Violation { requirement: ADS_5, what });
-                        self.disconnect();
+                        // Without a whole frame, the start of the next reply is unknown.
+                        if !are_frames(more) {
+                            self.disconnect();
+                        }
                     }
                     received.truncate(len);
                     return Ok(header);
@@ -398,10 +410,20 @@ impl Client {
     }
 }
 
-/// Whether source, target and command of a header are those of a reply to a request.
+/// Whether the bytes are whole frames.
+fn are_frames(mut bytes: &[u8]) -> bool {
+    while let Ok(Some((_, len))) = FrameRef::split(bytes, u32::MAX) {
+        bytes = bytes.get(len..).unwrap_or_default();
+    }
+    bytes.is_empty()
+}
+
+/// Whether a header with a wrong invoke ID is that of the reply to this request: a reply to an earlier
+/// one would have another target port, and an invoke ID that was sent.
 fn is_reply(sent: &AmsHeader, got: &AmsHeader) -> bool {
-    let addresses = (got.target, got.source) == (sent.source, sent.target);
-    addresses && got.command == sent.command
+    let has_addresses = (got.target, got.source) == (sent.source, sent.target);
+    let was_sent = (FIRST_INVOKE_ID..sent.invoke_id).contains(&got.invoke_id);
+    got.command == sent.command && (has_addresses || !was_sent)
 }
 
 pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, ExchangeError> {

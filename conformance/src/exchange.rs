@@ -5,7 +5,7 @@ use std::io;
 use std::time::Duration;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, StateFlags};
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, AmsTcpHeader, FrameRef, StateFlags};
 use ads_cnc::limits::AMS_TCP_HEADER_LEN;
 use ads_cnc::operation::{Call, Function, Service};
 use ads_cnc::{Decode as _, Error};
@@ -260,11 +260,21 @@ fn header(frame: &[u8]) -> Option<AmsHeader> {
     AmsHeader::decode(header).ok()
 }
 
-/// Whether the received bytes start with an AMS header that comes from the target of the request,
-/// or is addressed to its source.
+/// Whether the received bytes start with an AMS header that contains an address of the request, or
+/// end within such a header.
 pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
-    let headers = header(sent).zip(header(received));
-    headers.is_some_and(|(sent, got)| got.source == sent.target || got.target == sent.source)
+    let Some((sent, got)) = header(sent).zip(header(received)) else {
+        return incomplete_frame(received).is_some();
+    };
+    let of_request = [sent.source, sent.target];
+    of_request.contains(&got.source) || of_request.contains(&got.target)
+}
+
+/// The length of the frame that starts with these bytes, if they are only a part of it.
+pub(crate) fn incomplete_frame(received: &[u8]) -> Option<usize> {
+    let header = AmsTcpHeader::decode(received.get(..AMS_TCP_HEADER_LEN)?).ok()?;
+    let whole = usize::try_from(header.length).ok()?.checked_add(AMS_TCP_HEADER_LEN)?;
+    (FrameRef::split(received, u32::MAX) == Ok(None)).then_some(whole)
 }
 
 /// The violation if the received frame has another invoke ID than the sent one.

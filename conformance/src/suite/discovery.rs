@@ -135,7 +135,7 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
 }
 
 /// Approximate number of requests that the cases send for a channel, independent of its lists.
-const PER_CHANNEL: u64 = 2_000;
+const PER_CHANNEL: u64 = 3_400;
 
 /// Approximate number of requests that the cases send for a list; `tests/library/large.rs` compares the sum
 /// with the number of requests sent.

@@ -60,7 +60,8 @@ impl Run {
         let by = if self.profile.is_some() { ClaimsBy::Profile } else { ClaimsBy::Queries };
         let discovery = suite::discover(&mut session, by);
         if !self.display.is_quiet() {
-            print_forecast(&discovery, &plan);
+            let most = if self.only.is_empty() { "about" } else { "at most about" };
+            print_forecast(&discovery, most);
         }
         let target = TargetReport {
             name: "device".to_owned(),
@@ -195,19 +196,14 @@ impl Run {
     }
 }
 
-/// Prints the result of the discovery, and how many requests the selected cases will send.
-fn print_forecast(discovery: &Discovery, plan: &Plan) {
+/// Prints the result of the discovery, and how many requests all cases would send.
+fn print_forecast(discovery: &Discovery, most: &str) {
     let found = &discovery.found;
     print_error(format_args!("found {}", found.summary()));
     if let Some(sampled) = found.sampled() {
         print_error(format_args!("sampled (--all reads all): {sampled}"));
     }
-    let queries = |cases: &[Case]| -> u64 {
-        let queries = cases.iter().filter(|one| one.needs == Needs::Queries);
-        u64::try_from(queries.count()).unwrap_or(u64::MAX)
-    };
-    let (selected, all) = (queries(&plan.cases), queries(&suite::cases()));
-    let requests = found.expected.saturating_mul(selected).checked_div(all).unwrap_or_default();
+    let requests = found.expected;
     if requests == 0 {
         return;
     }
@@ -218,10 +214,8 @@ fn print_forecast(discovery: &Discovery, plan: &Plan) {
     } else {
         String::new()
     };
-    print_error(format_args!(
-        "the queries of the cases: about {}{time}",
-        plural(requests, "request")
-    ));
+    let requests = plural(requests, "request");
+    print_error(format_args!("the queries of the cases: {most} {requests}{time}"));
 }
 
 /// Whether the case writes and has been executed.

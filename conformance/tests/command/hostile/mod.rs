@@ -194,6 +194,44 @@ fn unsolicited_frames_before_every_reply_of_a_run() {
     assert!(ended.stdout.contains("a reply to invoke ID"), "{}", ended.stdout);
 }
 
+/// A device that uses AMS/TCP, but wrongly from the first frame on, fails; exit code 3 is for silence.
+#[test]
+fn broken_frames_from_the_first_one_on() {
+    let whole = |frame: &FrameRef<'_>| frame.encode_to_vec().unwrap();
+    let of_reply = |frame: &FrameRef<'_>, len| success(frame, &[0; 8])[..len].to_vec();
+    let replies: [(&str, Box<dyn Fn(&FrameRef<'_>) -> Vec<u8> + Send + Sync>); 3] = [
+        ("state flags 0x0004", Box::new(whole)),
+        ("6 bytes of a frame of 54 bytes", Box::new(move |frame| of_reply(frame, 6))),
+        ("20 bytes of a frame of 54 bytes", Box::new(move |frame| of_reply(frame, 20))),
+    ];
+    for (what, reply) in replies {
+        let addr = serving(move |frame, out| out.write_all(&reply(frame))).to_string();
+        let ended = run(&against(&addr, &["run", "--seed", "1", "--timeout", "100"]));
+        assert_eq!(ended.code, Some(1), "{what}: {}", ended.stderr);
+        assert!(ended.stdout.contains(what), "{what}: {}", ended.stdout);
+        assert!(ended.stdout.contains("ADS-5)"), "{what}: {}", ended.stdout);
+    }
+}
+
+/// A reply with an invoke ID that was never sent is judged at once, without waiting for another reply.
+#[test]
+fn errors_with_another_invoke_id_and_port() {
+    let cnc = Cnc::with_default_model().unwrap();
+    let addr = serving(move |frame, out| {
+        let mut reply = right(&cnc, frame);
+        if reply[FrameRef::HEADERS_LEN..][..4] != [0; 4] {
+            reply[20] ^= 1;
+            reply[34..38].fill(0);
+        }
+        out.write_all(&reply)
+    });
+    let addr = addr.to_string();
+    let ended = run(&against(&addr, &["run", "--seed", "1"]));
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    assert!(ended.stdout.contains(" 1 fail (ADS-5)"), "{}", ended.stdout);
+    assert!(ended.time.as_secs() < 30, "{:?}", ended.time);
+}
+
 #[test]
 fn replies_of_a_megabyte_with_wrong_flags_and_addresses() {
     let data = vec![0x41; 1 << 20];
