@@ -1,13 +1,13 @@
 //! Every index group and index offset in the manuals, built and parsed.
 
-mod kept;
-
 use ads_cnc::address::Addressing::{Index, Logical};
 use ads_cnc::address::*;
 use ads_cnc::operation::{FindInstance, Operation as _};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc::{Error, ErrorKind};
 use proptest::prelude::*;
+
+use super::kept;
 
 fn channel(number: u32) -> Channel {
     Channel::new(number).unwrap()

@@ -2,13 +2,12 @@
 
 #![cfg(feature = "arbitrary")]
 
-mod common;
-mod kept;
-
 use ads_cnc::ads::*;
 use ads_cnc::*;
-use common::{Bend, SUBJECTS, made};
 use proptest::prelude::*;
+
+use super::common::{Bend, SUBJECTS, made};
+use super::kept;
 
 proptest! {
     #![proptest_config(kept::cases(200, file!()))]

@@ -1,12 +1,11 @@
 //! Content: its address and length, and the addresses of functions, which are not content.
 
-mod common;
-
 use ads_cnc::ErrorKind;
 use ads_cnc::address::{Channel, Class, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::*;
-use common::CALLS;
+
+use super::common::CALLS;
 
 fn content(group: u32, offset: u32) -> Call<'static> {
     let call = CALLS.iter().find(|sample| sample.slug == "content-printed").unwrap().call;

@@ -1,13 +1,12 @@
 //! Code page 1252 (GEN-3), compared with another implementation.
 
-mod common;
-mod kept;
-
 use ads_cnc::CncStr;
 use ads_cnc::text::{char_to_cp1252, cp1252_to_char};
-use common::text::{CncStrBend, check_cp1252, check_utf8};
 use encoding_rs::WINDOWS_1252;
 use proptest::prelude::*;
+
+use super::common::text::{CncStrBend, check_cp1252, check_utf8};
+use super::kept;
 
 /// Every byte has the same character as in encoding_rs.
 #[test]

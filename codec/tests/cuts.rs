@@ -1,14 +1,13 @@
 //! Every sample truncated at every length, and with one extra byte: the result is an error with field
 //! and offset, or a requirement permits it. It is the same for each type of the stream.
 
-mod common;
-
 use std::collections::BTreeSet;
 
 use ads_cnc::Error;
 use ads_cnc::ErrorKind::{self, *};
 use ads_cnc::layout::Stream;
-use common::{Fault, Sample, check, each_sample, fault};
+
+use super::common::{Fault, Sample, check, each_sample, fault};
 
 /// The expected result of changed bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

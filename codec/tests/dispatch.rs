@@ -1,16 +1,15 @@
 //! Dispatch: from the operation of a client to the request of a server, and errors.
 
-mod common;
-mod kept;
-
 use std::collections::{BTreeMap, BTreeSet};
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::*;
 use ads_cnc::{Encode as _, ErrorKind};
-use common::{CALLS, check_call};
 use proptest::prelude::*;
+
+use super::common::{CALLS, check_call};
+use super::kept;
 
 /// Each sample is dispatched to its function and encodes to the same call; every function occurs.
 #[test]

@@ -1,8 +1,5 @@
 //! Frames on a TCP stream, in pieces of any length (ADS-5).
 
-mod common;
-mod kept;
-
 use ads_cnc::ErrorKind::*;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{
@@ -10,11 +7,13 @@ use ads_cnc::ads::{
 };
 use ads_cnc::operation::{Call, Service};
 use ads_cnc::{Decode as _, Encode as _};
-use common::{
+use proptest::prelude::*;
+
+use super::common::{
     Fault, SPLIT, check_frames, check_split, check_verdicts_stay, fault, frame,
     frame_header as header,
 };
-use proptest::prelude::*;
+use super::kept;
 
 /// A frame is returned when its last byte has arrived, and encodes to the same bytes.
 #[test]

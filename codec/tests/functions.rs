@@ -1,20 +1,18 @@
 //! Laws of every function, from the streams in its row of the table.
 
-mod common;
-mod damage;
-mod kept;
-
 use std::collections::BTreeSet;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::vectors;
-use common::{CALLS, CallSample, check_reply, check_request, each_sample};
-use damage::{Damage, damage};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
+
+use super::common::{CALLS, CallSample, check_reply, check_request, each_sample};
+use super::damage::{Damage, damage};
+use super::kept;
 
 /// Every sample and vector of a stream; empty without a stream.
 fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {

@@ -1,10 +1,9 @@
 //! `join`: streams from the bytes of their fields.
 
-mod common;
-
 use ads_cnc::ErrorKind::{self, BufferTooSmall, Mismatch, MissingNul, TooLong, Truncated};
 use ads_cnc::layout::{Field, Size, Stream};
-use common::each_sample;
+
+use super::common::each_sample;
 
 type Part<'a> = (Field, &'a [u8]);
 

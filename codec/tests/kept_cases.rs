@@ -1,12 +1,12 @@
 //! Random cases that failed are stored in files and run again. The files are optional.
 
-mod kept;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use proptest::test_runner::{TestCaseError, TestRunner};
+
+use super::kept;
 
 /// The number of seeds in kept_cases.txt.
 const KEPT: usize = 2;

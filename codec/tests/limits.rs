@@ -1,7 +1,5 @@
 //! Limits: the largest valid and the smallest invalid value, when decoding and encoding.
 
-mod common;
-
 use std::collections::BTreeSet;
 
 use ads_cnc::ErrorKind::*;
@@ -12,7 +10,8 @@ use ads_cnc::limits::*;
 use ads_cnc::sda::*;
 use ads_cnc::streaming::*;
 use ads_cnc::*;
-use common::{Fault, check, fault};
+
+use super::common::{Fault, check, fault};
 
 /// A stream of maximum length is accepted, and a stream with one more byte rejected.
 #[test]

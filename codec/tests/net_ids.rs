@@ -1,12 +1,11 @@
 //! NetIds as text.
 
-mod common;
-
 use std::collections::BTreeSet;
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
-use common::{Fault, fault};
+
+use super::common::{Fault, fault};
 
 /// Every byte at every position, with and without leading zeros.
 #[test]

@@ -1,8 +1,5 @@
 //! Any valid operation is dispatched to itself: `dispatch(encode(op)) = op`.
 
-mod common;
-mod kept;
-
 use ads_cnc::address::{
     Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
     Spindle,
@@ -11,8 +8,10 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::*;
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{ErrorKind, Handle, Kind, U32List};
-use common::{Parameters, check_made, check_operation};
 use proptest::prelude::*;
+
+use super::common::{Parameters, check_made, check_operation};
+use super::kept;
 
 fn channel() -> impl Strategy<Value = Channel> {
     (1..=255_u32, any::<bool>()).prop_map(|(number, logical)| {

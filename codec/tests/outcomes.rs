@@ -10,8 +10,6 @@
 //! the fields of its `Service` to `takes` and `asked`, and `subject().name()` to `stream()`, run the test
 //! there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
 
-mod common;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -21,7 +19,8 @@ use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, DispatchError, Service};
 use ads_cnc::{Encode as _, Error};
 use ads_cnc_vectors::{Vector, vectors};
-use common::{CALLS, CallSample, Fault, Subject};
+
+use super::common::{CALLS, CallSample, Fault, Subject};
 
 /// Mutations of each vector.
 const MUTATIONS: usize = 48;

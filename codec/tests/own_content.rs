@@ -1,14 +1,13 @@
 //! Streams of applications: arrays of fixed streams, and content that is decoded member by member.
 
-mod common;
-
 use ads_cnc::ErrorKind::*;
 use ads_cnc::ads::*;
 use ads_cnc::layout::Stream;
 use ads_cnc::sda::{ElementCount, ElementWriteFlag, ObjectAddress};
 use ads_cnc::value::Reader;
 use ads_cnc::*;
-use common::{fault, fault_of};
+
+use super::common::{fault, fault_of};
 
 #[test]
 fn to_bytes_equals_encode() {
@@ -71,7 +70,7 @@ fn content_is_decoded_member_by_member() {
     let longer = [&bytes[..], b"x"].concat();
     assert_eq!(fault_of(Tool::decode(&longer)), fault(Trailing, "stream", 11, (11, 12)));
     // Content extends to the end of the bytes.
-    assert_eq!(Tool::decode_prefix(bytes).unwrap().1, []);
+    assert!(Tool::decode_prefix(bytes).unwrap().1.is_empty());
     assert!(Tool::decode_prefix(&longer).is_err());
 
     let mut input = Reader::new(&longer);

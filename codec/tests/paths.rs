@@ -1,16 +1,15 @@
 //! Names of variables: parsing, building and errors.
 
-mod common;
-mod kept;
-
 use ads_cnc::ErrorKind::*;
 use ads_cnc::layout::Subject;
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::*;
-use common::names::*;
-use common::{Fault, fault};
 use proptest::collection::vec;
 use proptest::prelude::*;
+
+use super::common::names::*;
+use super::common::{Fault, fault};
+use super::kept;
 
 fn path(name: &str) -> VariablePath<'_> {
     VariablePath::new(name).unwrap_or_else(|error| panic!("{name}: {error}"))

@@ -1,20 +1,18 @@
 //! The laws of all streams, for random bytes and for mutated samples and vectors.
 
-mod common;
-mod damage;
-mod kept;
-
 use std::collections::BTreeSet;
 
 use ads_cnc::layout::{Size, Stream};
 use ads_cnc_vectors::vectors;
-use common::{SUBJECTS, check, each_sample};
-use damage::damage;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::TestRunner;
+
+use super::common::{SUBJECTS, check, each_sample};
+use super::damage::damage;
+use super::kept;
 
 /// Every sample, and every golden vector of a stream.
 fn samples_and_vectors() -> Vec<(Stream, Vec<u8>)> {

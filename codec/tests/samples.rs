@@ -1,11 +1,10 @@
 //! The samples: all streams have some, and the field tables split them like the hand-written fields.
 
-mod common;
-
 use std::collections::HashSet;
 
 use ads_cnc::layout::Stream;
-use common::{SAMPLES, SUBJECTS, check, each_sample};
+
+use super::common::{SAMPLES, SUBJECTS, check, each_sample};
 
 /// Every stream has samples and types.
 #[test]

@@ -1,17 +1,16 @@
 //! The Service Interface: variables, UUIDs, and a host with any input.
 
-mod common;
-mod kept;
-
 use ads_cnc::ErrorKind::*;
 use ads_cnc::layout::Subject;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
 use ads_cnc::{CncStr, VariablePath};
-use common::machines::{CheckedHost, HostBend, service_ids};
-use common::{Fault, fault};
 use proptest::collection::vec;
 use proptest::prelude::*;
+
+use super::common::machines::{CheckedHost, HostBend, service_ids};
+use super::common::{Fault, fault};
+use super::kept;
 
 const ROOT: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 const COMMAND: &str = "19719079-BA06-4740-BC02-DE5215211751";

@@ -1,14 +1,13 @@
 //! Data streaming: texts, packets and the sender.
 
-mod common;
-mod kept;
-
 use ads_cnc::limits::{NC_LINE_MAX, STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::*;
-use common::streaming::*;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
+
+use super::common::streaming::*;
+use super::kept;
 
 const ENDS: [&str; 3] = ["\n", "\r\n", "\r"];
 

@@ -1,15 +1,14 @@
 //! The checks of a text packet by packet. The split only matters where it is documented.
 #![cfg(feature = "alloc")]
 
-mod common;
-mod kept;
-
 use ads_cnc::streaming::{CheckEvent, Checker, ProgramEnd};
-use common::checker::{CheckedLots, check_any_lots, check_lines as check};
-use common::findings::findings_of as whole;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
+
+use super::common::checker::{CheckedLots, check_any_lots, check_lines as check};
+use super::common::findings::findings_of as whole;
+use super::kept;
 
 /// The example of 2.3.6, packet by packet, also with its last jump reversed.
 #[test]

@@ -1,14 +1,13 @@
 //! The diagnostics of a text.
 #![cfg(feature = "alloc")]
 
-mod common;
-mod kept;
-
 use ads_cnc::streaming::{DiagnosticKind, LoopWord, NcText};
-use common::findings::check_findings;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
+
+use super::common::findings::check_findings;
+use super::kept;
 
 fn findings(text: &str) -> Vec<String> {
     let text = NcText::new(text.as_bytes()).expect("text that can be streamed");

@@ -1,8 +1,6 @@
 //! The numbers that clients and servers share, each written a second time; those of functions as a
 //! snapshot.
 
-mod common;
-
 use ads_cnc::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
 use ads_cnc::dynamic::DynamicKind;
@@ -10,7 +8,8 @@ use ads_cnc::layout::Stream;
 use ads_cnc::operation::Service::{Read, ReadWrite, Write};
 use ads_cnc::operation::{Call, CountDynamic, DispatchError, Effect, Function, Operation, Task};
 use ads_cnc::*;
-use common::CALLS;
+
+use super::common::CALLS;
 
 /// A snapshot of the row of each function and the read length of its call. A gateway may decide by the
 /// effect.

@@ -1,14 +1,13 @@
 //! The field tables: their documentation, and their consistency with the streams.
 
-mod common;
-
 use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use ads_cnc::layout::{FieldSpec, Layout, Size, Stream, Type};
 use ads_cnc::limits::*;
-use common::each_sample;
+
+use super::common::each_sample;
 
 /// `codec/doc` contains the tables of types that are written by hand.
 #[test]

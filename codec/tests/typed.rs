@@ -1,13 +1,12 @@
 //! Values by their types: the printed values, each type, each access to elements.
 
-mod common;
-
 use address::{Channel, ChannelAxis};
 use ads_cnc::ErrorKind::*;
 use ads_cnc::operation::{AxisReadByName, Operation, ReadByHandle, ReadByName};
 use ads_cnc::value::*;
 use ads_cnc::*;
-use common::{fault, fault_of};
+
+use super::common::{fault, fault_of};
 
 const ARRAY: &[u8] = b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0";
 

@@ -1,8 +1,5 @@
 //! Encoding of values: printed values, errors of a shape, and random values of every type.
 
-mod common;
-mod kept;
-
 use address::{Channel, ChannelAxis, IndexGroup, IndexOffset};
 use ads_cnc::ErrorKind::*;
 use ads_cnc::operation::{
@@ -10,10 +7,12 @@ use ads_cnc::operation::{
 };
 use ads_cnc::value::*;
 use ads_cnc::*;
-use common::shapes::{Described, ShapeBend, check_shape};
-use common::{check_typed, fault, fault_of};
 use proptest::collection::vec;
 use proptest::prelude::*;
+
+use super::common::shapes::{Described, ShapeBend, check_shape};
+use super::common::{check_typed, fault, fault_of};
+use super::kept;
 
 const ARRAY: &[u8] = b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0";
 

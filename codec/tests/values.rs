@@ -2,18 +2,17 @@
 
 #![cfg(feature = "alloc")]
 
-mod common;
-mod kept;
-
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
 use ads_cnc::dynamic::*;
 use ads_cnc::sda::*;
 use ads_cnc::streaming::ProgramStream;
 use ads_cnc::*;
-use common::check_value;
 use proptest::collection::vec;
 use proptest::prelude::*;
+
+use super::common::check_value;
+use super::kept;
 
 /// CP1252 text of at most `max` bytes.
 fn text(max: usize) -> impl Strategy<Value = CncString> {
