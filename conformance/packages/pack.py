@@ -17,13 +17,11 @@ sys.path.insert(0, str(ROOT / "codec/bindings/python"))
 sys.dont_write_bytecode = True
 import backend  # noqa: E402
 
-# The platforms of wheels. A static program runs with any C library.
+# The platforms of wheels, except those of macOS. A static program runs with any C library.
 PLATFORMS = {
     "x86_64-unknown-linux-musl": "manylinux_2_17_x86_64.musllinux_1_1_x86_64",
     "aarch64-unknown-linux-musl": "manylinux_2_17_aarch64.musllinux_1_1_aarch64",
     "x86_64-pc-windows-gnu": "win_amd64",
-    "aarch64-apple-darwin": "macosx_11_0_arm64",
-    "x86_64-apple-darwin": "macosx_10_12_x86_64",
 }
 DOCUMENTS = {
     "README.md": ROOT / "README.md",
@@ -38,6 +36,17 @@ EXECUTABLE = 0o755
 def version():
     manifest = (ROOT / "Cargo.toml").read_text(encoding="utf-8")
     return re.search(r'^version = "(.*)"$', manifest, re.M)[1]
+
+
+def platform(target, command):
+    """The platform of the wheel: for macOS with the oldest version that the program declares to run on."""
+    if "apple" not in target:
+        return PLATFORMS[target]
+    at, build_version = 32, 0x32
+    while int.from_bytes(command[at : at + 4], "little") != build_version:
+        at += int.from_bytes(command[at + 4 : at + 8], "little")
+    _, minor, major = command[at + 12 : at + 15]
+    return f"macosx_{major}_{minor}_{target.split('-')[0].replace('aarch64', 'arm64')}"
 
 
 def archive(target, name, command):
@@ -64,7 +73,7 @@ def wheel(target, name, command):
     readme = (ROOT / "conformance/README.md").read_text(encoding="utf-8")
     about = backend.About("ads-cnc", version(), SUMMARY, "MIT OR Apache-2.0", ">=3.9", readme)
     script = f"ads_cnc-{version()}.data/scripts/{name}"
-    output = backend.write_wheel(HERE / "dist", about, PLATFORMS[target], {script: command}, {script})
+    output = backend.write_wheel(HERE / "dist", about, platform(target, command), {script: command}, {script})
     return HERE / "dist" / output
 
 
