@@ -1,7 +1,7 @@
 """The results of the mutants.
 
-`shard OUT K/N` records the results of a shard in OUT, `merge` combines the shards to results.tsv and
-compares the survivors with survivors.md, `check` checks the committed files.
+`ran FOLDER K/N` records the results of a shard, `ran FOLDER FILE` prints those of a file, `merge` combines
+the shards to results.tsv and compares the survivors with survivors.md, `check` checks the committed files.
 """
 
 import json
@@ -52,9 +52,7 @@ def table(by_file):
     )
 
 
-def shard(out, name):
-    at, of = map(int, name.split("/"))
-    folder = out / f"{at}-of-{of}"
+def ran(folder, name):
     found = verdicts(folder / "fast")
     if (folder / "thorough" / "mutants.out").is_dir():
         again = verdicts(folder / "thorough")
@@ -62,12 +60,22 @@ def shard(out, name):
     by_file = {}
     for mutant, verdict in found.items():
         by_file.setdefault(mutant.split(":")[0], Counter())[verdict] += 1
+    total = sum(by_file.values(), Counter())
+    print(f"{name}: {dict(total)}, {share(total):.2f} %")
     missed = sorted(without_place(mutant) for mutant in found if found[mutant] == "missed")
+    if (ROOT / name).is_file():
+        print("".join(f"{mutant}\n" for mutant in missed), end="")
+        return
+    at, of = map(int, name.split("/"))
     text = "\t".join(["file", *COLUMNS]) + "\n" + table(by_file)
     text += "".join(f"missed\t{mutant}\n" for mutant in missed)
     SHARDS.mkdir(exist_ok=True)
     (SHARDS / f"{at:02}-of-{of}.tsv").write_text(text, encoding="utf-8")
-    print(f"shard {name}: {dict(sum(by_file.values(), Counter()))}")
+
+
+def share(total):
+    caught = total["caught"] + total["timeout"]
+    return 100.0 * caught / max(1, caught + total["missed"])
 
 
 def measured():
@@ -98,18 +106,17 @@ def results():
     """The expected text of results.tsv, and the faults of the results."""
     by_file, survivors, shards = measured()
     total = sum(by_file.values(), Counter())
-    caught = total["caught"] + total["timeout"]
-    share = 100.0 * caught / max(1, caught + total["missed"])
+    percent = share(total)
     text = f"shards\t{' '.join(shards)}\n" + "\t".join(["file", *COLUMNS]) + "\n"
-    text += table(by_file) + table({"total": total}) + f"share\t{share:.2f} %\n"
+    text += table(by_file) + table({"total": total}) + f"share\t{percent:.2f} %\n"
     known, faults = listed(), []
     for name in sorted({*survivors, *known}):
         if survivors[name] != known.get(name, 0):
             faults.append(f"survives {survivors[name]} times, but is listed {known.get(name, 0)} times: {name}")
-    if share < LEAST:
-        faults.append(f"{share:.2f} % are caught, at least {LEAST} % are required")
+    if percent < LEAST:
+        faults.append(f"{percent:.2f} % are caught, at least {LEAST} % are required")
     of = int(shards[0].split("-of-")[1])
-    print(f"{len(shards)} of {of} shards, {sum(total.values())} mutants, {dict(total)}, {share:.2f} %")
+    print(f"{len(shards)} of {of} shards, {sum(total.values())} mutants, {dict(total)}, {percent:.2f} %")
     return text, faults
 
 
@@ -141,11 +148,11 @@ def check():
 
 if __name__ == "__main__":
     match sys.argv[1:]:
-        case ["shard", out, name]:
-            sys.exit(shard(pathlib.Path(out), name))
+        case ["ran", folder, name]:
+            sys.exit(ran(pathlib.Path(folder), name))
         case ["merge"]:
             sys.exit("\n".join(merge()) or None)
         case ["check"]:
             sys.exit("\n".join(check()) or None)
         case _:
-            sys.exit("usage: results.py shard OUT K/N | merge | check")
+            sys.exit("usage: results.py ran FOLDER K/N|FILE | merge | check")
