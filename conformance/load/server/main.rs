@@ -40,6 +40,10 @@ struct Args {
     #[arg(long)]
     pyads: Option<String>,
 
+    /// Number of parallel clients; the simulated CNC accepts at most 64.
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u8).range(2..=64))]
+    clients: u8,
+
     /// Number of pending requests of a pipelining client.
     #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u16).range(2..=64))]
     depth: u16,
@@ -100,9 +104,10 @@ fn compared() -> Result<()> {
             works.iter().filter(wanted).try_for_each(|work| {
                 println!("\n### {}: {}\n\n{}", work.name, work.title, Figures::HEAD);
                 let pyads = args.pyads.as_deref().filter(|_| work.name == works[0].name);
-                for (clients, depth) in [(1, 1), (8, 1), (1, args.depth), (8, args.depth)] {
+                let many = args.clients;
+                for (clients, depth) in [(1, 1), (many, 1), (1, args.depth), (many, args.depth)] {
                     let time = Duration::from_millis(args.slice);
-                    let load = Load { clients, depth: depth.into(), time };
+                    let load = Load { clients: clients.into(), depth: depth.into(), time };
                     compare(work, load, args.rounds as usize, pyads)?;
                 }
                 Ok(())

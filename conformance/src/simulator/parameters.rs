@@ -17,7 +17,11 @@ pub(super) struct ParameterState {
 
 /// All parameters of a channel, including those that currently do not exist.
 #[derive(Clone, Debug)]
-pub(super) struct ParameterStates(Vec<ParameterState>);
+pub(super) struct ParameterStates {
+    all: Vec<ParameterState>,
+    /// Whether all of them always exist, as usual.
+    are_always: bool,
+}
 
 impl ParameterState {
     fn new(is: Parameter) -> Self {
@@ -32,14 +36,18 @@ impl ParameterState {
 impl ParameterStates {
     /// The parameters in their initial state.
     pub(super) fn new(parameters: &[Parameter]) -> Self {
-        Self(parameters.iter().cloned().map(ParameterState::new).collect())
+        let are_always = parameters.iter().all(|one| one.times.is_always());
+        Self { all: parameters.iter().cloned().map(ParameterState::new).collect(), are_always }
     }
 
     /// Creates and deletes parameters that are due. A parameter that is created again has its
     /// initial value, even if it was written to before (assumed).
     pub(super) fn advance(&mut self, now: Duration) {
-        // This runs for every request, so skip parameters that always exist, as most do.
-        for one in self.0.iter_mut().filter(|one| !one.is.times.is_always()) {
+        // This runs for every request.
+        if self.are_always {
+            return;
+        }
+        for one in &mut self.all {
             let life = one.is.times.life(now);
             if life.is_some() && life != one.life {
                 one.value = one.is.value;
@@ -50,17 +58,18 @@ impl ParameterStates {
 
     /// Replaces the parameters of a kind.
     pub(super) fn replace(&mut self, kind: DynamicKind, new: Vec<Parameter>) {
-        self.0.retain(|one| one.is.kind != kind);
-        self.0.extend(new.into_iter().map(ParameterState::new));
+        self.all.retain(|one| one.is.kind != kind);
+        self.all.extend(new.into_iter().map(ParameterState::new));
+        self.are_always = self.all.iter().all(|one| one.is.times.is_always());
     }
 
     /// The parameters that currently exist, in the order of their indices.
     pub(super) fn at_their_time(&self) -> impl Iterator<Item = &ParameterState> {
-        self.0.iter().filter(|one| one.life.is_some())
+        self.all.iter().filter(|one| one.life.is_some())
     }
 
     /// The value of the parameter with this name, even if it currently does not exist.
     pub(super) fn value_mut(&mut self, name: &CncString) -> Option<&mut DynamicValue> {
-        self.0.iter_mut().find(|one| one.is.name == *name).map(|one| &mut one.value)
+        self.all.iter_mut().find(|one| one.is.name == *name).map(|one| &mut one.value)
     }
 }
