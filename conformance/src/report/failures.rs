@@ -161,7 +161,9 @@ pub(super) fn block(
         }
     }
     if !group.followers.is_empty() {
-        let names = group.followers.iter().map(|(clause, case)| format!("{case} ({clause})"));
+        let names = group.followers.iter().map(|(case, clauses)| {
+            format!("{case} ({})", list(clauses.iter().copied(), usize::MAX))
+        });
         let names: Vec<String> = names.collect();
         let names = list(names.iter().map(String::as_str), if verbose { usize::MAX } else { 8 });
         let text = wrap(&format!("follows from it: {names}"), WIDTH);

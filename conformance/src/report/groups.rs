@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{sequence, vector};
 
 use super::model::{CaseReport, FailureReport, Report};
-use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict};
+use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict, clauses_of};
 
 /// Checks that failed for the same clause, or in the same field of vectors of one stream.
 #[derive(Debug)]
@@ -16,8 +17,8 @@ pub(super) struct Group<'r> {
     pub(super) requirements: Vec<&'r str>,
     /// Each check in its case, with one of the clauses.
     checks: Vec<(&'r CaseReport, &'r FailureReport)>,
-    /// The clauses and cases that are inconclusive because of these failures.
-    pub(super) followers: BTreeSet<(&'r str, &'r str)>,
+    /// The cases with checks that follow from these failures, each with the clauses of these checks.
+    pub(super) followers: BTreeMap<&'r str, BTreeSet<&'r str>>,
 }
 
 impl Report {
@@ -84,7 +85,7 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 waived: first.waived,
                 requirements: Vec::new(),
                 checks: Vec::new(),
-                followers: BTreeSet::new(),
+                followers: BTreeMap::new(),
             });
             group.requirements.extend(finding.iter().map(|one| one.requirement.as_str()));
             group.checks.push((case, *first));
@@ -105,13 +106,13 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
         let group = group.filter(|group| group.subject() == Some(case.subject));
         let mut group = group.filter(|group| group.requirements.contains(&cause));
         if let Some(group) = group.next() {
-            group.followers.insert((failure.requirement.as_str(), case.id.as_str()));
+            group.add_follower(case, failure);
         }
     }
     for (sibling, failure, case) in vacuous {
         let mut group = all.iter_mut().filter(|group| group.is_failure());
         if let Some(group) = group.find(|group| group.cases().contains(&sibling.as_str())) {
-            group.followers.insert((failure.requirement.as_str(), case.id.as_str()));
+            group.add_follower(case, failure);
         }
     }
     all
@@ -160,7 +161,19 @@ fn field(failure: &FailureReport) -> &str {
     differs.unwrap_or_else(kind)
 }
 
+/// Whether the check is about bytes that the clause of the check describes.
+fn is_of_own_stream(failure: &FailureReport) -> bool {
+    let evidence = failure.evidence.iter();
+    let bytes = evidence.flat_map(|evidence| evidence.sent.iter().chain(&evidence.received));
+    let mut streams = bytes.filter_map(|bytes| Stream::by_name(bytes.stream.as_deref()?));
+    streams.any(|stream| clauses_of(stream).any(|clause| clause == failure.requirement))
+}
+
 impl<'r> Group<'r> {
+    fn add_follower(&mut self, case: &'r CaseReport, failure: &'r FailureReport) {
+        self.followers.entry(&case.id).or_default().insert(&failure.requirement);
+    }
+
     /// Whether the group makes the run fail.
     pub(super) const fn is_failure(&self) -> bool {
         let fails = matches!(self.verdict, Verdict::Fail | Verdict::Vacuous);
@@ -195,7 +208,8 @@ impl<'r> Group<'r> {
         cases
     }
 
-    /// The simplest check: the one with the shortest texts and the fewest bytes.
+    /// The check that shows the fault best: one of a stream that the clause describes; of the checks
+    /// of vectors, the one with the shortest texts and the fewest bytes.
     pub(super) fn example(&self) -> Option<(&'r CaseReport, &'r FailureReport)> {
         let size = |failure: &FailureReport| {
             let evidence = failure.evidence.as_ref();
@@ -210,7 +224,8 @@ impl<'r> Group<'r> {
             // The cases about all replies repeat the requests of others, so they take longer.
             let is_of_replies = case.id.starts_with("replies-");
             // The first check of a case is the closest to the cause.
-            (!of_clause(failure), is_of_replies, if is_vector { size(failure) } else { 0 })
+            let size = if is_vector { size(failure) } else { 0 };
+            (!of_clause(failure), !is_of_own_stream(failure), is_of_replies, size)
         });
         simplest.copied()
     }

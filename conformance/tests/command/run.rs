@@ -243,6 +243,22 @@ fn a_wrong_device_fails() {
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
 }
 
+/// A failure is shown by the reply that its clause describes, and a warning that follows from it is listed
+/// with it.
+#[test]
+fn a_failure_of_a_device_is_shown_by_its_own_reply() {
+    let serve = Serve::start(&["--defect", "variable-description.size.flip"]);
+    let target = ["run", "--seed", "1", "--target", &serve.addr, "--net-id", &serve.net_id];
+    let shown = |only| text(&ads_cnc(&[&target[..], &["--only", only]].concat()).stdout);
+    let alone = shown("VAR-8");
+    let example = "\n  var-descriptions: V.G.NP[0].V: expected 24 bytes for ";
+    assert!(alone.contains(example) && alone.contains("!   12  19 00 00 00"), "{alone}");
+    let both = shown("VAR-8,VAR-28");
+    assert!(both.contains("1 warning") && !both.contains("\nWARNING"), "{both}");
+    let (_, followers) = both.split_once("  follows from it: ").unwrap();
+    assert_eq!(followers.matches("var-described-by-name (VAR-28)").count(), 1, "{both}");
+}
+
 /// A target that accepts the connection but does not reply is not a success, and the run ends.
 #[test]
 fn a_silent_target_is_not_a_success() {

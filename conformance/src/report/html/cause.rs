@@ -1,4 +1,4 @@
-//! The causes of failures, with the cases that are inconclusive because of them.
+//! The causes of failures, with the cases that follow from them.
 
 use serde::Serialize;
 
@@ -25,10 +25,10 @@ pub(super) struct CauseView {
     followers: Vec<FollowerView>,
 }
 
-/// A case that is inconclusive because of the cause.
+/// A case with checks that follow from the cause.
 #[derive(Serialize)]
 struct FollowerView {
-    clause: String,
+    clauses: Vec<String>,
     case: String,
 }
 
@@ -45,15 +45,16 @@ pub(super) fn causes(report: &Report) -> Vec<CauseView> {
 fn cause(group: &Group<'_>) -> Option<CauseView> {
     let (case, failure) = group.example()?;
     let known = ads_cnc_vectors::requirement(group.requirement());
-    let followers = group.followers.iter().map(|(clause, case)| FollowerView {
-        clause: (*clause).to_owned(),
+    let owned = |id: &&str| (*id).to_owned();
+    let followers = group.followers.iter().map(|(case, clauses)| FollowerView {
+        clauses: clauses.iter().map(owned).collect(),
         case: (*case).to_owned(),
     });
     Some(CauseView {
         verdict: group.verdict,
         word: worded(group.verdict, group.waived),
         subject: group.subject()?.name(),
-        clauses: group.requirements.iter().map(|id| (*id).to_owned()).collect(),
+        clauses: group.requirements.iter().map(owned).collect(),
         title: known.map_or_else(String::new, |known| known.title.clone()),
         sources: failure.sources.clone(),
         sentence: sentence(failure, RESULT_MAX),
