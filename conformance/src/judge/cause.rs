@@ -12,7 +12,7 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::chain::{before, can_explain, defines, follows, is_of_functions, origin};
-use super::root::{Check, Root, broken, is_broken, is_of_device, roots};
+use super::root::{Check, Root, checks, is_broken, is_of_device, is_slight, roots};
 use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
 
 /// Clauses whose checks look for one error only, such as reversed bytes. No error of another clause looks
@@ -193,9 +193,10 @@ fn settle(
 }
 
 /// Makes a failed check inconclusive if it only follows from another failure: that of an earlier function, of
-/// a service, of a shared request, or of another clause that the same check can fail for.
+/// a service, of a shared request, or of another clause that the same check can fail for. A warning or a
+/// difference that follows from a failure keeps its verdict.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
-    let broken: Vec<Check<'_>> = broken(outcomes).collect();
+    let broken: Vec<Check<'_>> = checks(outcomes, is_broken).collect();
     let causes = Causes::of(&broken);
     let mut found: Vec<Option<&'static str>> =
         broken.iter().map(|check| cause(*check, &causes)).collect();
@@ -209,21 +210,34 @@ pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
         *cause = cause.or_else(|| single_out(*check, &alone));
     }
     let clauses: Vec<&'static str> = broken.iter().map(|check| check.clause()).collect();
-    let settled: Vec<Option<&'static str>> =
-        found.iter().map(|cause| cause.and_then(|one| settle(one, &clauses, &found))).collect();
-    let mut settled = settled.into_iter();
+    let settled = |cause: Option<&'static str>| settle(cause?, &clauses, &found);
+    let slight = checks(outcomes, is_slight).map(|check| settled(cause(check, &causes)));
+    let slight: Vec<Option<&'static str>> = slight.collect();
+    let broken: Vec<Option<&'static str>> = found.iter().map(|cause| settled(*cause)).collect();
+    let (mut broken, mut slight) = (broken.into_iter(), slight.into_iter());
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
         for verdict in &mut outcome.verdicts {
-            follow(verdict, || settled.next().flatten());
+            follow(verdict, |one| {
+                if is_broken(one) {
+                    broken.next()?
+                } else if is_slight(one) {
+                    slight.next()?
+                } else {
+                    None
+                }
+            });
         }
     }
 }
 
-/// Makes the broken checks inconclusive that have a cause.
-fn follow(verdict: &mut RequirementVerdict, mut cause: impl FnMut() -> Option<&'static str>) {
-    for judgement in verdict.judgements.iter_mut().filter(|one| is_broken(one.verdict)) {
-        if let Some(clause) = cause() {
-            judgement.verdict = Verdict::Inconclusive;
+/// Marks the checks that have a cause.
+fn follow(
+    verdict: &mut RequirementVerdict,
+    mut cause: impl FnMut(Verdict) -> Option<&'static str>,
+) {
+    for judgement in &mut verdict.judgements {
+        if let Some(clause) = cause(judgement.verdict) {
+            judgement.verdict = judgement.verdict.as_following();
             judgement.follows = Some(clause);
         }
     }
@@ -327,6 +341,22 @@ mod tests {
         let mut outcomes = [outcome(sized), outcome(read), outcome(read)];
         outcomes[2].case.subject = CaseSubject::Codec;
         assert_eq!(attribute_one(&mut outcomes), [None, Some("VAR-8"), None]);
+    }
+
+    /// A warning or a difference is no cause, but can follow from one.
+    #[test]
+    fn a_warning_follows_from_a_failure_and_causes_none() {
+        let sized = ("size", VAR_8, Function::DescribeByIndex, "V.E.a");
+        let read = ("read", VAR_14, Function::ReadByHandle, "V.E.a");
+        for slight in [Verdict::Warning, Verdict::Differs] {
+            for (place, causes) in [(1, [None, Some("VAR-8")]), (0, [None, None])] {
+                let mut outcomes = [outcome(sized), outcome(read)];
+                let verdict = &mut outcomes[place].verdicts[0];
+                (verdict.verdict, verdict.judgements[0].verdict) = (slight, slight);
+                assert_eq!(attribute_one(&mut outcomes), causes);
+                assert_eq!(outcomes[place].verdicts[0].verdict, slight);
+            }
+        }
     }
 
     /// A clause of no function does not follow if its check is about no function.

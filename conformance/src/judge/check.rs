@@ -204,7 +204,7 @@ pub struct Judgement {
     pub more: usize,
     /// The other clauses that the same check can fail for.
     pub together: Vec<&'static str>,
-    /// The clause whose failure caused this one, if the verdict is inconclusive for this reason.
+    /// The clause whose failure caused this one, if any.
     pub follows: Option<&'static str>,
 }
 

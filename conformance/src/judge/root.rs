@@ -11,21 +11,29 @@ pub(super) const fn is_broken(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Fail | Verdict::Vacuous)
 }
 
+/// Whether a check that did not pass does not fail the run, so that it is no cause of others.
+pub(super) const fn is_slight(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Warning | Verdict::Differs)
+}
+
 /// Whether a case judges replies of a device.
 pub(super) fn is_of_device(case: &Case) -> bool {
     matches!(case.subject, CaseSubject::Target | CaseSubject::CapturedCnc)
 }
 
-/// The broken checks of a device.
-pub(super) fn broken(outcomes: &[CaseOutcome]) -> impl Iterator<Item = Check<'_>> {
-    outcomes.iter().filter(|outcome| is_of_device(&outcome.case)).flat_map(|outcome| {
+/// The checks of a device with these verdicts.
+pub(super) fn checks(
+    outcomes: &[CaseOutcome],
+    wanted: fn(Verdict) -> bool,
+) -> impl Iterator<Item = Check<'_>> {
+    outcomes.iter().filter(|outcome| is_of_device(&outcome.case)).flat_map(move |outcome| {
         let judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
-        let broken = judged.filter(|one| is_broken(one.verdict));
-        broken.map(|judgement| Check { case: &outcome.case, judgement })
+        let wanted = judged.filter(move |one| wanted(one.verdict));
+        wanted.map(|judgement| Check { case: &outcome.case, judgement })
     })
 }
 
-/// A broken check.
+/// A check that did not pass.
 #[derive(Clone, Copy)]
 pub(super) struct Check<'a> {
     pub(super) case: &'a Case,

@@ -51,6 +51,14 @@ impl Verdict {
         }
     }
 
+    /// The verdict of a check with this verdict that only follows from another failure.
+    pub const fn as_following(self) -> Self {
+        match self {
+            Self::Warning | Self::Differs => self,
+            _ => Self::Inconclusive,
+        }
+    }
+
     /// Whether the verdict is a judgement of the target.
     pub const fn is_judged(self) -> bool {
         matches!(self, Self::Pass | Self::Fail | Self::Warning | Self::Differs | Self::Vacuous)

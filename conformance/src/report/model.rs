@@ -198,7 +198,7 @@ pub struct FailureReport {
     pub found: String,
     /// Number of other checks with the same verdict, which are not shown.
     pub more: usize,
-    /// The clause whose failure makes this check inconclusive, if any.
+    /// The clause whose failure explains this check, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub follows: Option<String>,
     /// The bytes on which the check is based.
