@@ -227,6 +227,11 @@ pub enum About {
     /// Whether the bytes are accepted, and how many bytes are written for a value: for example, a
     /// number may have another width. The value of accepted bytes does not rest on this.
     Acceptance,
+    /// Which characters the bytes of a text have. Only the texts rest on this.
+    Characters,
+    /// What an undocumented code of a type or an access means, and whether it is kept. Only the fields with
+    /// these codes rest on this.
+    Codes,
 }
 
 /// The weakest level among these clauses; [`Level::Info`] if an assumption decides.

@@ -56,7 +56,7 @@ impl Findings {
         let (own, others): (Vec<Rule>, _) = rules.iter().partition(|rule| rule.id == cause);
         self.check(&own, false, exchange, expected, found);
         for rule in others {
-            self.record.add_following(rule, cause, expected, found);
+            self.record.add_following(rule, Verdict::Fail, cause, expected, found);
         }
     }
 }

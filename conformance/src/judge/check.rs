@@ -343,16 +343,18 @@ impl Record {
         self.judgements.push(judgement);
     }
 
-    /// Records a check that failed only as a consequence of the failed clause `cause`.
+    /// Records a check with this verdict that did not pass only as a consequence of the failed clause
+    /// `cause`.
     pub(crate) fn add_following(
         &mut self,
         rule: Rule,
+        verdict: Verdict,
         cause: &'static str,
         expected: impl Describe,
         found: impl Describe,
     ) {
         let place = self.judgements.len();
-        self.add(rule, Verdict::Inconclusive, expected, found, || None);
+        self.add(rule, verdict.as_following(), expected, found, || None);
         if let Some(new) = self.judgements.get_mut(place) {
             new.follows = Some(cause);
         }

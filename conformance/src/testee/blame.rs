@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use ads_cnc::layout::{FieldSpec, Stream, Type};
 use ads_cnc_vectors::ids::{GEN_1, GEN_2, GEN_3, GEN_5};
-use ads_cnc_vectors::{ClauseId, Fields, Value};
+use ads_cnc_vectors::{ClauseId, Fields, Level, Value, clause};
 use serde_json::Value as Json;
 
 use super::compare;
@@ -110,6 +110,11 @@ impl WrongFields {
         self.rows().zip(&self.is_wrong).filter(|(_, is_wrong)| **is_wrong).map(|(row, _)| row)
     }
 
+    /// Whether such a field is wrong.
+    pub(super) fn has(&self, is: impl Fn(&FieldSpec) -> bool) -> bool {
+        self.wrong().any(is)
+    }
+
     /// Whether all fields after the first wrong one are also wrong, as if bytes were missing or
     /// inserted.
     fn is_shifted(&self) -> bool {
@@ -133,7 +138,7 @@ impl WrongFields {
             return None;
         }
         let is = |clause: ClauseId| clause.as_str() == requirement;
-        let has = |types: &[Type]| self.wrong().any(|row| types.contains(&row.ty));
+        let has = |types: &[Type]| self.has(|row| types.contains(&row.ty));
         let follows = if is(GEN_1) {
             !self.is_reversed
         } else if is(GEN_2) {
@@ -144,8 +149,10 @@ impl WrongFields {
             !self.is_shifted() && !has(&[Type::Boolean, Type::Unsigned, Type::Bytes])
         } else {
             let layout = self.stream.layout();
+            let is_assumed = clause(requirement).is_some_and(|one| one.level() == Level::Info);
             // In a stream of records, the clause of the stream is about the order of its fields.
-            layout.clause == requirement && !layout.repeats
+            is_assumed
+                || layout.clause == requirement && !layout.repeats
                 || self.rows().any(|row| row.clause == requirement)
         };
         follows.then_some(cause)

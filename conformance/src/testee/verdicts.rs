@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use ads_cnc::layout::{Stream, Type};
+use ads_cnc::layout::{FieldSpec, Stream, Type};
 use ads_cnc_vectors::{
     About, Assumption, Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector,
 };
@@ -112,7 +112,7 @@ impl Verdicts<'_> {
             let Some(reaction) = reaction.filter(|_| claims) else { continue };
             let deviation = self.deviation(case, &question, reaction);
             let (judged, _) = self.judged(case, &question, reaction, deviation.as_ref());
-            let wrong = self.wrong_fields(case, reaction, judged);
+            let wrong = self.wrong_fields(case, reaction).filter(|_| judged == Verdict::Fail);
             let clauses = wrong.iter().flat_map(WrongFields::clauses);
             causes.extend(clauses.filter(|id| case.requirements.contains(id)));
         }
@@ -139,26 +139,13 @@ impl Verdicts<'_> {
         }
     }
 
-    /// The wrong fields of an answer to an accepted vector, if it fails.
-    fn wrong_fields(
-        &self,
-        case: &Case,
-        reaction: &TesteeReaction,
-        judged: Verdict,
-    ) -> Option<WrongFields> {
-        let (Body::Vector(vector), TesteeReaction::Answer(Answer::Ok(output)), Verdict::Fail) =
-            (&case.body, reaction, judged)
-        else {
-            return None;
-        };
-        let Expect::Accept(accept) = &vector.expect else { return None };
-        let stream = Stream::by_name(&vector.stream)?;
-        match (&output.value, &output.hex) {
-            (Some(value), _) => {
-                WrongFields::of_value(stream, &accept.value, value, self.terms.strict)
+    /// The wrong fields of an answer to an accepted vector.
+    fn wrong_fields(&self, case: &Case, reaction: &TesteeReaction) -> Option<WrongFields> {
+        match (&case.body, reaction) {
+            (Body::Vector(vector), TesteeReaction::Answer(Answer::Ok(output))) => {
+                wrong_fields(vector, output, self.terms.strict)
             }
-            (None, Some(bytes)) => WrongFields::of_bytes(stream, &vector.bytes(), bytes),
-            (None, None) => None,
+            _ => None,
         }
     }
 
@@ -186,18 +173,20 @@ impl Verdicts<'_> {
         };
         if self.is_of_protocol(case, question, reaction, judged) {
             for &id in &case.requirements {
-                record.add_following(Rule::of(id), TESTEE, expected, found);
+                record.add_following(Rule::of(id), Verdict::Fail, TESTEE, expected, found);
             }
             return;
         }
-        let wrong = self.wrong_fields(case, reaction, judged);
+        let is_wrong = deviation.is_some();
+        let wrong = self.wrong_fields(case, reaction).filter(|_| is_wrong);
         for &id in &case.requirements {
             let cause = wrong
                 .as_ref()
-                .and_then(|wrong| wrong.cause_of(id, &case.requirements, &self.broken));
+                .and_then(|wrong| wrong.cause_of(id, &case.requirements, &self.broken))
+                .filter(|cause| self.broken.contains(cause));
             let rule = Rule { id, level: Some(level) };
             match cause {
-                Some(cause) => record.add_following(rule, cause, expected, found),
+                Some(cause) => record.add_following(rule, judged, cause, expected, found),
                 None => record.add(rule, judged, expected, found, evidence),
             }
         }
@@ -407,13 +396,22 @@ fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeReaction) -> 
     }
 }
 
+/// The wrong fields of an answer to an accepted vector; `None` if it has other fields than expected.
+fn wrong_fields(vector: &Vector, output: &Output, strict: bool) -> Option<WrongFields> {
+    let Expect::Accept(accept) = &vector.expect else { return None };
+    let stream = Stream::by_name(&vector.stream)?;
+    match (&output.value, &output.hex) {
+        (Some(value), _) => WrongFields::of_value(stream, &accept.value, value, strict),
+        (None, Some(bytes)) => WrongFields::of_bytes(stream, &vector.bytes(), bytes),
+        (None, None) => None,
+    }
+}
+
 /// The level at which a wrong answer to an accepted vector is judged.
 fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level {
     let Expect::Accept(accept) = &vector.expect else { return vector.level() };
     let TesteeReaction::Answer(Answer::Ok(output)) = reaction else { return vector.level() };
     let decides = |one: &&Assumption| one.decides || one.encodes && op == "encode";
-    let is_about =
-        |about: Option<About>| vector.assumed.iter().filter(decides).any(|one| one.about == about);
     let has_other_end = || match (&output.value, &output.hex) {
         (Some(value), _) => {
             !matches!(compare::compare(&accept.value, value), Some(compare::Difference::Other(_)))
@@ -429,15 +427,23 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
             |bytes: &Vec<u8>| forms(vector, accept).iter().any(|one| one.len() == bytes.len());
         output.hex.as_ref().is_some_and(|bytes| !same(bytes))
     };
-    if is_about(None)
-        || is_about(Some(About::End)) && has_other_end()
-        || is_about(Some(About::Acceptance)) && has_other_length()
-    {
-        Level::Info
-    } else if is_about(Some(About::Acceptance)) || is_about(Some(About::End)) {
-        vector.stated_level()
-    } else {
+    // If the answer has other fields than expected, any of them may be wrong.
+    let wrong = wrong_fields(vector, output, false);
+    let is_wrong = |is: fn(&FieldSpec) -> bool| wrong.as_ref().is_none_or(|wrong| wrong.has(is));
+    let rests_on = |one: &Assumption| match one.about {
+        Some(About::End) => has_other_end(),
+        Some(About::Acceptance) => has_other_length(),
+        Some(About::Characters) => is_wrong(|row| row.ty == Type::String),
+        Some(About::Codes) => is_wrong(|row| ["type", "access"].contains(&row.name)),
+        _ => true,
+    };
+    let mut deciding = vector.assumed.iter().filter(decides).peekable();
+    if deciding.peek().is_none() {
         vector.level()
+    } else if deciding.any(rests_on) {
+        Level::Info
+    } else {
+        vector.stated_level()
     }
 }
 

@@ -140,6 +140,36 @@ fn a_wrong_field_is_marked() {
     assert!(stdout.contains("\n    !   12  04 00 00 00 "), "{stdout}");
 }
 
+/// A wrong field is a failure, although the vector rests on an assumption about another field; each vector
+/// that follows from it is listed once.
+#[test]
+fn an_assumption_about_another_field_excuses_nothing() {
+    let testee = format!("{} --defect variable-description.size.flip", own());
+    let mut run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    run.args(["run", "--only", "variable-description", "-v", "--testee", &testee]);
+    let shown = String::from_utf8(run.output().unwrap().stdout).unwrap();
+    assert!(!shown.contains("\nDIFFERS"), "{shown}");
+    let (_, followers) = shown.split_once("  follows from it: ").unwrap();
+    let (followers, _) = followers.split_once("again: ").unwrap();
+    for id in ["vec-description-cp1252-name", "vec-description-unknown-codes"] {
+        assert_eq!(followers.matches(&format!("{id} (")).count(), 1, "{id}: {shown}");
+    }
+}
+
+/// An answer that is wrong only where no manual states the result is a difference.
+#[test]
+fn an_assumption_about_a_field_excuses_the_field() {
+    for (id, vector) in [
+        ("variable-description.name.flip", "vec-description-cp1252-name"),
+        ("variable-description.type.flip", "vec-description-limits-low"),
+    ] {
+        let mut own = CodecTestee { defect: faults::by_id(id).cloned() };
+        let judged = judge(&mut own, cases(), OF_A_TESTEE);
+        let outcome = judged.outcomes.iter().find(|one| one.case.id == vector).unwrap();
+        assert_eq!(outcome.verdict(), Verdict::Differs, "{id}: {outcome:?}");
+    }
+}
+
 #[test]
 fn a_rejection_for_another_reason_is_vacuous() {
     let is_cut = |case: &Case| case.title.contains("truncated");
