@@ -13,7 +13,7 @@ use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::judge::Exit;
 use crate::objects::{
     NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
-    WalkResult, absent_of, channels_of, columns, csv, table, walk,
+    VALUE, WalkResult, absent_of, channels_of, columns, csv, table, walk,
 };
 use crate::session::{Session, ToolError};
 use crate::text::{hex, json, plural};
@@ -182,6 +182,7 @@ impl Browse {
         contents: Option<&[ReadContent]>,
     ) -> Result<(), ToolError> {
         let mut out = BufWriter::new(io::stdout().lock());
+        let (mut omitted, mut width) = (Vec::new(), None);
         let format = if self.json { BrowseFormat::Json } else { self.format };
         let shown = match format {
             BrowseFormat::Json => {
@@ -199,7 +200,7 @@ impl Browse {
             format => {
                 let columns = columns(self.variables);
                 let mut heads: Vec<&str> = columns.iter().map(|column| column.head).collect();
-                heads.extend(contents.map(|_| "value"));
+                heads.extend(contents.map(|_| VALUE));
                 let rows = found.objects.iter().enumerate().map(|(place, object)| {
                     let mut row: Vec<String> =
                         columns.iter().map(|column| (column.cell)(object)).collect();
@@ -211,13 +212,21 @@ impl Browse {
                     BrowseFormat::Csv => csv(&heads, rows, &mut out),
                     _ => {
                         let size = terminal_size::terminal_size_of(io::stdout());
-                        let width = size.map(|(width, _)| usize::from(width.0));
-                        table(&heads, rows, width, &mut out)
+                        width = size.map(|(width, _)| usize::from(width.0));
+                        table(&heads, rows, width, &mut out).map(|without| omitted = without)
                     }
                 }
             }
         };
-        written(shown.and_then(|()| out.flush()))
+        written(shown.and_then(|()| out.flush()))?;
+        if let Some(width) = width.filter(|_| !omitted.is_empty()) {
+            print_error(format_args!(
+                "columns that do not fit the terminal of {width} characters are omitted: {}; \
+                 --format csv prints all",
+                omitted.join(", ")
+            ));
+        }
+        Ok(())
     }
 }
 

@@ -42,7 +42,7 @@ pub use list::List;
 pub use object::{Object, ReportedAccess};
 pub use pattern::Pattern;
 pub use report::{ObjectReport, ObjectsReport};
-pub use table::{Column, columns, csv, table};
+pub use table::{Column, VALUE, columns, csv, table};
 pub use value_address::ValueAddress;
 pub(crate) use walk::{
     CLASSES, KINDS, Walker, active_channels, decode_element_count, decoder_of, has_variables,

@@ -22,6 +22,8 @@ pub const fn columns(variables: bool) -> &'static [Column] {
 const LIST: Column = Column { head: "list", cell: |object| object.list.to_string() };
 const NAME: Column = Column { head: "name", cell: |object| printable(&object.name.to_string()) };
 const TYPE: Column = Column { head: "type", cell: |object| object.ty.to_string() };
+/// The heading of the values.
+pub const VALUE: &str = "value";
 const SIZE: Column = Column {
     head: "size",
     cell: |object| object.ty.size.map_or_else(String::new, |size| size.to_string()),
@@ -69,41 +71,72 @@ const VARIABLE: &[Column] = &[
 /// Maximum width of a column; a longer cell shifts only the rest of its own row.
 const WIDTH_MAX: usize = 40;
 
-/// Minimum width of a column.
+/// Minimum width of the values.
 const WIDTH_MIN: usize = 8;
 
+/// A column of a table that is written.
+struct Shown<'h> {
+    place: usize,
+    head: &'h str,
+    width: usize,
+}
+
+impl Shown<'_> {
+    /// The width to which the column can be narrowed; only values are truncated.
+    fn least(&self) -> usize {
+        if self.head == VALUE { self.width.min(WIDTH_MIN) } else { self.width }
+    }
+}
+
+/// The width of a row of these columns, with two spaces between them.
+fn total(columns: &[Shown<'_>], width: impl Fn(&Shown<'_>) -> usize) -> usize {
+    let gaps = columns.len().saturating_sub(1).saturating_mul(2);
+    columns.iter().map(width).fold(gaps, usize::saturating_add)
+}
+
 /// Writes rows with headings, each column as wide as its longest cell, up to `WIDTH_MAX`. On a
-/// terminal of this width, the widest columns are narrowed and their cells truncated until a row
-/// fits on a line.
-pub fn table(
-    heads: &[&str],
+/// terminal of this width, values are truncated so that a row fits on a line. If that is not enough, the
+/// last columns are omitted, except names and values; returns their headings.
+pub fn table<'h>(
+    heads: &[&'h str],
     rows: impl Iterator<Item = Vec<String>> + Clone,
     terminal: Option<usize>,
     out: &mut impl Write,
-) -> io::Result<()> {
-    let mut widths: Vec<usize> = heads.iter().map(|head| head.len()).collect();
+) -> io::Result<Vec<&'h str>> {
+    let columns = heads.iter().enumerate();
+    let columns = columns.map(|(place, head)| Shown { place, head, width: head.len() });
+    let mut columns: Vec<Shown<'_>> = columns.collect();
     let most = terminal.map_or(WIDTH_MAX, |_| usize::MAX);
     for row in rows.clone() {
-        for (width, cell) in widths.iter_mut().zip(&row) {
-            *width = (*width).max(cell.chars().count().min(most));
+        for (column, cell) in columns.iter_mut().zip(&row) {
+            column.width = column.width.max(cell.chars().count().min(most));
         }
     }
-    let gaps = heads.len().saturating_sub(1).saturating_mul(2);
+    let mut omitted = Vec::new();
+    let can_omit = |column: &Shown<'_>| ![NAME.head, VALUE].contains(&column.head);
     while let Some(terminal) = terminal
-        && widths.iter().fold(gaps, |all, width| all.saturating_add(*width)) > terminal
-        && let Some(widest) = widths.iter_mut().max().filter(|width| **width > WIDTH_MIN)
+        && total(&columns, |column| column.least()) > terminal
+        && let Some(last) = columns.iter().rposition(can_omit)
     {
-        *widest = widest.saturating_sub(1);
+        omitted.insert(0, columns.remove(last).head);
+    }
+    let excess =
+        total(&columns, |column| column.width).saturating_sub(terminal.unwrap_or(usize::MAX));
+    for column in &mut columns {
+        column.width = column.width.saturating_sub(excess).max(column.least());
     }
     let heads: Vec<String> = heads.iter().map(|head| head.to_uppercase()).collect();
     for row in std::iter::once(heads).chain(rows) {
-        let cells = row.iter().zip(&widths).map(|(cell, &width)| match terminal {
-            Some(_) if cell.chars().count() > width => shorten(cell, width.saturating_sub(1)),
-            _ => format!("{cell:<width$}"),
+        let cells = columns.iter().filter_map(|column| {
+            let (cell, width) = (row.get(column.place)?, column.width);
+            Some(match terminal {
+                Some(_) if cell.chars().count() > width => shorten(cell, width.saturating_sub(1)),
+                _ => format!("{cell:<width$}"),
+            })
         });
         writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
     }
-    Ok(())
+    Ok(omitted)
 }
 
 /// Writes rows as comma-separated values with CR LF, as in RFC 4180. A cell that a spreadsheet would
@@ -144,13 +177,24 @@ mod tests {
 
     #[test]
     fn a_table_fits_the_terminal() {
-        let row = || vec!["SDA channel 1".to_owned(), "n".repeat(60), "TRUE".to_owned()];
-        for (terminal, widest) in [(None, 81), (Some(100), 82), (Some(40), 40), (Some(10), 25)] {
+        let name = "n".repeat(60);
+        let row = || vec!["SDA channel 1".to_owned(), name.clone(), "4".to_owned(), "T".repeat(9)];
+        for (terminal, widest, without) in [
+            (None, 92, &[][..]),
+            (Some(100), 92, &[]),
+            (Some(91), 91, &[]),
+            (Some(90), 86, &["size"]),
+            (Some(80), 71, &["list", "size"]),
+            (Some(70), 70, &["list", "size"]),
+            (Some(10), 70, &["list", "size"]),
+        ] {
             let (mut out, rows) = (Vec::new(), [row(), row()].into_iter());
-            table(&["list", "name", "value"], rows, terminal, &mut out).unwrap();
+            let omitted = table(&["list", "name", "size", VALUE], rows, terminal, &mut out);
+            assert_eq!(omitted.unwrap(), without, "{terminal:?}");
             let text = String::from_utf8(out).unwrap();
             let lines = text.lines().map(|line| line.chars().count());
             assert_eq!(lines.max(), Some(widest), "{text}");
+            assert_eq!(text.matches(&name).count(), 2, "{text}");
         }
     }
 
