@@ -20,7 +20,9 @@ use std::fmt::Write as _;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
-use ads_cnc_vectors::{Given, Requirement, errata, requirements, sequences, vectors};
+use ads_cnc_vectors::{
+    Erratum, Given, Reading, Requirement, erratum, requirements, sequences, vectors,
+};
 use serde::Serialize;
 
 use crate::clients;
@@ -169,7 +171,7 @@ fn row(requirement: &Requirement, cases: &[Case]) -> RequirementRow {
 }
 
 fn ruling(id: &str) -> Option<RulingRow> {
-    let found = errata().iter().find(|one| one.id == id)?;
+    let found = erratum(id)?;
     let (title, ruling) = (found.title.clone(), found.ruling.clone());
     Some(RulingRow { erratum: id.to_owned(), title, ruling })
 }
@@ -181,15 +183,33 @@ fn joined(names: &BTreeSet<&str>, between: &str) -> String {
     names.iter().copied().collect::<Vec<_>>().join(between)
 }
 
+fn paragraph(out: &mut String, name: &str, words: &str) {
+    for (place, line) in wrap(words, WIDTH).iter().enumerate() {
+        let name = if place == 0 { name } else { "" };
+        let _ = writeln!(out, "  {name:<8}  {line}");
+    }
+}
+
+/// Formats an erratum as text: its readings, the ruling, and what cites it.
+pub fn erratum_to_text(erratum: &Erratum) -> String {
+    let Erratum { id, title, readings, ruling, status, question } = erratum;
+    let mut text = format!("{id}  {title} ({})\n", format!("{status:?}").to_lowercase());
+    for Reading { document, edition, section, reading } in readings {
+        let place = [document.as_str(), edition].join(" ");
+        paragraph(&mut text, "reading", &format!("{} §{section}: {reading}", place.trim_end()));
+    }
+    paragraph(&mut text, "ruling", ruling);
+    paragraph(&mut text, "question", question.as_deref().unwrap_or_default());
+    let citing = requirements().iter().filter(|one| one.errata.contains(id)).map(|one| &one.id);
+    let vectors = vectors().iter().filter(|one| one.errata.contains(id)).map(|one| &one.id);
+    let sequences = sequences().iter().filter(|one| one.errata.contains(id)).map(|one| &one.id);
+    let citing: Vec<&str> = citing.chain(vectors).chain(sequences).map(String::as_str).collect();
+    paragraph(&mut text, "cited by", &citing.join(", "));
+    text
+}
+
 /// Formats the matrix as text, with the lists of each requirement below it.
 pub fn to_text(rows: &[RequirementRow]) -> String {
-    fn paragraph(out: &mut String, name: &str, words: &str) {
-        for (place, line) in wrap(words, WIDTH).iter().enumerate() {
-            let name = if place == 0 { name } else { "" };
-            let _ = writeln!(out, "  {name:<8}  {line}");
-        }
-    }
-
     let mut text = String::new();
     for row in rows {
         // Writing to a String does not fail.

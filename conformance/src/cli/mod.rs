@@ -14,6 +14,7 @@ mod log;
 mod message;
 mod model;
 mod name;
+mod numbers;
 mod progress;
 mod report;
 mod report_output;

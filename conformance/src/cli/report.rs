@@ -1,5 +1,6 @@
 //! `ads-cnc report`: converts and compares reports that were written as JSON.
 
+use std::ffi::OsStr;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
@@ -26,9 +27,9 @@ pub(super) struct ReportArgs {
     #[command(flatten)]
     forms: ReportFormats,
 
-    /// Write a conformance statement: for each clause whether it is claimed and verified; as HTML if
-    /// the file name ends in .html, otherwise as Markdown
-    #[arg(long, value_name = "FILE")]
+    /// Write a conformance statement: for each clause whether it is claimed and verified; as HTML to
+    /// FILE.html, as Markdown to FILE.md; - is Markdown on stdout
+    #[arg(long, value_name = "FILE", value_parser = statement_file)]
     statement: Option<PathBuf>,
 
     /// Compare with an earlier report: list new failures and deviations, fixed ones, and
@@ -74,6 +75,17 @@ impl ReportArgs {
             self.forms.write(&report)
         };
         statement.and(compared).and(written).map_or_else(lost, |()| exit)
+    }
+}
+
+/// Parses the file of a statement, whose name ends with its format.
+fn statement_file(text: &str) -> Result<PathBuf, String> {
+    match Path::new(text).extension().and_then(OsStr::to_str) {
+        Some("html" | "md") => Ok(text.into()),
+        None if text == "-" => Ok(text.into()),
+        _ => {
+            Err("expected a name that ends in .html or .md, or - for Markdown on stdout".to_owned())
+        }
     }
 }
 

@@ -16,6 +16,14 @@ use crate::text::{did_you_mean, utf8};
 /// The heading of these options in the help.
 pub(super) const HEADING: &str = "Reports";
 
+/// A waiver, as the file of --waivers contains it.
+pub(super) const WAIVER: &str = "  [[waiver]]
+  test = \"var-descriptions\"   # the ID of a case
+  requirement = \"VAR-8\"
+  verdict = \"fail\"            # or vacuous, inconclusive, warning, differs
+  reason = \"sizes are rounded up to 4 until firmware 2.1\"
+  expires = 2027-01-31        # the first day on which the waiver is no longer valid";
+
 /// Formats that are made from the JSON report.
 #[derive(Args, Clone, Debug)]
 pub(super) struct ReportFormats {
@@ -28,7 +36,7 @@ pub(super) struct ReportFormats {
     junit: Option<PathBuf>,
 
     /// Write the report as Markdown, for example for a pull request
-    #[arg(long, help_heading = HEADING, value_name = "FILE")]
+    #[arg(long, hide_short_help = true, help_heading = HEADING, value_name = "FILE")]
     markdown: Option<PathBuf>,
 
     /// Write the JSON of a badge for an endpoint of shields.io
@@ -192,6 +200,13 @@ fn waivers(file: &Path) -> Result<Waivers, String> {
     let bytes = fs::read(file).map_err(|error| error.to_string());
     let text = bytes.and_then(utf8).map_err(|why| format!("{}: {why}", file.display()))?;
     let waivers = Waivers::from_toml(&text).map_err(|error| error.in_file(file).to_string())?;
+    if waivers.is_empty() {
+        let file = file.display();
+        print_error(format_args!(
+            "{file} contains no waiver, so every failure counts. A waiver for a known failure, which -v \
+             prints for each failure of the run:\n{WAIVER}"
+        ));
+    }
     let cases = matrix::cases().into_iter().chain([clients::requests_case()]);
     let known: Vec<String> = cases.map(|case| case.id).collect();
     if let Some(id) = waivers.cases().find(|id| known.iter().all(|known| known != id)) {

@@ -4,6 +4,7 @@ use std::io::{self, Write as _};
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::{Erratum, erratum};
 
 use super::message::print_error;
 use crate::judge::{Exit, clauses_of, names};
@@ -18,7 +19,7 @@ use crate::text::did_you_mean;
     Exit codes: 0 printed, 2 wrong usage, 3 no requirement matches, 70 internal error")]
 pub(super) struct Requirements {
     /// An area (VAR), a requirement (VAR-11), a stream (variable-description), a function
-    /// (ReadByName) or the ID of a case [default: all requirements]
+    /// (ReadByName), the ID of a case or an erratum (E-17) [default: all requirements]
     #[arg(value_name = "AREA|STREAM|ID", conflicts_with = "only")]
     wanted: Vec<String>,
 
@@ -43,8 +44,17 @@ enum RequirementsFormat {
 impl Requirements {
     pub(super) fn execute(&self) -> Exit {
         let mut rows = matrix::matrix();
-        let unknown: Vec<&String> =
-            self.words().filter(|word| !rows.iter().any(|row| is_named(row, word))).collect();
+        let errata: Vec<&Erratum> =
+            self.words().filter_map(|word| erratum(&word.to_ascii_uppercase())).collect();
+        if !errata.is_empty() && !matches!(self.format, RequirementsFormat::Text) {
+            print_error("an erratum is printed only with --format text");
+            return Exit::Usage;
+        }
+        let is_known = |word: &str| {
+            erratum(&word.to_ascii_uppercase()).is_some()
+                || rows.iter().any(|row| is_named(row, word))
+        };
+        let unknown: Vec<&String> = self.words().filter(|word| !is_known(word)).collect();
         if !unknown.is_empty() {
             unknown.into_iter().for_each(|word| print_error(no_such(word, &rows)));
             return Exit::Nothing;
@@ -53,7 +63,12 @@ impl Requirements {
             self.words().next().is_none() || self.words().any(|word| is_named(row, word))
         });
         let text = match self.format {
-            RequirementsFormat::Text => Ok(matrix::to_text(&rows)),
+            RequirementsFormat::Text => {
+                let errata = errata.into_iter().map(matrix::erratum_to_text);
+                let errata: Vec<String> =
+                    errata.chain((!rows.is_empty()).then(|| matrix::to_text(&rows))).collect();
+                Ok(errata.join("\n"))
+            }
             RequirementsFormat::Markdown => Ok(matrix::to_markdown(&rows)),
             RequirementsFormat::Sections => Ok(matrix::to_sections(&rows)),
             RequirementsFormat::Json => serde_json::to_string_pretty(&rows).map(|json| json + "\n"),
@@ -100,7 +115,7 @@ fn no_such(word: &str, rows: &[RequirementRow]) -> String {
     let functions: Vec<String> = Function::ALL.iter().map(|one| id(*one)).collect();
     let streams = Stream::all().map(|stream| stream.layout().name);
     let near = did_you_mean(word, ids.chain(streams).chain(functions.iter().map(String::as_str)));
-    format!("no requirement, area, stream, function or case has the ID {word}{near}")
+    format!("no requirement, area, stream, function, case or erratum has the ID {word}{near}")
 }
 
 /// The clauses of the stream or function of this name.

@@ -20,8 +20,9 @@ use super::again::again;
 use super::display::DisplayArgs;
 use super::list;
 use super::message::print_error;
+use super::numbers::whole;
 use super::progress::Watch;
-use super::report_output::{Reports, show, write};
+use super::report_output::{Reports, WAIVER, show, write};
 use super::run_client::ClientArgs;
 use super::run_testee;
 use super::serve::find_defect;
@@ -104,20 +105,21 @@ pub(super) struct Run {
 
     /// Set the seed of the order of the cases and of the samples of long lists [default: random;
     /// shown in the report]
-    #[arg(long, help_heading = SELECTION, value_name = "N")]
+    #[arg(long, help_heading = SELECTION, value_name = "N", allow_negative_numbers = true,
+        value_parser = whole(0..=u32::MAX))]
     seed: Option<u32>,
 
     /// Read every item of every list of a device, up to 10000 [default: a sample of each list of
     /// more than 256 items, unless a write is allowed]
-    #[arg(long, help_heading = SELECTION, requires = "target",
+    #[arg(long, hide_short_help = true, help_heading = SELECTION, requires = "target",
         conflicts_with_all = ["testee", "client", "client_listen"])]
     all: bool,
 
     /// Stop after N failed cases, also known ones (--waivers); all cases of the codec are judged
     /// together
     #[arg(long, hide_short_help = true, help_heading = SELECTION, value_name = "N",
-        value_parser = clap::value_parser!(u32).range(1..),
-        conflicts_with_all = ["testee", "client", "client_listen"])]
+        allow_negative_numbers = true, value_parser = whole(1..=u32::MAX),
+        conflicts_with_all = ["testee", "client_listen"])]
     max_fail: Option<u32>,
 
     /// List the cases without running them; with --seed in the order of the run, with --json as
@@ -141,7 +143,7 @@ pub(super) struct Run {
     display: DisplayArgs,
 
     /// Enable a defect of the simulated CNC and of the codec's cases (see serve --list-defects)
-    #[arg(long, value_name = "ID", conflicts_with = "target")]
+    #[arg(long, hide_short_help = true, value_name = "ID", conflicts_with = "target")]
     defect: Option<String>,
 }
 
@@ -163,12 +165,7 @@ fn after_long_help() -> String {
 {WHAT_MAY_BE_WRITTEN}
 
 Known failures, a file for --waivers:
-  [[waiver]]
-  test = \"var-descriptions\"   # the ID of a case
-  requirement = \"VAR-8\"
-  verdict = \"fail\"            # or vacuous, inconclusive, warning, differs
-  reason = \"sizes are rounded up to 4 until firmware 2.1\"
-  expires = 2027-01-31        # the first day on which the waiver is no longer valid
+{WAIVER}
   A waiver is invalid if it has expired, if no executed case matches it, or if the verdict is a
   different one. An invalid waiver makes the run end with 5 unless a case fails. An unknown case is
   wrong usage. With --waivers or -v, the run prints such an entry for each failure.

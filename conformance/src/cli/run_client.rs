@@ -14,7 +14,8 @@ use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::message::print_error;
-use super::serve::check_address;
+use super::numbers::time;
+use super::serve::{address, cannot_listen, check_address};
 use crate::capture::Capture;
 use crate::clients::{self, ClientProcess, JudgedClient, Scenario, TestServer};
 use crate::deadline::Deadline;
@@ -34,7 +35,7 @@ pub(super) struct ClientArgs {
 
     /// Wait for a client on this address and judge its requests until it disconnects; with
     /// --client, the address of the simulated CNC [default for --client: a free port of loopback]
-    #[arg(long, help_heading = CLIENT, value_name = "ADDRESS", conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
+    #[arg(long, help_heading = CLIENT, value_name = "ADDRESS", value_parser = address, conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
     client_listen: Option<SocketAddr>,
 
     /// Allow an address other than loopback for --client-listen. Any machine that reaches it can
@@ -43,7 +44,8 @@ pub(super) struct ClientArgs {
     allow_remote: bool,
 
     /// Time limit for each action of a client, in milliseconds
-    #[arg(long, hide_short_help = true, help_heading = CLIENT, value_name = "MS", default_value_t = 10_000)]
+    #[arg(long, hide_short_help = true, help_heading = CLIENT, value_name = "MS", default_value_t = 10_000,
+        allow_negative_numbers = true, value_parser = time())]
     client_timeout: u64,
 }
 
@@ -85,7 +87,8 @@ impl ClientArgs {
     ) -> Result<OfClient, String> {
         let addr = self.client_listen.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
         check_address(addr, self.allow_remote)?;
-        let mut server = TestServer::new(addr).map_err(|error| format!("{addr}: {error}"))?;
+        let server = TestServer::new(addr);
+        let mut server = server.map_err(|error| cannot_listen("--client-listen", addr, &error))?;
         if let Some(capture) = capture {
             server = server.with_capture(capture);
         }

@@ -7,6 +7,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::message::print_error;
+use super::numbers::whole;
 use super::progress::{LOG_INTERVAL, ProgressLine, UPDATE_INTERVAL, progress_text};
 use super::report_output::{is_stdout, lost, show, write};
 use crate::judge::{Exit, any_seed};
@@ -37,7 +38,8 @@ pub(super) struct SelfTestArguments {
     all: bool,
 
     /// Set the seed of the sample [default: random; shown on stderr]
-    #[arg(long, value_name = "N", conflicts_with = "all")]
+    #[arg(long, value_name = "N", conflicts_with = "all", allow_negative_numbers = true,
+        value_parser = whole(0..=u32::MAX))]
     seed: Option<u32>,
 
     /// Measure the changed defects, or all if a case changed, and write detection.tsv and

@@ -11,6 +11,7 @@ use ads_cnc::ads::AmsNetId;
 use super::executed::{self, ExecutedTo};
 use super::message::{exit_with_error, print_error};
 use super::model::ModelArgs;
+use super::numbers::whole;
 use super::target::net_id;
 use crate::faults::{self, Faulty, Seed};
 use crate::judge::Exit;
@@ -64,7 +65,8 @@ pub(super) struct Args {
     net_id: AmsNetId,
 
     /// Close a connection after this many seconds without a request; 0 keeps it open.
-    #[arg(long, value_name = "SECONDS", default_value_t = ServerOptions::IDLE.as_secs())]
+    #[arg(long, value_name = "SECONDS", default_value_t = ServerOptions::IDLE.as_secs(),
+        allow_negative_numbers = true, value_parser = whole(0..=u64::from(u32::MAX)))]
     idle: u64,
 
     #[command(flatten)]
@@ -193,21 +195,24 @@ pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), 
 }
 
 fn start(addr: SocketAddr, cnc: Faulty, options: ServerOptions) -> Result<Server, String> {
-    let listener = net::listen(addr).map_err(|error| {
-        let next = match error.kind() {
-            io::ErrorKind::AddrInUse => {
-                "; is another CNC or an ADS router running on this machine? With --listen \
-                 127.0.0.1:0 the system chooses a port"
-            }
-            _ => "",
-        };
-        format!("cannot listen on {addr}: {error}{next}")
-    })?;
+    let listener = net::listen(addr).map_err(|error| cannot_listen("--listen", addr, &error))?;
     let server = Server::with_options(listener, cnc, options);
     server.map_err(|error| format!("cannot serve on {addr}: {error}"))
 }
 
-fn address(text: &str) -> Result<SocketAddr, String> {
+/// The message for an address of this option that cannot be listened on.
+pub(super) fn cannot_listen(option: &str, addr: SocketAddr, error: &io::Error) -> String {
+    let next = match error.kind() {
+        io::ErrorKind::AddrInUse => format!(
+            "; is another CNC or an ADS router running on this machine? With {option} 127.0.0.1:0 \
+             the system chooses a port"
+        ),
+        _ => String::new(),
+    };
+    format!("{option}: cannot listen on {addr}: {error}{next}")
+}
+
+pub(super) fn address(text: &str) -> Result<SocketAddr, String> {
     text.parse().map_err(|_| {
         "expected an IP address and a port, such as 127.0.0.1:48898 or [::1]:48898".to_owned()
     })

@@ -13,6 +13,7 @@ use ads_cnc::ads::AmsNetId;
 use clap::Args;
 
 use super::message::print_error;
+use super::numbers::time;
 use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::deadline::Deadline;
@@ -64,12 +65,13 @@ pub(super) struct TargetArgs {
     source_net_id: Option<AmsNetId>,
 
     /// Timeout for a connection and for a reply, in milliseconds [default: 2000]
-    #[arg(long, help_heading = TARGET, value_name = "MS",
-        value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "MS",
+        allow_negative_numbers = true, value_parser = time())]
     timeout: Option<u64>,
 
     /// Maximum number of requests per second [default: no limit; each waits for the previous reply]
-    #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "PER_SECOND", value_parser = pace)]
+    #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "PER_SECOND",
+        allow_negative_numbers = true, value_parser = pace)]
     rate: Option<Duration>,
 
     /// File with the allowed writes, the device and the end of the permission [default: no writes]
@@ -77,7 +79,7 @@ pub(super) struct TargetArgs {
     allow_write: Option<PathBuf>,
 
     /// Write all sent and received frames to a pcapng file for Wireshark and `check`
-    #[arg(long, help_heading = TARGET, value_name = "FILE", conflicts_with = "dry_run")]
+    #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "FILE", conflicts_with = "dry_run")]
     capture: Option<PathBuf>,
 
     /// Show the requests without sending them
@@ -102,7 +104,7 @@ pub(super) struct TargetArgs {
 pub(super) struct DeadlineArgs {
     /// Deadline for all requests, in seconds; the rest is reported as not requested
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "SECONDS", default_value_t = DEADLINE,
-        value_parser = seconds)]
+        allow_negative_numbers = true, value_parser = time())]
     deadline: u64,
 }
 
@@ -364,11 +366,6 @@ pub(super) fn net_id(text: &str) -> Result<AmsNetId, String> {
         };
         format!("expected six numbers from 0 to 255 with dots, such as 192.0.2.10.1.1{hint}")
     })
-}
-
-fn seconds(text: &str) -> Result<u64, String> {
-    let seconds = text.parse().ok().filter(|seconds| *seconds > 0);
-    seconds.ok_or_else(|| "expected a whole number of seconds greater than 0".to_owned())
 }
 
 /// Parses a number of requests per second; returns the time between two requests.

@@ -390,7 +390,8 @@ impl fmt::Display for Shown<'_> {
         let spec = call.dispatch().ok().map(|request| request.function().spec());
         let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
         let verdict = match &self.0.outcome {
-            Err(ExchangeError::Refused(refusal)) => format!("would be rejected: {refusal}"),
+            // The error of the command contains the reason.
+            Err(ExchangeError::Refused(_)) => "would be rejected".to_owned(),
             Err(ExchangeError::Unsendable(error)) => format!("cannot be encoded: {error}"),
             _ => "would be sent".to_owned(),
         };

@@ -16,6 +16,7 @@ mod geo;
 mod hostile;
 mod interrupt;
 mod left_behind;
+mod messages;
 mod model;
 mod named_only;
 mod permission;

@@ -220,7 +220,7 @@ fn the_stream_needs_an_entry() {
 #[test]
 fn a_dry_run_shows_the_packets() {
     let (addr, packets) = kept(|_| OK);
-    for (table, exit, verdict) in [(STREAM_1, 0, "would be sent\n"), ("", 4, "would be rejected: ")]
+    for (table, exit, verdict) in [(STREAM_1, 0, "would be sent\n"), ("", 4, "would be rejected\n")]
     {
         let allow = TestFile::allowing(table);
         let output = stream(program().as_bytes(), addr, &allow, &["--dry-run"]);

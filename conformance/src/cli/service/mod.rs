@@ -20,6 +20,7 @@ use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use clap::Args;
 
 use super::message::print_error;
+use super::numbers::whole;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;
@@ -53,7 +54,8 @@ pub(super) struct ServiceArguments {
     poll: Duration,
 
     /// Exit after this many answers [default: no limit]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+        value_parser = whole(1..=u64::from(u32::MAX)))]
     answers: Option<u64>,
 
     /// Exit after one answer

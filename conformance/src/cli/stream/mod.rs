@@ -22,6 +22,7 @@ use ads_cnc::streaming::{NcText, Sender};
 use clap::Args;
 
 use super::message::print_error;
+use super::numbers::whole;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, default_cnc};
 use crate::gate::Entry;
 use crate::judge::Exit;
@@ -50,7 +51,8 @@ pub(super) struct StreamArguments {
     retry_after: Duration,
 
     /// Send a packet again at most this many times; 1200 times 500ms are ten minutes
-    #[arg(long, value_name = "N", default_value_t = 1200)]
+    #[arg(long, value_name = "N", default_value_t = 1200,
+        allow_negative_numbers = true, value_parser = whole(0..=u32::MAX))]
     retries: u32,
 
     /// Send the program even if the check reports that a line would end streaming
