@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use ads_cnc::CncStr;
-use ads_cnc::ads::AmsPort;
+use ads_cnc::ads::{AmsPort, Command};
 use ads_cnc::operation::{Call, DispatchError, Function, Service};
 
 use super::file::FileEnd;
 use crate::exchange::Exchange;
-use crate::explain::{ExplainQuery, ExplainSubject, ValueFormat, explain};
+use crate::explain::{ExplainQuery, ExplainSubject, ValueFormat, command_name, explain};
 use crate::rules::function_at;
 use crate::text::hex::spaced;
 use crate::text::{escape, plural, shorten};
@@ -164,7 +164,11 @@ impl CaptureTally {
         lines.extend(told.map(|(number, noun, what)| plural(number, noun) + what));
         lines.extend(unjudged("link types", &self.links));
         lines.extend(unjudged("frames to AMS ports", &self.other_ports));
-        lines.extend(unjudged("AMS commands", &self.commands));
+        let commands = self.commands.iter().map(|(number, count)| {
+            let name = command_name(Command(*number));
+            (name.map_or_else(|| number.to_string(), ToOwned::to_owned), *count)
+        });
+        lines.extend(unjudged("AMS commands", &commands.collect()));
         lines.extend(unjudged("calls of undocumented addresses", &self.unknown));
         if self.segments == 0 && self.elsewhere > 0 {
             let elsewhere = self.elsewhere;
@@ -300,4 +304,17 @@ fn unjudged<K: Display>(what: &str, all: &BTreeMap<K, u64>) -> Option<String> {
         more => format!(", and {more} more"),
     };
     (!shown.is_empty()).then(|| format!("not judged: {what} {}{more}", shown.join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commands_are_named() {
+        let commands = BTreeMap::from([(Command::READ_STATE.0, 4), (77, 1)]);
+        let lines = CaptureTally { commands, ..CaptureTally::default() }.lines();
+        let line = "not judged: AMS commands 77 (1), ReadState (4)";
+        assert!(lines.iter().any(|one| one == line), "{lines:?}");
+    }
 }

@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::display::DisplayArgs;
 use super::message::print_error;
+use super::numbers::whole;
 use super::progress::Watch;
 use super::report_output::Reports;
 use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports};
@@ -35,7 +36,7 @@ pub(super) struct CheckArguments {
 
     /// Read the connections of this TCP port, on either side; repeatable [default: 48898]
     #[arg(long, help_heading = TRAFFIC, value_name = "N", conflicts_with = "any_port",
-        value_parser = clap::value_parser!(u16).range(1..))]
+        allow_negative_numbers = true, value_parser = whole(1..=u16::MAX))]
     port: Vec<u16>,
 
     /// Read every TCP connection, and judge those that contain an AMS frame
@@ -138,16 +139,19 @@ impl CheckArguments {
             Ok(waivers) => waivers,
             Err(why) => return usage(why),
         };
-        let mut checked = match self.read() {
+        let mut notes = Vec::new();
+        let mut checked = match self.read(&mut notes) {
             Ok(checked) => checked,
             Err(why) => return usage(format!("{}: {why}", self.file.display())),
         };
         if checked.tally.is_of_suite() && !self.own_requests {
-            print_error(
-                "the requests are the suite's own; judged: the CNC only (see --own-requests)",
+            notes.push(
+                "the requests are the suite's own; judged: the CNC only (see --own-requests)"
+                    .to_owned(),
             );
             checked.outcomes.retain(|outcome| outcome.case.subject != CaseSubject::CapturedClient);
         }
+        notes.iter().for_each(print_error);
         // Cases that are not selected were judged too; the report omits them.
         let selection = Selection { edition: self.edition, only: self.only.clone() };
         let cases: Vec<Case> =
@@ -173,7 +177,8 @@ impl CheckArguments {
                 file: Some(self.file.display().to_string()),
                 ..TargetReport::default()
             },
-            traffic: checked.tally.lines(),
+            traffic: checked.tally.lines().into_iter().chain(notes).collect(),
+            exchanges: checked.tally.listed.clone(),
             profile: None,
             found: None,
             waivers,
@@ -195,40 +200,22 @@ impl CheckArguments {
     }
 
     /// Reads the connections of the default port; if they contain no AMS frame, all others.
-    fn read(&self) -> Result<Checked, String> {
-        let checked = self.read_ports(self.any_port).map_err(|error| self.explain(&error))?;
+    fn read(&self, notes: &mut Vec<String>) -> Result<Checked, String> {
+        let explained =
+            |error: capture::FileError| compressed(&self.file).unwrap_or_else(|| error.to_string());
+        let checked = self.read_ports(self.any_port).map_err(explained)?;
         if checked.tally.frames > 0 || self.any_port || !self.port.is_empty() {
             return Ok(checked);
         }
-        let all = self.read_ports(true).map_err(|error| self.explain(&error))?;
+        let all = self.read_ports(true).map_err(explained)?;
         if all.tally.frames == 0 {
             return Ok(checked);
         }
-        print_error(format_args!(
+        notes.push(format!(
             "no AMS frame at TCP port {AMS_TCP_PORT}: judging the connections at other ports, as \
              with --any-port"
         ));
         Ok(all)
-    }
-
-    /// The error message; for a compressed file, with the command that unpacks it.
-    fn explain(&self, error: &capture::FileError) -> String {
-        let mut start = [0; 4];
-        let read = File::open(&self.file).and_then(|mut file| file.read_exact(&mut start));
-        let unpack = match start {
-            _ if read.is_err() => return error.to_string(),
-            [0x1F, 0x8B, ..] => {
-                let file = self.file.display();
-                return format!(
-                    "the file is compressed; unpack it first: gzip -dk {file}, or editcap {file} \
-                     out.pcapng"
-                );
-            }
-            [0x28, 0xB5, 0x2F, 0xFD] => "zstd -dk",
-            [0xFD, b'7', b'z', b'X'] => "xz -dk",
-            _ => return error.to_string(),
-        };
-        format!("the file is compressed; unpack it first: {unpack} {}", self.file.display())
     }
 
     fn read_ports(&self, any: bool) -> Result<Checked, capture::FileError> {
@@ -287,6 +274,20 @@ impl CheckArguments {
             report::print(report, display, out)
         })
     }
+}
+
+/// The message for a compressed file, with the command that unpacks it; `None` for any other file.
+pub(super) fn compressed(file: &Path) -> Option<String> {
+    let mut start = [0; 4];
+    File::open(file).and_then(|mut file| file.read_exact(&mut start)).ok()?;
+    let name = file.display();
+    let unpack = match start {
+        [0x1F, 0x8B, 8, _] => format!("gzip -dk {name}, or editcap {name} out.pcapng"),
+        [0x28, 0xB5, 0x2F, 0xFD] => format!("zstd -dk {name}"),
+        [0xFD, b'7', b'z', b'X'] => format!("xz -dk {name}"),
+        _ => return None,
+    };
+    Some(format!("the file is compressed; unpack it first: {unpack}"))
 }
 
 /// Parses the destination of the vectors; stdout is taken by the report.

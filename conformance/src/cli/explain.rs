@@ -11,6 +11,7 @@ use ads_cnc::operation::Service;
 use ads_cnc::value::DataType;
 use clap::{Args, ValueEnum};
 
+use super::check::compressed;
 use super::display::Color;
 use super::message::print_error;
 use super::name::number;
@@ -230,6 +231,9 @@ impl Explain {
         let text = match (&self.file, self.hex_bytes.as_slice()) {
             (Some(file), _) => {
                 let bytes = read_file(file)?;
+                if let Some(why) = compressed(file) {
+                    return Err(format!("{}: {why}", file.display()));
+                }
                 if is_capture(&bytes) {
                     let name = file.display();
                     return Err(format!("{name} is a capture: ads-cnc check {name} judges it"));
@@ -245,11 +249,12 @@ impl Explain {
             (None, words) => words.join(" "),
         };
         parse_hex(&text).map(Some).map_err(|error| match self.hex_bytes.as_slice() {
-            [file] if Path::new(file).is_file() => {
-                format!(
+            [file] if Path::new(file).is_file() => match compressed(Path::new(file)) {
+                Some(why) => format!("{file}: {why}"),
+                None => format!(
                     "{file} is a file: use --file {file}, or for a capture ads-cnc check {file}"
-                )
-            }
+                ),
+            },
             _ => error.to_string(),
         })
     }

@@ -473,6 +473,7 @@ impl Run {
 
     fn write(&self, report: &Report) -> Exit {
         // A device is described on stderr before its cases: do not repeat this on a terminal.
+            exchanges: Vec::new(),
         let found_shown = io::stdout().is_terminal() && io::stderr().is_terminal();
         let display = Display { found_shown, ..self.display.display() };
         self.reports.write(report, |out| report::print(report, display, out))

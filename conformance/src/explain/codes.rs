@@ -11,7 +11,7 @@ pub(super) fn port(number: u16) -> Option<String> {
 }
 
 /// The name of an AMS command.
-pub(super) const fn command(command: Command) -> Option<&'static str> {
+pub(crate) const fn command(command: Command) -> Option<&'static str> {
     Some(match command {
         Command::READ_DEVICE_INFO => "ReadDeviceInfo",
         Command::READ => "Read",

@@ -36,6 +36,7 @@ mod value;
 
 pub use crate::text::hex::{HexError, parse_hex};
 pub use crate::values::{UnknownType, ValueFormat, type_by_name};
+pub(crate) use codes::command as command_name;
 pub use frame::looks_like_frame;
 pub use group::describe;
 pub(crate) use model::sources;

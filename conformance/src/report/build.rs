@@ -36,6 +36,8 @@ pub struct About {
     pub target: TargetReport,
     /// For a capture: its content, and the parts that were not judged.
     pub traffic: Vec<String>,
+    /// For a capture: its first exchanges.
+    pub exchanges: Vec<String>,
     pub profile: Option<Profile>,
     /// The result of the queries before the cases.
     pub found: Option<FoundReport>,
@@ -62,6 +64,7 @@ impl Report {
             only,
             target,
             traffic,
+            exchanges,
             profile,
             found,
             waivers,
@@ -114,6 +117,7 @@ impl Report {
             only,
             target,
             traffic,
+            exchanges,
             profile: profile.as_ref().map(ProfileReport::from),
             found,
             waivers,
@@ -377,6 +381,7 @@ mod tests {
                 only: Vec::new(),
                 target: TargetReport::default(),
                 traffic: Vec::new(),
+                exchanges: Vec::new(),
                 profile: None,
                 found: None,
                 waivers: Waivers::default(),

@@ -25,6 +25,7 @@ impl Report {
             only,
             target,
             traffic,
+            exchanges,
             profile,
             found,
             waivers,
@@ -42,7 +43,7 @@ impl Report {
         } = &mut self;
         all([suite, vectors, time]);
         all(editions.iter_mut().chain(only).chain(traffic).chain(again).chain(ended));
-        all(rejected.iter_mut().chain(written));
+        all(rejected.iter_mut().chain(written).chain(exchanges));
         escape_target(target);
         if let Some(ProfileReport { name, claims }) = profile {
             all([name]);

@@ -48,6 +48,9 @@ pub struct Report {
     /// For a capture: its content, and the parts that were not judged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub traffic: Vec<String>,
+    /// For a capture: its first exchanges, each a line with packet, function, address and result.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub exchanges: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileReport>,
     /// The result of the queries before the cases.

@@ -120,6 +120,27 @@ fn exchanges_have_names_and_values() {
     assert!(shown("V.E.none").contains(refused));
 }
 
+/// The HTML and JSON reports contain the exchanges, and what stderr states about the traffic.
+#[test]
+fn reports_contain_the_exchanges_and_notes() {
+    let folder = Folder::new("exchanges");
+    let files = ["x.pcapng", "x.html", "x.json"].map(|name| folder.file(name));
+    let [file, page, report] = &files;
+    ads_cnc(&["get", "V.E.matrix", "--capture", file]);
+    let checked = ads_cnc(&["check", file, "--html", page, "--json", report]);
+    assert_eq!(checked.status.code(), Some(0), "{}", text(&checked.stderr));
+    for file in [page, report] {
+        let content = fs::read_to_string(file).unwrap();
+        for part in
+            ["read variable value by name V.E.matrix: 0b 00 ", "no AMS frame at TCP port 48898"]
+        {
+            assert!(content.contains(part), "{file}: {part}");
+        }
+    }
+    let report: Value = serde_json::from_str(&fs::read_to_string(report).unwrap()).unwrap();
+    valid(&report, "schema/report.schema.json");
+}
+
 /// A file that cannot be created is wrong usage, not an internal error.
 #[test]
 fn a_capture_needs_an_existing_folder() {
