@@ -29,14 +29,17 @@ use super::serve::find_defect;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN};
 use crate::edition::Edition;
 use crate::faults::Seed;
-use crate::judge::{Case, CaseSubject, Exit, Needs, Plan, Selection, Unmatched, Waivers, any_seed};
+use crate::judge::{
+    Case, CaseOutcome, CaseSubject, ENOUGH, Exit, Needs, Plan, Selection, Unmatched, Waivers,
+    any_seed,
+};
 use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Display, Report, TargetReport};
 use crate::session::ToolError;
 use crate::simulator::Model;
 use crate::suite::{self, Changes};
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 
 mod target;
 
@@ -442,14 +445,24 @@ impl Run {
             let _watch = (!self.client.waits()).then(|| Watch::start("cases"));
             let capture = self.target.begin_capture().map_err(|error| error.to_string());
             capture.and_then(|capture| {
-                self.client.judge(&plan, capture, self.deadline.begin(), interrupt)
+                let most = self.max_fail.and_then(|most| usize::try_from(most).ok());
+                self.client.judge(&plan, capture, self.deadline.begin(), interrupt, most)
             })
         };
         let times = vec![(CaseSubject::Client, begin.elapsed())];
         let judged = judged.map_err(Stopped::Usage)?;
         let (outcomes, left_out) = plan.finish(judged.outcomes);
         let about = self.about(judged.target, seed, waivers);
-        Ok(Report::new(About { frames: judged.frames, times, ..about }, &outcomes, &left_out))
+        let ended = self.ended(&outcomes);
+        let about = About { frames: judged.frames, times, ended, ..about };
+        Ok(Report::new(about, &outcomes, &left_out))
+    }
+
+    /// Why cases were not run, if enough others had failed.
+    fn ended(&self, outcomes: &[CaseOutcome]) -> Option<String> {
+        let unrun = outcomes.iter().filter(|one| one.note.as_deref() == Some(ENOUGH)).count();
+        let most = plural(self.max_fail.filter(|_| unrun > 0)?, "failed case");
+        Some(format!("{} not run after {most} (--max-fail)", plural(unrun, "case")))
     }
 
     fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> About {
@@ -460,6 +473,7 @@ impl Run {
             only: self.only.clone(),
             target,
             traffic: Vec::new(),
+            exchanges: Vec::new(),
             profile: None,
             found: None,
             waivers,
@@ -473,7 +487,6 @@ impl Run {
 
     fn write(&self, report: &Report) -> Exit {
         // A device is described on stderr before its cases: do not repeat this on a terminal.
-            exchanges: Vec::new(),
         let found_shown = io::stdout().is_terminal() && io::stderr().is_terminal();
         let display = Display { found_shown, ..self.display.display() };
         self.reports.write(report, |out| report::print(report, display, out))

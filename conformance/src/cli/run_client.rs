@@ -74,7 +74,7 @@ impl ClientArgs {
         }
     }
 
-    /// Judges the client by the cases of a plan.
+    /// Judges the client by the cases of a plan, until so many have failed.
     ///
     /// # Errors
     /// If the suite cannot listen on the address.
@@ -84,6 +84,7 @@ impl ClientArgs {
         capture: Option<Capture>,
         deadline: Deadline,
         interrupt: &Interrupt,
+        most: Option<usize>,
     ) -> Result<OfClient, String> {
         let addr = self.client_listen.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
         check_address(addr, self.allow_remote)?;
@@ -93,7 +94,7 @@ impl ClientArgs {
             server = server.with_capture(capture);
         }
         let judged = match &self.client {
-            Some(command) => Ok(self.run_command(command, &server, plan, deadline)),
+            Some(command) => Ok(self.run_command(command, &server, plan, deadline, most)),
             None => wait_for_client(&server, deadline, interrupt),
         };
         server.end_capture().map_err(|error| format!("cannot write the capture: {error}"))?;
@@ -106,6 +107,7 @@ impl ClientArgs {
         server: &TestServer,
         plan: &Plan,
         deadline: Deadline,
+        most: Option<usize>,
     ) -> OfClient {
         let mut all = clients::scenarios();
         let mut wanted = Vec::new();
@@ -117,7 +119,7 @@ impl ClientArgs {
         let timeout = Duration::from_millis(self.client_timeout);
         let mut process = ClientProcess::new(command, timeout).with_deadline(deadline);
         let JudgedClient { hello, outcomes, requests } =
-            clients::judge(&mut process, server, &wanted);
+            clients::judge(&mut process, server, &wanted, most);
         let stderr = clients::ClientUnderTest::stderr(&process);
         let identity = hello.map(|hello| hello.client);
         let target = super::run_testee::target("client", command, identity, &stderr);

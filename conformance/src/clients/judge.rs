@@ -18,7 +18,8 @@ use super::script::ScenarioScript;
 use super::test_server::{RecordedExchange, TestServer};
 use super::{ClientDefect, ClientUnderTest, ReferenceClient, ordering, request_match, scenarios};
 use crate::judge::{
-    Body, CLIENT, Case, CaseOutcome, CaseSubject, HELLO, Needs, Record, Rule, Stop, Verdict, caught,
+    Body, CLIENT, Case, CaseOutcome, CaseSubject, ENOUGH, HELLO, Needs, Record, Rule, Stop,
+    Verdict, caught,
 };
 use crate::process::{interrupt, progress};
 use crate::simulator::Cnc;
@@ -34,11 +35,13 @@ pub struct JudgedClient {
     pub requests: usize,
 }
 
-/// Runs a client through scenarios in order, and judges it.
+/// Runs a client through scenarios in order, and judges it; after `most` failed ones, the others are not
+/// run.
 pub fn judge(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
     scenarios: &[Scenario],
+    most: Option<usize>,
 ) -> JudgedClient {
     let mut protocol = Findings::default();
     let mut requests = 0_usize;
@@ -76,6 +79,11 @@ pub fn judge(
         let case = scenario.case();
         if interrupt::is_requested() {
             outcomes.push(CaseOutcome::interrupted(case));
+            continue;
+        }
+        let failed = outcomes.iter().filter(|one| one.verdict().is_failure()).count();
+        if most.is_some_and(|most| failed >= most) {
+            outcomes.push(CaseOutcome::untried(case, Verdict::NotRun, ENOUGH));
             continue;
         }
         let word = scenario.action.split(' ').next().unwrap_or_default();
@@ -160,7 +168,7 @@ pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     };
     let mut outcomes: Vec<CaseOutcome> = Vec::new();
     for scenario in scenarios().into_iter().filter(judges) {
-        outcomes.extend(judge(&mut own, server, std::slice::from_ref(&scenario)).outcomes);
+        outcomes.extend(judge(&mut own, server, std::slice::from_ref(&scenario), None).outcomes);
         let mut verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
         if verdicts.any(|one| one.requirement == wanted && one.verdict == Verdict::Fail) {
             break;
@@ -390,7 +398,7 @@ mod tests {
     fn a_panic_is_a_harness_error_of_its_scenario_only() {
         let server = TestServer::new(([127, 0, 0, 1], 0).into()).unwrap();
         let scenarios = scenarios();
-        let judged = judge(&mut PanickingClient::default(), &server, &scenarios[..2]);
+        let judged = judge(&mut PanickingClient::default(), &server, &scenarios[..2], None);
         let verdicts: Vec<_> = judged.outcomes.iter().map(CaseOutcome::verdict).collect();
         assert_eq!(verdicts, [Verdict::HarnessError, Verdict::Pass, Verdict::Pass]);
         let note = judged.outcomes[0].note.as_deref().unwrap();

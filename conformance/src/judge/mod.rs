@@ -34,6 +34,9 @@ pub(crate) use vectors::{case_of, codec_cases, typed};
 pub use verdict::Verdict;
 pub use waivers::{WaiverError, WaiverReport, WaiverState, Waivers};
 
+/// The note of a case that was not run because enough others had failed.
+pub const ENOUGH: &str = "enough cases had failed before";
+
 /// The ID of the rules of the testee protocol, which are not in the catalogue.
 pub const TESTEE: &str = "TESTEE";
 

@@ -150,8 +150,9 @@ fn begin_suite(xml: &mut Xml<'_>, report: &Report, name: &str, tests: Tests) -> 
 }
 
 fn properties(report: &Report) -> Vec<(&'static str, String)> {
-    let Report { suite, vectors, editions, seed, only, target, profile, found, waivers, .. } =
-        report;
+    let Report {
+        suite, vectors, editions, seed, only, target, profile, found, waivers, ended, ..
+    } = report;
     let mut all = vec![
         ("suite", suite.clone()),
         ("vectors", vectors.clone()),
@@ -166,6 +167,7 @@ fn properties(report: &Report) -> Vec<(&'static str, String)> {
     all.extend(sampled.map(|sampled| ("sampled", sampled)));
     all.extend((!only.is_empty()).then(|| ("only", only.join(" "))));
     all.extend(waivers.iter().map(|waiver| ("waiver", in_words(waiver))));
+    all.extend(ended.iter().map(|why| ("ended", why.clone())));
     all.push(("exit_code", report.exit_code.to_string()));
     all
 }

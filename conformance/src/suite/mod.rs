@@ -46,7 +46,7 @@ mod write_texts;
 pub use allowed::{Unwritable, unwritable};
 pub use discovery::{ClaimsBy, Discovery, discover};
 pub use kit::{Changes, Probe, Sample, TargetState};
-pub use run::{ENOUGH, run};
+pub use run::run;
 
 use crate::judge::{Body, Case, CaseSubject, codec_cases};
 use crate::rules::reply_cases;

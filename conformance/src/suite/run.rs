@@ -16,16 +16,15 @@ use super::row::Try;
 use super::{printed, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
-use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Stop, Verdict, attribute, caught};
+use crate::judge::{
+    Body, Case, CaseOutcome, CaseSubject, ENOUGH, Needs, Stop, Verdict, attribute, caught,
+};
 use crate::process::{interrupt, progress};
 use crate::testee::{self, Terms};
 
 /// The function of each case that has one.
 static TRIES: LazyLock<HashMap<&str, Try>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
-
-/// The note of a case after the last failed one that was allowed.
-pub const ENOUGH: &str = "enough cases had failed before";
 
 /// Runs the cases: those of the codec on the codec, all others on a target.
 ///

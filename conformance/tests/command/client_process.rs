@@ -44,6 +44,18 @@ fn a_running_client_passes_everything() {
     assert!(report["frames"].as_u64().unwrap() > 200);
 }
 
+/// After --max-fail, the other scenarios are not run, and the report states why.
+#[test]
+fn a_run_of_a_client_ends_after_enough_failures() {
+    let (code, report) = run("--defect client.error-set", &["--seed", "1", "--max-fail", "2"]);
+    assert_eq!(code, Some(1), "{report:#}");
+    let ended = report["ended"].as_str().unwrap();
+    assert!(ended.ends_with(" not run after 2 failed cases (--max-fail)"), "{ended}");
+    let cases = report["cases"].as_array().unwrap().iter();
+    let failed = cases.filter(|case| case["verdict"] == "fail" && case["id"] != "client-manners");
+    assert_eq!(failed.count(), 2);
+}
+
 /// A client that does not answer hello, or misspells an action in its answer, is reported in a few
 /// lines.
 #[test]

@@ -32,7 +32,7 @@ fn valid_variants_pass() {
 }
 
 fn judge_without_findings(fault: Option<ClientFault>) -> JudgedClient {
-    let judged = judge(&mut ReferenceClient { fault }, &stage(), &scenarios());
+    let judged = judge(&mut ReferenceClient { fault }, &stage(), &scenarios(), None);
     let mut raised = Vec::new();
     for outcome in &judged.outcomes {
         for one in outcome.verdicts.iter().filter(|one| one.verdict != Verdict::Pass) {

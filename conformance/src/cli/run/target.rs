@@ -176,15 +176,7 @@ impl Run {
         let (outcomes, left_out) = plan.finish(outcomes);
         let (left_changed, written) = (session.changes().left(), session.changes().written());
         let written = if allow { written } else { Vec::new() };
-        let unrun =
-            outcomes.iter().filter(|one| one.note.as_deref() == Some(suite::ENOUGH)).count();
-        let ended = match self.max_fail {
-            Some(most) if unrun > 0 => {
-                let most = plural(most, "failed case");
-                Some(format!("{} not run after {most} (--max-fail)", plural(unrun, "case")))
-            }
-            _ => session.ended().map(str::to_owned),
-        };
+        let ended = self.ended(&outcomes).or_else(|| session.ended().map(str::to_owned));
         let (frames, profile) = (session.frames, Some(session.profile));
         let about = About { frames, profile, times, left_changed, ended, ..about };
         Ok(Report::new(about, &outcomes, &left_out).with_writes(rejected, written))

@@ -197,7 +197,8 @@ fn elements(xml: &str) -> Vec<(String, Vec<(String, String)>)> {
 #[test]
 fn junit_has_a_test_for_each_case() {
     let folder = Folder::new("junit");
-    let document = everything(&folder);
+    let mut document = everything(&folder);
+    document["ended"] = json!("interrupted");
     let report = Report::from_json(&document.to_string()).unwrap();
     let mut xml = Vec::new();
     report::to_junit(&report, &mut xml).unwrap();
@@ -232,7 +233,8 @@ fn junit_has_a_test_for_each_case() {
     let why = "waived until 9999-12-31: <known> | & \"so\"";
     assert!(skipped.iter().any(|one| value(one, "message") == why));
     let property = "testsuites/testsuite/properties/property";
-    for (name, fact) in [("seed", "7"), ("vectors", &report.vectors), ("only", "VAR")] {
+    let vectors = ("vectors", report.vectors.as_str());
+    for (name, fact) in [("seed", "7"), vectors, ("only", "VAR"), ("ended", "interrupted")] {
         let found = at(property).into_iter().find(|one| value(one, "name") == name);
         assert_eq!(value(found.unwrap(), "value"), fact);
     }
