@@ -199,7 +199,8 @@ fn unsolicited_frames_before_every_reply_of_a_run() {
 fn broken_frames_from_the_first_one_on() {
     let whole = |frame: &FrameRef<'_>| frame.encode_to_vec().unwrap();
     let of_reply = |frame: &FrameRef<'_>, len| success(frame, &[0; 8])[..len].to_vec();
-    let replies: [(&str, Box<dyn Fn(&FrameRef<'_>) -> Vec<u8> + Send + Sync>); 3] = [
+    type Reply = Box<dyn Fn(&FrameRef<'_>) -> Vec<u8> + Send + Sync>;
+    let replies: [(&str, Reply); 3] = [
         ("state flags 0x0004", Box::new(whole)),
         ("6 bytes of a frame of 54 bytes", Box::new(move |frame| of_reply(frame, 6))),
         ("20 bytes of a frame of 54 bytes", Box::new(move |frame| of_reply(frame, 20))),
