@@ -272,17 +272,8 @@ impl Record {
         evidence: impl Fn() -> Option<Evidence>,
     ) {
         let words = (!passed).then(|| (expected.describe(), found.describe()));
-        let (expected, found) = words.unwrap_or_default();
         let rules: Vec<Rule> = rules.rules().collect();
-        for &rule in &rules {
-            let verdict = rule.verdict(passed);
-            let others = rules
-                .iter()
-                .filter(|other| !passed && other.id != rule.id && other.verdict(passed) == verdict);
-            let together: Vec<&str> = others.map(|other| other.id).collect();
-            let words = (expected.as_str(), found.as_str());
-            self.add_one(rule, verdict, together, words.0, words.1, &evidence);
-        }
+        self.add_rules(&rules, passed, &words.unwrap_or_default(), &evidence);
     }
 
     /// Adds a check. Of passed checks, and of failed checks with the same verdict, only the first
@@ -293,9 +284,31 @@ impl Record {
         verdict: Verdict,
         expected: impl Describe,
         found: impl Describe,
-        evidence: impl FnOnce() -> Option<Evidence>,
+        evidence: impl Fn() -> Option<Evidence>,
     ) {
-        self.add_one(rule, verdict, Vec::new(), expected, found, evidence);
+        let passed = verdict == Verdict::Pass;
+        let words = (!passed).then(|| (expected.describe(), found.describe()));
+        self.add_one(rule, verdict, Vec::new(), &words.unwrap_or_default(), &evidence);
+    }
+
+    // The functions above are compiled for each of their hundreds of callers, so they contain only what
+    // depends on the types of the arguments.
+
+    fn add_rules(
+        &mut self,
+        rules: &[Rule],
+        passed: bool,
+        words: &(String, String),
+        evidence: &dyn Fn() -> Option<Evidence>,
+    ) {
+        for &rule in rules {
+            let verdict = rule.verdict(passed);
+            let others = rules
+                .iter()
+                .filter(|other| !passed && other.id != rule.id && other.verdict(passed) == verdict);
+            let together = others.map(|other| other.id).collect();
+            self.add_one(rule, verdict, together, words, evidence);
+        }
     }
 
     fn add_one(
@@ -303,9 +316,8 @@ impl Record {
         rule: Rule,
         verdict: Verdict,
         together: Vec<&'static str>,
-        expected: impl Describe,
-        found: impl Describe,
-        evidence: impl FnOnce() -> Option<Evidence>,
+        (expected, found): &(String, String),
+        evidence: &dyn Fn() -> Option<Evidence>,
     ) {
         self.checks += 1;
         let passed = verdict == Verdict::Pass;
@@ -322,25 +334,17 @@ impl Record {
             }
             return;
         }
-        let (requirement, level) = (rule.id, rule.level);
-        let (expected, found, evidence) = if passed {
-            (String::new(), String::new(), None)
-        } else {
-            let short = |text: String| shorten(&text, TEXT_MAX);
-            (short(expected.describe()), short(found.describe()), evidence())
-        };
-        let judgement = Judgement {
-            requirement,
-            level,
+        self.judgements.push(Judgement {
+            requirement: rule.id,
+            level: rule.level,
             verdict,
-            expected,
-            found,
-            evidence,
+            expected: shorten(expected, TEXT_MAX),
+            found: shorten(found, TEXT_MAX),
+            evidence: if passed { None } else { evidence() },
             more: 0,
             together,
             follows: None,
-        };
-        self.judgements.push(judgement);
+        });
     }
 
     /// Records a check with this verdict that did not pass only as a consequence of the failed clause
