@@ -150,30 +150,30 @@ impl Exchange {
     }
 
     /// The reply, if a valid one arrived.
-    pub fn answer(&self) -> Option<&AdsReply> {
-        self.outcome.as_ref().ok().map(|(answer, _)| answer)
+    pub fn reply(&self) -> Option<&AdsReply> {
+        self.outcome.as_ref().ok().map(|(reply, _)| reply)
     }
 
     /// The data of a successful reply; `None` for an error or without a reply.
     pub fn success(&self) -> Option<&[u8]> {
-        self.answer().and_then(AdsReply::success)
+        self.reply().and_then(AdsReply::success)
     }
 
     /// Whether the reply contains an error.
     pub fn is_error(&self) -> bool {
-        self.answer().is_some_and(|answer| answer.success().is_none())
+        self.reply().is_some_and(|reply| reply.success().is_none())
     }
 
     /// Whether the AMS header contains an error, but the data after it is a successful reply.
     pub(crate) fn contradicts_itself(&self) -> bool {
         let has_data = self.received.len() > FrameRef::HEADERS_LEN;
         let of_both = |answer: &AdsReply| !answer.ams_error.is_ok() && answer.result.is_ok();
-        has_data && self.answer().is_some_and(of_both)
+        has_data && self.reply().is_some_and(of_both)
     }
 
     /// Whether the reply contains an error, or is a success without data.
     pub fn is_rejected(&self) -> bool {
-        self.answer().is_some_and(|answer| answer.success().is_none_or(<[u8]>::is_empty))
+        self.reply().is_some_and(|reply| reply.success().is_none_or(<[u8]>::is_empty))
     }
 
     /// The reply or the error, in a few words.
@@ -186,7 +186,7 @@ impl Exchange {
 
     /// Like [`result`](Self::result), with the usual meaning of an error number.
     pub(crate) fn result_in_words(&self) -> String {
-        let error = self.answer().filter(|answer| answer.ams_error.is_ok());
+        let error = self.reply().filter(|reply| reply.ams_error.is_ok());
         let meaning = error.and_then(|answer| meaning(answer.result));
         let meaning = meaning.map_or_else(String::new, |meaning| format!(" ({meaning})"));
         format!("{}{meaning}", self.result())
@@ -224,7 +224,7 @@ impl From<&Exchange> for Evidence {
         let spec = function.map(Function::spec);
         // An error reply does not contain the stream of a successful reply.
         let has_stream = |data: &&[u8]| exchange.success().is_some() || !data.is_empty();
-        let data = exchange.answer().and_then(|answer| answer.data.as_deref()).filter(has_stream);
+        let data = exchange.reply().and_then(|reply| reply.data.as_deref()).filter(has_stream);
         let evidence = Self {
             call: exchange.to_string(),
             function,

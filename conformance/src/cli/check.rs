@@ -15,7 +15,7 @@ use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Por
 use crate::edition::Edition;
 use crate::judge::{Case, CaseSubject, Exit, Selection};
 use crate::process::progress;
-use crate::report::{self, About, Detail, Report, SubjectReport, TargetReport};
+use crate::report::{self, Detail, Report, RunInfo, SubjectReport, TargetReport};
 use crate::text::{Moment, plural};
 
 /// The heading of these options in the help.
@@ -167,7 +167,7 @@ impl CheckArguments {
         let mut outcomes = checked.outcomes.clone();
         outcomes.retain(|outcome| selected.contains(&outcome.case.id));
         let (outcomes, left_out) = plan.finish(outcomes);
-        let about = About {
+        let about = RunInfo {
             time: Moment::now(),
             edition: self.edition,
             seed: 0,

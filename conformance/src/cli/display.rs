@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal as _};
 
 use clap::{Args, ValueEnum};
 
-use crate::report::{Detail, Display};
+use crate::report::{Detail, DisplayOptions};
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum Color {
@@ -50,12 +50,12 @@ impl DisplayArgs {
         self.quiet
     }
 
-    pub(super) fn display(self) -> Display {
+    pub(super) fn display(self) -> DisplayOptions {
         let detail = match (self.quiet, self.verbose) {
             (true, _) => Detail::Quiet,
             (_, true) => Detail::Verbose,
             _ => Detail::Normal,
         };
-        Display { detail, color: self.color.is_on(), found_shown: false }
+        DisplayOptions { detail, color: self.color.is_on(), found_shown: false }
     }
 }

@@ -35,7 +35,7 @@ use crate::judge::{
 };
 use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};
-use crate::report::{self, About, Display, Report, TargetReport};
+use crate::report::{self, DisplayOptions, Report, RunInfo, TargetReport};
 use crate::session::ToolError;
 use crate::simulator::Model;
 use crate::suite::{self, Changes};
@@ -393,7 +393,7 @@ impl Run {
         };
         let times = vec![(CaseSubject::Testee, begin.elapsed())];
         let (outcomes, left_out) = plan.finish(judged.outcomes);
-        let about = About { times, ..self.about(judged.target, seed, waivers) };
+        let about = RunInfo { times, ..self.about(judged.target, seed, waivers) };
         Ok(Report::new(about, &outcomes, &left_out))
     }
 
@@ -454,7 +454,7 @@ impl Run {
         let (outcomes, left_out) = plan.finish(judged.outcomes);
         let about = self.about(judged.target, seed, waivers);
         let ended = self.ended(&outcomes);
-        let about = About { frames: judged.frames, times, ended, ..about };
+        let about = RunInfo { frames: judged.frames, times, ended, ..about };
         Ok(Report::new(about, &outcomes, &left_out))
     }
 
@@ -465,8 +465,8 @@ impl Run {
         Some(format!("{} not run after {most} (--max-fail)", plural(unrun, "case")))
     }
 
-    fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> About {
-        About {
+    fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> RunInfo {
+        RunInfo {
             time: Moment::now(),
             edition: self.edition,
             seed,
@@ -488,7 +488,7 @@ impl Run {
     fn write(&self, report: &Report) -> Exit {
         // A device is described on stderr before its cases: do not repeat this on a terminal.
         let found_shown = io::stdout().is_terminal() && io::stderr().is_terminal();
-        let display = Display { found_shown, ..self.display.display() };
+        let display = DisplayOptions { found_shown, ..self.display.display() };
         self.reports.write(report, |out| report::print(report, display, out))
     }
 }

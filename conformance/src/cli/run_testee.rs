@@ -15,7 +15,7 @@ use crate::deadline::Deadline;
 use crate::judge::{Case, CaseOutcome, CaseSubject, Exit};
 use crate::process::interrupt;
 use crate::report::TargetReport;
-use crate::testee::{Finding, JudgedTestee, Terms, TesteeProcess, check_protocol, judge};
+use crate::testee::{JudgedTestee, ProtocolFinding, Terms, TesteeProcess, check_protocol, judge};
 use crate::text::shorten;
 
 /// Maximum number of bytes of stderr in a report, which shows its end.
@@ -76,7 +76,7 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
         writeln!(out, "Interrupted: the protocol was not checked.")?;
         return Ok(Exit::Nothing);
     }
-    for Finding { what, sent, received, fault } in findings {
+    for ProtocolFinding { what, sent, received, fault } in findings {
         match &fault {
             None => writeln!(out, "ok     {what}")?,
             Some(fault) => {

@@ -319,7 +319,7 @@ impl TargetArgs {
         Ok(Some(Target {
             addr: resolve(host).map_err(|error| match error.kind() {
                 io::ErrorKind::InvalidInput => usage(format!("{host}: {error}")),
-                _ => ToolError::NoAnswer(format!("{host}: {error}")),
+                _ => ToolError::NoReply(format!("{host}: {error}")),
             })?,
             net_id,
             source: self.source_net_id,

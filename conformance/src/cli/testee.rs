@@ -7,7 +7,7 @@ use clap::Args;
 use super::message::print_error;
 use super::serve::find_defect;
 use crate::judge::Exit;
-use crate::testee::{Answer, CodecTestee, Miniature, MiniatureAction, Reply, TesteeCommand};
+use crate::testee::{Answer, AnswerLine, CodecTestee, Miniature, MiniatureAction, TesteeCommand};
 use crate::text::json_error;
 
 /// Answer the protocol of `run --testee` with this project's codec
@@ -63,12 +63,12 @@ fn answer(own: &CodecTestee) -> io::Result<()> {
             Ok(TesteeCommand::Hello { .. }) => serde_json::to_writer(&mut out, &own.hello())?,
             Ok(TesteeCommand::Bye) => return Ok(()),
             Ok(TesteeCommand::Case { seq, question }) => {
-                let reply = Reply { seq: Some(seq), answer: own.answer(&question) };
+                let reply = AnswerLine { seq: Some(seq), answer: own.answer(&question) };
                 serde_json::to_writer(&mut out, &reply)?;
             }
             Err(error) => {
                 let answer = Answer::Error { message: json_error(&line, &error) };
-                serde_json::to_writer(&mut out, &Reply { seq: None, answer })?;
+                serde_json::to_writer(&mut out, &AnswerLine { seq: None, answer })?;
             }
         }
         out.write_all(b"\n")?;

@@ -50,7 +50,7 @@ pub enum InquiryReply<R> {
     /// A success.
     Reply(R),
     /// An ADS error of the device.
-    Refused(AdsError),
+    Rejected(AdsError),
     /// An AMS error: the router does not know the address.
     Ams(AdsError),
 }
@@ -75,7 +75,7 @@ impl<R: Inquiry> Inquired<R> {
     pub fn result(&self) -> String {
         match &self.outcome {
             Ok(InquiryReply::Reply(_)) => "success".to_owned(),
-            Ok(InquiryReply::Refused(error)) => format!("ADS error {error:#x}"),
+            Ok(InquiryReply::Rejected(error)) => format!("ADS error {error:#x}"),
             Ok(InquiryReply::Ams(error)) => format!("AMS error {error:#x}"),
             Err(fault) => fault.to_string(),
         }
@@ -136,10 +136,10 @@ fn decode_reply<R: Inquiry>(
     }
     match R::decode(data) {
         Ok(reply) if reply.result().is_ok() => Ok(InquiryReply::Reply(reply)),
-        Ok(reply) => Ok(InquiryReply::Refused(reply.result())),
+        Ok(reply) => Ok(InquiryReply::Rejected(reply.result())),
         // The reply may end after a result that is not 0 (ADS-6).
         Err(error) => match WriteReply::decode(data) {
-            Ok(short) if !short.result.is_ok() => Ok(InquiryReply::Refused(short.result)),
+            Ok(short) if !short.result.is_ok() => Ok(InquiryReply::Rejected(short.result)),
             _ => Err(ExchangeError::Malformed(error)),
         },
     }

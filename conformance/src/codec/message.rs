@@ -220,7 +220,7 @@ pub struct Rejection {
 /// A line from the testee, which answers a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Keys")]
-pub struct Reply {
+pub struct AnswerLine {
     /// Number of the case; `None` if the testee could not parse the line of the case.
     pub seq: Option<u64>,
     #[serde(flatten)]
@@ -298,7 +298,7 @@ fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Op
     T::deserialize(from).map(Some)
 }
 
-impl TryFrom<Keys> for Reply {
+impl TryFrom<Keys> for AnswerLine {
     type Error = String;
 
     fn try_from(keys: Keys) -> Result<Self, String> {

@@ -24,7 +24,7 @@ use crate::text::{Moment, hex};
 
 /// The parameters of a run.
 #[derive(Clone, Debug)]
-pub struct About {
+pub struct RunInfo {
     /// The time at which the run began.
     pub time: Moment,
     /// The edition to judge by; `None` for both.
@@ -56,8 +56,8 @@ pub struct About {
 
 impl Report {
     /// Builds the report of a run.
-    pub fn new(about: About, outcomes: &[CaseOutcome], left_out: &[LeftOut]) -> Self {
-        let About {
+    pub fn new(about: RunInfo, outcomes: &[CaseOutcome], left_out: &[LeftOut]) -> Self {
+        let RunInfo {
             time,
             edition,
             seed,
@@ -374,7 +374,7 @@ mod tests {
             }
         };
         let exit = |verdicts: &[(&'static str, Verdict)]| {
-            let about = About {
+            let about = RunInfo {
                 time: Moment::now(),
                 edition: None,
                 seed: 1,

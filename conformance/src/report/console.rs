@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use ads_cnc_vectors::requirement;
 use anstyle::AnsiColor;
 
-use super::display::{Detail, Display, NAMES_MAX, RESULT_MAX, worded};
+use super::display::{Detail, DisplayOptions, NAMES_MAX, RESULT_MAX, worded};
 use super::failures::{blocks, list};
 use super::model::{
     CaseReport, FailureReport, Report, RequirementReport, SubjectReport, TargetReport, Totals,
@@ -18,7 +18,7 @@ use crate::text::{plural, shorten};
 const REASONS_MAX: usize = 4;
 
 /// Writes the report.
-pub fn print(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+pub fn print(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     let verbose = match display.detail {
         Detail::Quiet => return last_line(report, display, out),
         detail => detail == Detail::Verbose,
@@ -61,7 +61,7 @@ fn unanswered(report: &Report) -> Option<&FailureReport> {
 fn unstarted(
     report: &Report,
     failure: &FailureReport,
-    display: Display,
+    display: DisplayOptions,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (kind, protocol) = match failure.requirement.as_str() {
@@ -99,7 +99,7 @@ fn unstarted(
 }
 
 /// The head of a report: versions, target, profile and selection.
-fn head(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+fn head(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, editions, seed, only, target, profile, found, .. } = report;
     let editions = editions.join(" and ");
     // The seed does not affect a capture.
@@ -336,7 +336,7 @@ fn next_year(time: &str) -> String {
     format!("{year}-{rest}")
 }
 
-fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+fn tail(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     let Report { checks, frames, left_out, .. } = report;
     let cases = report.cases.len();
     let left_out = if *left_out > 0 { format!(", {left_out} not selected") } else { String::new() };
@@ -358,7 +358,7 @@ fn tail(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()
 }
 
 /// The last line, after the reasons for an exit code that no verdict explains.
-fn last_line(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+fn last_line(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     for waiver in report.waivers.iter().filter(|waiver| waiver.state.is_stale()) {
         let WaiverReport { test, requirement, state, .. } = waiver;
         let word = display.paint(AnsiColor::Red, "STALE WAIVER");

@@ -18,7 +18,7 @@ pub enum Detail {
 
 /// Options for showing a report on the console.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Display {
+pub struct DisplayOptions {
     pub detail: Detail,
     pub color: bool,
     /// Whether the terminal already shows the result of the queries before the cases.
@@ -32,7 +32,7 @@ pub(super) const RESULT_MAX: usize = 160;
 /// Maximum number of names in a list.
 pub(super) const NAMES_MAX: usize = 5;
 
-impl Display {
+impl DisplayOptions {
     /// The verdict in capitals, coloured by its gravity.
     pub(super) fn verdict(self, verdict: Verdict, waived: bool) -> String {
         let color = match verdict {

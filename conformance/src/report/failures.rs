@@ -8,7 +8,7 @@ use ads_cnc_vectors::Level;
 use anstyle::AnsiColor;
 
 use super::BytesReport;
-use super::display::{Detail, Display, NAMES_MAX, RESULT_MAX, WIDTH};
+use super::display::{Detail, DisplayOptions, NAMES_MAX, RESULT_MAX, WIDTH};
 use super::groups::{Group, groups};
 use super::lines::{is_fault, lines, marked};
 use super::model::{EvidenceReport, FailureReport, Report};
@@ -26,7 +26,11 @@ const BEFORE_MARK: usize = 2;
 const CLAUSE_MAX: usize = 3;
 
 /// Prints the checks that did not pass: each warning and difference on a line, then the failures.
-pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn blocks(
+    report: &Report,
+    display: DisplayOptions,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let all = groups(report);
     let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =
         all.iter().partition(|group| group.is_failure());
@@ -67,7 +71,7 @@ pub(super) fn blocks(report: &Report, display: Display, out: &mut dyn Write) -> 
 }
 
 /// A group on one line.
-fn brief(group: &Group<'_>, display: Display, out: &mut dyn Write) -> io::Result<()> {
+fn brief(group: &Group<'_>, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     let Some((case, failure)) = group.example() else { return Ok(()) };
     let verdict = display.verdict(group.verdict, group.waived);
     let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
@@ -128,7 +132,7 @@ fn differing(evidence: &EvidenceReport) -> Option<String> {
 pub(super) fn block(
     report: &Report,
     group: &Group<'_>,
-    display: Display,
+    display: DisplayOptions,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let Some((case, failure)) = group.example() else { return Ok(()) };
@@ -203,7 +207,7 @@ pub(super) fn finding(
     writeln!(out, "  found     {}", failure.found)?;
     // The clause that is the cause shows the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
-        let display = Display { detail: Detail::Verbose, ..Display::default() };
+        let display = DisplayOptions { detail: Detail::Verbose, ..DisplayOptions::default() };
         bytes(evidence, frames_shown(failure, subject), display, out)?;
     }
     if failure.more > 0 {
@@ -241,7 +245,7 @@ fn frames_shown(failure: &FailureReport, subject: CaseSubject) -> [bool; 2] {
 fn bytes(
     evidence: &EvidenceReport,
     [request, reply]: [bool; 2],
-    display: Display,
+    display: DisplayOptions,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, .. } = evidence;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::FoundReport;
 use super::console::{counts, describe};
-use super::display::{Display, NAMES_MAX, worded};
+use super::display::{DisplayOptions, NAMES_MAX, worded};
 use super::failures::{block, list, sentence};
 use super::groups::groups;
 use super::model::Report;
@@ -94,7 +94,7 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     // The gravest first, because not all may fit.
     for group in groups.iter().rev() {
         let mut text = Vec::new();
-        block(report, group, Display::default(), &mut text)?;
+        block(report, group, DisplayOptions::default(), &mut text)?;
         let text = String::from_utf8_lossy(&text);
         length += text.len();
         if length > FAILURES_MAX && shown > 0 {

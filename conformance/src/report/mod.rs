@@ -23,12 +23,12 @@ use std::io::{self, Write};
 use crate::text::json;
 
 pub use badge::to_badge;
-pub use build::About;
+pub use build::RunInfo;
 pub use bytes::{BytesReport, FieldReport};
 pub use compare::compare;
 pub use console::print;
 pub use device::DeviceReport;
-pub use display::{Detail, Display};
+pub use display::{Detail, DisplayOptions};
 pub use found::{FoundChannel, FoundList, FoundReport};
 pub use html::to_html;
 pub use junit::to_junit;

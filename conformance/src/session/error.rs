@@ -35,7 +35,7 @@ pub enum ToolError {
     /// The request cannot be encoded.
     Unsendable(Error),
     /// No connection, or no reply.
-    NoAnswer(String),
+    NoReply(String),
     /// An AMS error: the request did not reach a CNC.
     Ams {
         error: AdsError,
@@ -72,7 +72,7 @@ impl ToolError {
             | Self::Unable(_)
             | Self::Absent(_) => Exit::Failure,
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
-            Self::NoAnswer(_) | Self::Ams { .. } | Self::Enough(_) => Exit::Nothing,
+            Self::NoReply(_) | Self::Ams { .. } | Self::Enough(_) => Exit::Nothing,
             Self::Refused(_) | Self::Unsafe(_) => Exit::Refused,
             Self::Internal(_) => Exit::Internal,
         }
@@ -93,7 +93,7 @@ impl ToolError {
 
     pub(super) fn unreachable(target: &Target, error: &io::Error) -> Self {
         let addr = target.addr;
-        Self::NoAnswer(match error.kind() {
+        Self::NoReply(match error.kind() {
             io::ErrorKind::ConnectionRefused => format!(
                 "{addr} refuses the connection: no program is listening. Check that the ADS router \
                  of the device is running, that the TCP port is right (usually 48898), and that the \
@@ -120,7 +120,7 @@ impl ToolError {
             "a route on the device to the AMS NetId {source} (--source-net-id), at the address of \
              this machine, by TCP/IP"
         );
-        Self::NoAnswer(match fault {
+        Self::NoReply(match fault {
             ExchangeError::Refused(refusal) => return Self::Refused(refusal),
             ExchangeError::NotSent | ExchangeError::Unseen => return Self::NotSent,
             ExchangeError::Unsendable(error) => return Self::Unsendable(error),
@@ -179,7 +179,7 @@ impl fmt::Display for ToolError {
             | Self::Absent(why)
             | Self::Internal(why)
             | Self::Enough(why)
-            | Self::NoAnswer(why) => f.write_str(why),
+            | Self::NoReply(why) => f.write_str(why),
             Self::Refused(refusal) => {
                 write!(f, "not sent, rejected for safety: {refusal}")?;
                 match refusal.advice() {

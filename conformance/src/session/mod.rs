@@ -321,7 +321,7 @@ impl Session {
                 }
                 match reply {
                     InquiryReply::Reply(reply) => Ok(reply),
-                    InquiryReply::Refused(error) => {
+                    InquiryReply::Rejected(error) => {
                         Err(ToolError::Device { command: R::NAME, error })
                     }
                     InquiryReply::Ams(error) => {

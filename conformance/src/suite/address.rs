@@ -144,7 +144,7 @@ fn geo_answers_too(probe: &mut Probe<'_>) -> Step {
     let geo = sda.with(|call| call.port = AmsPort::GEO);
     let by_sda = probe.call(&sda)?;
     let by_geo = probe.call(&geo)?;
-    let data = |exchange: &Exchange| exchange.answer().and_then(|answer| answer.data.clone());
+    let data = |exchange: &Exchange| exchange.reply().and_then(|reply| reply.data.clone());
     let same = data(&by_geo) == data(&by_sda) && data(&by_sda).is_some();
     probe.check(assumed(ADR_10), same, &by_sda, &by_geo);
     Ok(())

@@ -82,7 +82,7 @@ fn at_a_place(
             let found = || format!("other values at all {}", plural(places.len(), "place"));
             probe.check(VAR_26, false, expected, found);
         }
-        Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}
+        Compared::NoValue | Compared::NoReply | Compared::Moved => {}
     }
     Ok(())
 }

@@ -53,14 +53,14 @@ fn extended(probe: &mut Probe<'_>) -> Step {
 /// The reply must have no data; that it is a success is assumed.
 fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> Step {
     let exchange = probe.send(request)?;
-    let data = exchange.answer().and_then(|answer| answer.data.clone());
+    let data = exchange.reply().and_then(|reply| reply.data.clone());
     let empty = data.as_ref().is_none_or(Vec::is_empty);
     let whole = usize::try_from(exchange.read_length).unwrap_or(usize::MAX);
     let padded = |data: &Vec<u8>| data.len() == whole && data.iter().all(|&byte| byte == 0);
     let is_padded = data.as_ref().is_some_and(padded);
     probe.check(ADS_3, !is_padded, "no bytes after the data", &exchange);
     let expected = || format!("no data for {at}");
-    probe.check(VAR_16, empty && exchange.answer().is_some(), expected, &exchange);
+    probe.check(VAR_16, empty && exchange.reply().is_some(), expected, &exchange);
     let success = exchange.success().is_some();
     probe.check(assumed(VAR_16), success, "the result 0", &exchange);
     Ok(())

@@ -165,12 +165,11 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
             Task::Geo => decoder_of(channel).into(),
         };
         let request = RawCall::new(request)?.with(|call| call.port = task.port());
-        let answered =
-            probe.call(&request)?.answer().is_some_and(|answer| answer.ams_error.is_ok());
+        let answered = probe.call(&request)?.reply().is_some_and(|reply| reply.ams_error.is_ok());
         // An error in the AMS header may also be the reply to the query.
         let answered = answered || {
             let inquired = probe.inquire::<DeviceInfoReply>(task)?;
-            matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Refused(_)))
+            matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Rejected(_)))
         };
         if answered {
             there.push(task.port().0);

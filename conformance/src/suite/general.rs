@@ -44,8 +44,8 @@ fn ports_answer(probe: &mut Probe<'_>) -> Step {
         let request: Request<'_> = if port == AmsPort::COM { of_com } else { of_class };
         let call = RawCall::new(request)?.with(|call| call.port = port);
         let Some(exchange) = probe.call(&call).if_applicable()? else { continue };
-        let nobody = exchange.answer().is_some_and(|answer| {
-            [answer.ams_error, answer.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
+        let nobody = exchange.reply().is_some_and(|reply| {
+            [reply.ams_error, reply.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
         });
         // A claimed port must exist even if the manuals do not state its number.
         probe.check(GEN_4, !nobody, || format!("a task at port {}", port.0), &exchange);

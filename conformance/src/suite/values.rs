@@ -154,7 +154,7 @@ fn text_by_name(
             let expected = || format!("{} of {name}, also by handle", Hex(named));
             probe.check(VAR_11, false, expected, || Hex(handled));
         }
-        Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}
+        Compared::NoValue | Compared::NoReply | Compared::Moved => {}
     }
     Ok(())
 }

@@ -62,7 +62,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         // The same request without data.
         let absent = Kind::from_field(TextRef::with_tail(ads_cnc::CncStr::EMPTY, None));
         let exchange = probe.send(CountVariables::new(channel, absent))?;
-        let data = exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec));
+        let data = exchange.reply().and_then(|reply| reply.success().map(<[u8]>::to_vec));
         let same = data.as_deref() == Some(&all.to_le_bytes());
         probe.check(assumed(VAR_1), same, || format!("{all}, as for a single NUL"), &exchange);
     }
@@ -237,7 +237,7 @@ fn same(probe: &mut Probe<'_>, rule: ClauseId, plain: Request<'_>, odd: Request<
     let expected = probe.send(plain)?;
     let exchange = probe.send(odd)?;
     let data = |exchange: &crate::exchange::Exchange| {
-        exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec))
+        exchange.reply().and_then(|reply| reply.success().map(<[u8]>::to_vec))
     };
     let passed = data(&exchange).is_some() && data(&exchange) == data(&expected);
     probe.check(assumed(rule), passed, "the same reply as without padding", &exchange);

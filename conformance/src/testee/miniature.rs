@@ -2,7 +2,7 @@
 
 use super::CodecTestee;
 use crate::codec::message::{
-    Answer, Capabilities, Output, Question, Rejection, Reply, TesteeCommand, TesteeHello,
+    Answer, AnswerLine, Capabilities, Output, Question, Rejection, TesteeCommand, TesteeHello,
 };
 use crate::text::named;
 
@@ -90,7 +90,7 @@ impl Miniature {
         }
         let answer = self.answer(own, &question, seq);
         let seq = if self == Self::Miscounts && tenth { seq.saturating_add(1) } else { seq };
-        let line = serde_json::to_string(&Reply { seq: Some(seq), answer });
+        let line = serde_json::to_string(&AnswerLine { seq: Some(seq), answer });
         MiniatureAction::Say(line.unwrap_or_default())
     }
 

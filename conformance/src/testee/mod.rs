@@ -16,11 +16,11 @@ mod protocol_rules;
 mod verdicts;
 
 pub use crate::codec::message::{
-    Answer, Capabilities, Identity, Known, Output, PROTOCOL, Question, Rejection, Reply,
+    Answer, AnswerLine, Capabilities, Identity, Known, Output, PROTOCOL, Question, Rejection,
     TesteeCommand, TesteeHello,
 };
 pub use crate::process::LINE_MAX;
-pub use check::{Finding, check_protocol};
+pub use check::{ProtocolFinding, check_protocol};
 pub use codec_testee::CodecTestee;
 pub use judge::{JudgedTestee, judge};
 pub use miniature::{Miniature, MiniatureAction};

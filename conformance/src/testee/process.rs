@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::{Testee, TesteeReaction};
-use crate::codec::message::{Answer, PROTOCOL, Question, Reply, TesteeCommand, TesteeHello};
+use crate::codec::message::{Answer, AnswerLine, PROTOCOL, Question, TesteeCommand, TesteeHello};
 use crate::deadline::Deadline;
 use crate::process::{START, Subprocess, not_json};
 use crate::text::shorten;
@@ -141,16 +141,16 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
 /// assert!(matches!(answered("Hello!", 7), (TesteeReaction::Garbled(_), true)));
 /// ```
 pub fn answered(line: &str, seq: u64) -> (TesteeReaction, bool) {
-    match serde_json::from_str::<Reply>(line) {
+    match serde_json::from_str::<AnswerLine>(line) {
         Ok(reply) if reply.seq == Some(seq) => (TesteeReaction::Answer(reply.answer), true),
-        Ok(Reply { seq: None, answer: Answer::Error { message } }) => {
+        Ok(AnswerLine { seq: None, answer: Answer::Error { message } }) => {
             (TesteeReaction::Garbled(format!("it could not read the case: {message}")), true)
         }
-        Ok(Reply { seq: None, .. }) => (
+        Ok(AnswerLine { seq: None, .. }) => (
             TesteeReaction::Garbled(format!("the answer has no seq; seq {seq} is expected")),
             false,
         ),
-        Ok(Reply { seq: Some(other), .. }) => {
+        Ok(AnswerLine { seq: Some(other), .. }) => {
             let why = format!("the answer has seq {other}; seq {seq} is expected");
             (TesteeReaction::Garbled(why), false)
         }

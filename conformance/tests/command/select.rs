@@ -47,7 +47,7 @@ fn any_order_gives_the_same_verdicts() {
     };
     let first = run(&["--seed", "1"]);
     assert_eq!(ids(&first), ids(&run(&["--seed", "1"])));
-    for seed in ["2", "3", "4", "5", "6", "7", "8", "4294967295"] {
+    for seed in ["2", "3", "4294967295"] {
         let other = run(&["--seed", seed]);
         assert_ne!(ids(&first), ids(&other));
         assert_eq!(verdicts(&first), verdicts(&other), "seed {seed}");

@@ -186,7 +186,7 @@ fn a_write_is_not_repeated() {
     });
     let mut session = Session::connect(target, allowing(&variable(WRITABLE))).unwrap();
     let write = WriteByName::new(channel(), WRITABLE, &[1][..]).unwrap();
-    assert!(matches!(session.call(&write), Err(ToolError::NoAnswer(_))));
+    assert!(matches!(session.call(&write), Err(ToolError::NoReply(_))));
     let (len, again) = taken.join().unwrap();
     assert!(len > 38 && !again);
 }

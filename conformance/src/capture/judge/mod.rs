@@ -234,16 +234,16 @@ impl TrafficJudge {
         let net_id = asked.header.target.net_id;
         let violations = violations(&asked.header, &reply.header);
         self.rules.reply(&observation, net_id, &call, &exchange, &violations);
-        let Some(answer) = exchange.answer() else { return };
-        if answer.success().is_none() {
+        let Some(reply) = exchange.reply() else { return };
+        if reply.success().is_none() {
             count(&mut self.tally.refused);
         }
-        if !answer.ams_error.is_ok() {
+        if !reply.ams_error.is_ok() {
             return;
         }
         if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {
             let known = self.rules.described(net_id, &request);
-            vectors.add(&request, &call, answer.success(), known.as_ref());
+            vectors.add(&request, &call, reply.success(), known.as_ref());
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::judge::{
     Case, CaseOutcome, CaseSubject, Needs, Plan, RequirementVerdict, Verdict, Waivers,
 };
 use crate::profile::Profile;
-use crate::report::{About, DeviceReport, Report, TargetReport};
+use crate::report::{DeviceReport, Report, RunInfo, TargetReport};
 use crate::session::{self, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, Changes, ClaimsBy, Discovery, Sample, TargetState, Unwritable};
@@ -71,7 +71,7 @@ impl Run {
             ..TargetReport::default()
         };
         let about = self.about(target, seed, waivers);
-        let about = About { found: Some(discovery.found), ..about };
+        let about = RunInfo { found: Some(discovery.found), ..about };
         self.judge(plan, session, None, about)
     }
 
@@ -126,7 +126,7 @@ impl Run {
         plan: Plan,
         mut session: TargetState,
         defect: Option<&Seed>,
-        about: About,
+        about: RunInfo,
     ) -> Result<Report, Stopped> {
         let (client, allow) = (&session.client, self.target.has_file());
         let usable = client.gate().check_target(client.target().net_id, Moment::now());
@@ -178,7 +178,7 @@ impl Run {
         let written = if allow { written } else { Vec::new() };
         let ended = self.ended(&outcomes).or_else(|| session.ended().map(str::to_owned));
         let (frames, profile) = (session.frames, Some(session.profile));
-        let about = About { frames, profile, times, left_changed, ended, ..about };
+        let about = RunInfo { frames, profile, times, left_changed, ended, ..about };
         Ok(Report::new(about, &outcomes, &left_out).with_writes(rejected, written))
     }
 

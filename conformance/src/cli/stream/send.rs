@@ -84,7 +84,7 @@ impl Sending<'_> {
                 }
                 // The packet may have arrived.
                 Some(
-                    error @ (ToolError::NoAnswer(_) | ToolError::Reply(_) | ToolError::Frame(_)),
+                    error @ (ToolError::NoReply(_) | ToolError::Reply(_) | ToolError::Frame(_)),
                 ) => {
                     return SendEnd::Unknown(error);
                 }

@@ -6,7 +6,7 @@ use ads_cnc::ads::AdsError;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ActionError {
     /// An ADS error of the CNC.
-    Refused(AdsError),
+    Rejected(AdsError),
     /// Another error, in the client or in a reply.
     Error(String),
     /// The client crashes.

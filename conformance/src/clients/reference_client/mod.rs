@@ -64,7 +64,7 @@ pub fn answer(fault: Option<ClientFault>, place: &CncAddress, action: &Action) -
     match done {
         Ok(value) => ClientReaction::Answer(ActionResult::Result(value)),
         Err(ActionError::Error(why)) => ClientReaction::Answer(ActionResult::Error(why)),
-        Err(ActionError::Refused(error)) => ClientReaction::Answer(ActionResult::Error(format!(
+        Err(ActionError::Rejected(error)) => ClientReaction::Answer(ActionResult::Error(format!(
             "the CNC returned ADS error {error:#x}"
         ))),
         Err(ActionError::Dies) => ClientReaction::Died("it crashed".to_owned()),

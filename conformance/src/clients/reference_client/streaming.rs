@@ -34,13 +34,13 @@ pub(super) fn stream(
             let write = WriteProgramStream::new(channel, &packet);
             let ack = match wire.call(&write, &mut Vec::new()) {
                 Ok(_) => break,
-                Err(ActionError::Refused(error)) => (Ack::from_result(error), error),
+                Err(ActionError::Rejected(error)) => (Ack::from_result(error), error),
                 Err(fail) => return Err(fail),
             };
             match ack {
                 (Ack::Busy, _) if wire.has(ClientFault::StreamSkips) => break,
                 (Ack::Busy, _) if begun.elapsed() < WAIT_MAX => thread::sleep(PAUSE),
-                (_, error) => return Err(ActionError::Refused(error)),
+                (_, error) => return Err(ActionError::Rejected(error)),
             }
         }
     }

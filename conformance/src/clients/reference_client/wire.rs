@@ -157,10 +157,10 @@ impl Connection {
             let answer = read?;
             self.received.drain(..len);
             if !answer.ams_error.is_ok() {
-                return Err(ActionError::Refused(answer.ams_error));
+                return Err(ActionError::Rejected(answer.ams_error));
             }
             if !answer.result.is_ok() && !self.has(ClientFault::NoResult) {
-                return Err(ActionError::Refused(answer.result));
+                return Err(ActionError::Rejected(answer.result));
             }
             let data = answer.data.unwrap_or_default();
             let lenient =

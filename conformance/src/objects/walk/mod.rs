@@ -274,7 +274,7 @@ impl Walker for Walk<'_> {
             Ok(data) => Ok(Some(data)),
             Err(ToolError::Ads { .. }) => Ok(None),
             // GEO is optional.
-            Err(error @ (ToolError::Ams { .. } | ToolError::NoAnswer(_))) if is_geo => {
+            Err(error @ (ToolError::Ams { .. } | ToolError::NoReply(_))) if is_geo => {
                 self.geo = Err(error);
                 Ok(None)
             }

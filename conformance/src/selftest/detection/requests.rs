@@ -62,7 +62,7 @@ struct ContentAddress {
 }
 
 /// A CNC, and the digest of each reply.
-pub(super) struct AnswerRecorder<'t> {
+pub(super) struct ReplyRecorder<'t> {
     client: Client,
     cnc: Arc<Cnc>,
     right: Option<&'t [u64]>,
@@ -93,7 +93,7 @@ pub(super) fn ask_everything<'t>(
     compare: Compare,
     unwritten_places: &'t [(u32, u32)],
 ) -> RecordedAnswers {
-    let mut dialogue = AnswerRecorder {
+    let mut dialogue = ReplyRecorder {
         client,
         cnc,
         right,
@@ -106,14 +106,14 @@ pub(super) fn ask_everything<'t>(
         configurable: (compare == Compare::Configured).then(ConfigurableReplies::default),
     };
     dialogue.everything();
-    let AnswerRecorder { answers, mut difference, .. } = dialogue;
+    let ReplyRecorder { answers, mut difference, .. } = dialogue;
     if difference.is_none() && right.is_some_and(|right| right.len() != answers.len()) {
         difference = Some("the end: the other CNC is asked more".to_owned());
     }
     RecordedAnswers { answers, difference }
 }
 
-impl AnswerRecorder<'_> {
+impl ReplyRecorder<'_> {
     fn everything(&mut self) {
         self.queries();
         if self.client.gate().may_let_writes_pass() {
@@ -201,7 +201,7 @@ impl AnswerRecorder<'_> {
         let violations = exchange.violations.iter().map(|one| one.what.as_str());
         let outcome: Vec<&str> = violations.chain([fault.as_str()]).collect();
         let mut received = meaning(Some(call), &exchange.received);
-        let data = exchange.answer().and_then(|answer| answer.success());
+        let data = exchange.reply().and_then(|reply| reply.success());
         let writes = self.client.gate().may_let_writes_pass();
         if let (Some(replies), Some(data)) = (&mut self.configurable, data)
             && let Some(marker) = replies.marker(call, data, writes)
@@ -217,7 +217,7 @@ impl AnswerRecorder<'_> {
             let data = compact::show(call.data);
             format!("{} to port {}: {exchange} [{data}]", spec.unwrap_or("no function"), call.port)
         });
-        exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec)
+        exchange.reply().and_then(|reply| reply.success()).map(<[u8]>::to_vec)
     }
 
     fn inquire<R: Inquiry>(&mut self, port: AmsPort) {

@@ -220,9 +220,9 @@ impl<'s> Probe<'s> {
         if exchange.contradicts_itself() {
             return Err(Stop::Inconclusive(format!("{exchange}: an error before a success")));
         }
-        if let Some(answer) = exchange.answer() {
-            let has_data = answer.data.as_ref().is_some_and(|data| !data.is_empty());
-            match answer.success() {
+        if let Some(reply) = exchange.reply() {
+            let has_data = reply.data.as_ref().is_some_and(|data| !data.is_empty());
+            match reply.success() {
                 Some(_) => self.target.any_success = true,
                 None if has_data => self.target.error_with_data.clone_from(&self.last),
                 None => {}

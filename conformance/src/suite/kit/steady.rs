@@ -18,7 +18,7 @@ pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
     /// The reading in between got no reply.
-    NoAnswer,
+    NoReply,
     Same,
     /// In the last attempt both readings of the value were equal, and the reading between them
     /// differed. The evidence is that of the reading between them.
@@ -38,7 +38,7 @@ pub(crate) fn compare<B: PartialEq, R>(
     let mut last = Compared::Moved;
     for _ in 0..TRIES {
         let Some(before) = value(probe)? else { return Ok(Compared::NoValue) };
-        let Some(read) = other(probe, &before)? else { return Ok(Compared::NoAnswer) };
+        let Some(read) = other(probe, &before)? else { return Ok(Compared::NoReply) };
         if same(&before, &read) {
             return Ok(Compared::Same);
         }
@@ -106,7 +106,7 @@ impl Steady {
             |before, read| before == read,
         )?;
         let outcome = match compared {
-            Compared::NoAnswer => None,
+            Compared::NoReply => None,
             _ => Some(!matches!(compared, Compared::Differs(..))),
         };
         let rules = rules_by_index(probe, clause, logical, by_index, outcome)?;
@@ -133,7 +133,7 @@ impl Steady {
         }
         match compared {
             Compared::NoValue => {}
-            Compared::NoAnswer => {
+            Compared::NoReply => {
                 let expected = || format!("a success for {what}");
                 probe.check(&rules[..], false, expected, "an error");
             }

@@ -56,11 +56,11 @@ impl fmt::Display for StreamWrite {
 pub(crate) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<StreamWrite> {
     let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
     let exchange = with_reply(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;
-    let answer = exchange.answer();
-    let errors = answer.map(|answer| [answer.ams_error, answer.result]);
+    let reply = exchange.reply();
+    let errors = reply.map(|reply| [reply.ams_error, reply.result]);
     Ok(StreamWrite {
         error: errors.into_iter().flatten().find(|error| !error.is_ok()),
-        answered: answer.is_some(),
+        answered: reply.is_some(),
         shown: exchange.result(),
     })
 }

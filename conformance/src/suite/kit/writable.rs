@@ -115,7 +115,7 @@ pub(crate) fn is_taken(
     request: Request<'_>,
 ) -> Step<bool> {
     let exchange = probe.send(request)?;
-    if exchange.answer().is_none() {
+    if exchange.reply().is_none() {
         let expected = || format!("a reply to {what}");
         probe.require(rule.into(), false, expected, &exchange)?;
     }

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use std::{env, fs, process};
 
 use crate::common::Serve;
-use ads_cnc_conformance::report::{self, Detail, Display, Report};
+use ads_cnc_conformance::report::{self, Detail, DisplayOptions, Report};
 use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
 use serde_json::{Value, json};
@@ -48,7 +48,8 @@ fn run(args: &[&str]) -> Value {
 
 const FORMS: [&str; 4] = ["html", "junit", "markdown", "badge"];
 const DEFECT: &str = "variable-description.size.flip";
-const VERBOSE: Display = Display { detail: Detail::Verbose, color: false, found_shown: false };
+const VERBOSE: DisplayOptions =
+    DisplayOptions { detail: Detail::Verbose, color: false, found_shown: false };
 
 /// A report with all parts: failures with bytes, waivers, a selection.
 fn everything(folder: &Folder) -> Value {
@@ -122,7 +123,7 @@ fn protocol_failures_name_their_document() {
         assert_eq!(subject["areas"].as_array().unwrap().last().unwrap()["area"], id);
         let read = Report::from_json(&report.to_string()).unwrap();
         let mut text = Vec::new();
-        report::print(&read, Display::default(), &mut text).unwrap();
+        report::print(&read, DisplayOptions::default(), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert!(text.contains(&format!("NOT PASSED  {kind}: 1 fail ({id}), ")), "{text}");
     }

@@ -3,7 +3,7 @@
 use std::io::BufReader;
 
 use ads_cnc_conformance::process::{read_line, text};
-use ads_cnc_conformance::testee::{Answer, Reply, TesteeReaction, answered, greeted};
+use ads_cnc_conformance::testee::{Answer, AnswerLine, TesteeReaction, answered, greeted};
 use serde_json::Value;
 
 use super::Input;
@@ -121,7 +121,7 @@ fn is_one(line: &str) {
 
 /// Serializing an answer gives the same answer.
 fn again(mut answer: Answer, defect: Defect) {
-    let line = serde_json::to_string(&Reply { seq: Some(SEQ), answer: answer.clone() });
+    let line = serde_json::to_string(&AnswerLine { seq: Some(SEQ), answer: answer.clone() });
     if let (true, Answer::Reject(rejection)) = (defect.is(6), &mut answer) {
         rejection.at = None;
     }

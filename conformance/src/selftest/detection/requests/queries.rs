@@ -20,7 +20,7 @@ use ads_cnc::{
     VariableAccess,
 };
 
-use super::{AXES, AnswerRecorder, CHANNELS, ContentAddress, Variable, brackets, number, parts};
+use super::{AXES, CHANNELS, ContentAddress, ReplyRecorder, Variable, brackets, number, parts};
 use crate::values::until_nul;
 
 /// Maximum number of requested entries of a list.
@@ -44,7 +44,7 @@ const NAMES: [&str; 12] = [
     "V.A.UNKNOWN",
 ];
 
-impl AnswerRecorder<'_> {
+impl ReplyRecorder<'_> {
     pub(super) fn variables(&mut self, channel: Channel) {
         let kinds = ["V.G", "V.E", "V.A", "", "V.P", "V.L", "V.S", "V.CYC", "V.X", "v.e", "V"];
         let first = self.variables.len();

@@ -13,9 +13,9 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List};
 
 use super::configurable::by_number;
-use super::{AXES, AnswerRecorder, ContentAddress, Variable, brackets, number, parts};
+use super::{AXES, ContentAddress, ReplyRecorder, Variable, brackets, number, parts};
 
-impl AnswerRecorder<'_> {
+impl ReplyRecorder<'_> {
     /// Writes two other values and then the original one to each writable value.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {

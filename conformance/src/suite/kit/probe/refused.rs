@@ -27,7 +27,7 @@ impl Probe<'_> {
         let exchange = self.call(&request)?;
         self.expect_rejection();
         let expected = || format!("an error number for {what}");
-        let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
+        let given = exchange.reply().map(|reply| reply.success().unwrap_or_default());
         match given {
             Some([]) if is_vacuous => {
                 self.last = shown;
