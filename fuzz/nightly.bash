@@ -3,17 +3,23 @@
 
 # Builds the targets with a sanitizer. Each sanitizer has its own folder, so that builds do not replace each other.
 build() {
-    local sanitizer="$1" names=("")
+    local sanitizer="$1" name names=("") features
     [ ${#chosen[@]} -eq 0 ] || names=("${chosen[@]}")
     for name in "${names[@]}"; do
+        # A target of the codec builds without the suite, which takes most of the time.
+        features=(--features libfuzzer)
+        [ -z "$name" ] || needs_tools "$name" || features+=(--no-default-features)
         # With lines in backtraces.
         CARGO_PROFILE_RELEASE_DEBUG=line-tables-only \
             RUSTFLAGS="${RUSTFLAGS:-}${FUZZ_RUSTFLAGS:+ $FUZZ_RUSTFLAGS}" cargo "+$toolchain" fuzz build \
-            --fuzz-dir fuzz --features libfuzzer --release --debug-assertions \
+            --fuzz-dir fuzz "${features[@]}" --release --debug-assertions \
             --sanitizer "$sanitizer" --target-dir "$target_dir/fuzz-$sanitizer" ${name:+"$name"} ||
             broken "building the targets failed (sanitizer: $sanitizer)"
     done
 }
+
+# Whether the target needs the feature `tools`.
+needs_tools() { grep -q '"tools"' <<<"$(sed -n "/^name = \"$1\"/,/^required-features/p" fuzz/Cargo.toml)"; }
 
 binary() { echo "$target_dir/fuzz-$2/$triple/release/$1"; }
 
