@@ -74,10 +74,8 @@ covered() {
     } END { printf "%d (+%d)", last, first ? last - first : 0 }' "$1"
 }
 
-fuzz_target() {
-    [ "$seconds" -eq 0 ] || fuzz "$1" none "$seconds"
-    [ "$asan_seconds" -eq 0 ] || fuzz "$1" address "$asan_seconds"
-}
+fuzz_without() { fuzz "$1" none "$seconds"; }
+fuzz_with_asan() { fuzz "$1" address "$asan_seconds"; }
 
 # One run of a target: its log, and a row for the summary.
 fuzz() {
