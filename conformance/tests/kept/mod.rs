@@ -1,14 +1,13 @@
-//! Random cases that have failed are stored, and run before new ones: see
-//! proptest-regressions/README.md.
+//! Random cases that failed are stored and run before new cases: see proptest-regressions/README.md.
 
 use std::path::Path;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
-/// A configuration with `cases` new cases; `source` is the `file!()` of the test.
+/// The configuration for a number of new cases; `source` is the `file!()` of the test.
 pub(crate) fn cases(cases: u32, source: &str) -> Config {
     let default = Config::default();
-    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables this, and Miri has no files.
+    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables the files; Miri has no files.
     if default.failure_persistence.is_none() || cfg!(miri) {
         return Config { cases, failure_persistence: None, ..default };
     }
