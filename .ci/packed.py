@@ -11,8 +11,8 @@ LICENCES = ("LICENSE-APACHE", "LICENSE-MIT")
 FIELDS = ("description", "documentation", "license", "readme", "rust-version")
 # The keywords that crates.io accepts.
 KEYWORD = re.compile(r"[A-Za-z0-9][A-Za-z0-9_+-]{0,19}")
-# Several times the size of the largest crate: a larger one contains files by mistake.
-PACKED_MAX = 1 << 20
+# Twice the size of the largest crate, that of the suite: a larger one contains files by mistake.
+PACKED_MAX = 2 << 20
 # The files that cargo rewrites or adds.
 CARGOS = ("Cargo.toml", "Cargo.toml.orig", "Cargo.lock", ".cargo_vcs_info.json")
 # Home folders and other paths of this machine. A path such as /tmp/a in an example is permitted.
