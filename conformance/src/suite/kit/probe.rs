@@ -138,7 +138,7 @@ impl<'s> Probe<'s> {
         self.check(rules, true, "", "");
     }
 
-    /// Like [`check`](Checks::check), for a reply whose whole data is known: the evidence shows the
+    /// Like `check`, for a reply whose whole data is known: the evidence shows the
     /// data expected and received.
     pub fn check_reply(
         &mut self,
@@ -158,7 +158,7 @@ impl<'s> Probe<'s> {
         kept
     }
 
-    /// Like [`check`](Checks::check), but a failure ends the case.
+    /// Like `check`, but a failure ends the case.
     pub fn require(
         &mut self,
         rules: impl Rules,

@@ -70,7 +70,7 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Like [`refuses`](Self::refuses), for an item of an empty list, for which no valid sibling
+    /// Like `refuses`, for an item of an empty list, for which no valid sibling
     /// exists.
     pub fn refuses_alone<'a>(
         &mut self,
