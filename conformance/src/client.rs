@@ -356,8 +356,8 @@ impl Client {
                     }
                     let more = received.get(len..).unwrap_or_default();
                     if !more.is_empty() {
-                        let more_len = plural(more.len(), "unexpected byte");
-                        let what = format!("{more_len} after the reply");
+                        let what =
+                            format!("{} after the reply", plural(more.len(), "unexpected byte"));
                         violations.push(Violation { requirement: ADS_5, what });
                         // Without a whole frame, the start of the next reply is unknown.
                         if !are_frames(more) {
@@ -422,7 +422,7 @@ fn are_frames(mut bytes: &[u8]) -> bool {
 /// one would have another target port, and an invoke ID that was sent.
 fn is_reply(sent: &AmsHeader, got: &AmsHeader) -> bool {
     let has_addresses = (got.target, got.source) == (sent.source, sent.target);
-    let was_sent = (FIRST_INVOKE_ID..sent.invoke_id).contains(&got.invoke_id);
+    let was_sent = FIRST_INVOKE_ID < got.invoke_id && got.invoke_id < sent.invoke_id;
     got.command == sent.command && (has_addresses || !was_sent)
 }
 

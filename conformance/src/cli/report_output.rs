@@ -22,7 +22,7 @@ pub(super) const WAIVER: &str = "  [[waiver]]
   requirement = \"VAR-8\"
   verdict = \"fail\"            # or vacuous, inconclusive, warning, differs
   reason = \"sizes are rounded up to 4 until firmware 2.1\"
-  expires = 2027-01-31        # the first day on which the waiver is no longer valid";
+  expires = 2027-01-31        # the waiver is not valid from this day on";
 
 /// Formats that are made from the JSON report.
 #[derive(Args, Clone, Debug)]

@@ -51,7 +51,7 @@ impl Requirements {
             return Exit::Usage;
         }
         let is_known = |word: &str| {
-            erratum(&word.to_ascii_uppercase()).is_some()
+            errata.iter().any(|one| one.id.eq_ignore_ascii_case(word))
                 || rows.iter().any(|row| is_named(row, word))
         };
         let unknown: Vec<&String> = self.words().filter(|word| !is_known(word)).collect();
@@ -65,9 +65,8 @@ impl Requirements {
         let text = match self.format {
             RequirementsFormat::Text => {
                 let errata = errata.into_iter().map(matrix::erratum_to_text);
-                let errata: Vec<String> =
-                    errata.chain((!rows.is_empty()).then(|| matrix::to_text(&rows))).collect();
-                Ok(errata.join("\n"))
+                let rows = (!rows.is_empty()).then(|| matrix::to_text(&rows));
+                Ok(errata.chain(rows).collect::<Vec<_>>().join("\n"))
             }
             RequirementsFormat::Markdown => Ok(matrix::to_markdown(&rows)),
             RequirementsFormat::Sections => Ok(matrix::to_sections(&rows)),

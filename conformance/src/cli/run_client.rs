@@ -74,7 +74,7 @@ impl ClientArgs {
         }
     }
 
-    /// Judges the client by the cases of a plan, until so many have failed.
+    /// Judges the client by the cases of a plan. After `most` failed cases, the others are not run.
     ///
     /// # Errors
     /// If the suite cannot listen on the address.

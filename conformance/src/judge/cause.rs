@@ -12,7 +12,7 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::chain::{before, can_explain, defines, follows, is_of_functions, origin};
-use super::root::{Check, Root, checks, is_broken, is_of_device, is_slight, roots};
+use super::root::{Check, Root, checks, is_broken, is_deviation, is_of_device, roots};
 use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
 
 /// Clauses whose checks look for one error only, such as reversed bytes. No error of another clause looks
@@ -211,17 +211,17 @@ pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     }
     let clauses: Vec<&'static str> = broken.iter().map(|check| check.clause()).collect();
     let settled = |cause: Option<&'static str>| settle(cause?, &clauses, &found);
-    let slight = checks(outcomes, is_slight).map(|check| settled(cause(check, &causes)));
-    let slight: Vec<Option<&'static str>> = slight.collect();
+    let deviations = checks(outcomes, is_deviation).map(|check| settled(cause(check, &causes)));
+    let deviations: Vec<Option<&'static str>> = deviations.collect();
     let broken: Vec<Option<&'static str>> = found.iter().map(|cause| settled(*cause)).collect();
-    let (mut broken, mut slight) = (broken.into_iter(), slight.into_iter());
+    let (mut broken, mut deviations) = (broken.into_iter(), deviations.into_iter());
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
         for verdict in &mut outcome.verdicts {
             follow(verdict, |one| {
                 if is_broken(one) {
                     broken.next()?
-                } else if is_slight(one) {
-                    slight.next()?
+                } else if is_deviation(one) {
+                    deviations.next()?
                 } else {
                     None
                 }
@@ -343,18 +343,18 @@ mod tests {
         assert_eq!(attribute_one(&mut outcomes), [None, Some("VAR-8"), None]);
     }
 
-    /// A warning or a difference is no cause, but can follow from one.
+    /// A warning or a difference can follow from a failure, but no other check follows from it.
     #[test]
     fn a_warning_follows_from_a_failure_and_causes_none() {
         let sized = ("size", VAR_8, Function::DescribeByIndex, "V.E.a");
         let read = ("read", VAR_14, Function::ReadByHandle, "V.E.a");
-        for slight in [Verdict::Warning, Verdict::Differs] {
+        for deviation in [Verdict::Warning, Verdict::Differs] {
             for (place, causes) in [(1, [None, Some("VAR-8")]), (0, [None, None])] {
                 let mut outcomes = [outcome(sized), outcome(read)];
                 let verdict = &mut outcomes[place].verdicts[0];
-                (verdict.verdict, verdict.judgements[0].verdict) = (slight, slight);
+                (verdict.verdict, verdict.judgements[0].verdict) = (deviation, deviation);
                 assert_eq!(attribute_one(&mut outcomes), causes);
-                assert_eq!(outcomes[place].verdicts[0].verdict, slight);
+                assert_eq!(outcomes[place].verdicts[0].verdict, deviation);
             }
         }
     }

@@ -11,8 +11,9 @@ pub(super) const fn is_broken(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Fail | Verdict::Vacuous)
 }
 
-/// Whether a check that did not pass does not fail the run, so that it is no cause of others.
-pub(super) const fn is_slight(verdict: Verdict) -> bool {
+/// Whether a check with this verdict deviates from a clause without failing the run. No other check follows
+/// from it.
+pub(super) const fn is_deviation(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Warning | Verdict::Differs)
 }
 

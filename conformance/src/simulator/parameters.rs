@@ -36,8 +36,12 @@ impl ParameterState {
 impl ParameterStates {
     /// The parameters in their initial state.
     pub(super) fn new(parameters: &[Parameter]) -> Self {
-        let are_always = parameters.iter().all(|one| one.times.is_always());
-        Self { all: parameters.iter().cloned().map(ParameterState::new).collect(), are_always }
+        Self::of(parameters.iter().cloned().map(ParameterState::new).collect())
+    }
+
+    fn of(all: Vec<ParameterState>) -> Self {
+        let are_always = all.iter().all(|one| one.is.times.is_always());
+        Self { all, are_always }
     }
 
     /// Creates and deletes parameters that are due. A parameter that is created again has its
@@ -58,9 +62,10 @@ impl ParameterStates {
 
     /// Replaces the parameters of a kind.
     pub(super) fn replace(&mut self, kind: DynamicKind, new: Vec<Parameter>) {
-        self.all.retain(|one| one.is.kind != kind);
-        self.all.extend(new.into_iter().map(ParameterState::new));
-        self.are_always = self.all.iter().all(|one| one.is.times.is_always());
+        let mut all = std::mem::take(&mut self.all);
+        all.retain(|one| one.is.kind != kind);
+        all.extend(new.into_iter().map(ParameterState::new));
+        *self = Self::of(all);
     }
 
     /// The parameters that currently exist, in the order of their indices.

@@ -110,9 +110,9 @@ impl WrongFields {
         self.rows().zip(&self.is_wrong).filter(|(_, is_wrong)| **is_wrong).map(|(row, _)| row)
     }
 
-    /// Whether such a field is wrong.
-    pub(super) fn has(&self, is: impl Fn(&FieldSpec) -> bool) -> bool {
-        self.wrong().any(is)
+    /// Whether fields are wrong, and all of them are such fields.
+    pub(super) fn are_all(&self, are: impl Fn(&FieldSpec) -> bool) -> bool {
+        self.wrong().next().is_some() && self.wrong().all(are)
     }
 
     /// Whether all fields after the first wrong one are also wrong, as if bytes were missing or
@@ -138,7 +138,7 @@ impl WrongFields {
             return None;
         }
         let is = |clause: ClauseId| clause.as_str() == requirement;
-        let has = |types: &[Type]| self.has(|row| types.contains(&row.ty));
+        let has = |types: &[Type]| self.wrong().any(|row| types.contains(&row.ty));
         let follows = if is(GEN_1) {
             !self.is_reversed
         } else if is(GEN_2) {

@@ -9,6 +9,7 @@ mod codec_testee;
 mod compare;
 mod describe;
 mod judge;
+mod level;
 mod miniature;
 mod plan;
 mod process;

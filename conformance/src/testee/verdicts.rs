@@ -2,13 +2,11 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use ads_cnc::layout::{FieldSpec, Stream, Type};
-use ads_cnc_vectors::{
-    About, Assumption, Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector,
-};
+use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector};
 
 use super::blame::WrongFields;
 use super::describe::{describe, evidence};
+use super::level::{level, wrong_fields};
 use super::plan::{forms, questions};
 use super::{TesteeReaction, compare};
 use crate::codec::message::{Answer, Output, Question, TesteeHello};
@@ -19,7 +17,6 @@ use crate::judge::{
 use crate::show::show;
 use crate::text::hex::compact;
 use crate::text::plural;
-use crate::values::until_nul;
 
 /// The conditions of the judgement.
 #[derive(Clone, Copy, Debug)]
@@ -376,97 +373,6 @@ impl Verdicts<'_> {
             }
         }
     }
-}
-
-/// The level of a case's expectation; if the sibling failed, its level counts too.
-fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeReaction) -> Level {
-    let (own, sibling) = match body {
-        Body::Vector(one) if one.is_accepted() => (accepted_level(one, op, reaction), None),
-        Body::Vector(one) => {
-            (one.level(), one.sibling.as_deref().and_then(vector).map(Vector::level))
-        }
-        Body::Sequence(one) => {
-            (one.level(), one.sibling.as_deref().and_then(sequence).map(Sequence::level))
-        }
-        _ => (Level::Must, None),
-    };
-    match sibling {
-        Some(sibling) if verdict == Verdict::Vacuous => own.max(sibling),
-        _ => own,
-    }
-}
-
-/// The wrong fields of an answer to an accepted vector; `None` if it has other fields than expected.
-fn wrong_fields(vector: &Vector, output: &Output, strict: bool) -> Option<WrongFields> {
-    let Expect::Accept(accept) = &vector.expect else { return None };
-    let stream = Stream::by_name(&vector.stream)?;
-    match (&output.value, &output.hex) {
-        (Some(value), _) => WrongFields::of_value(stream, &accept.value, value, strict),
-        (None, Some(bytes)) => WrongFields::of_bytes(stream, &vector.bytes(), bytes),
-        (None, None) => None,
-    }
-}
-
-/// The level at which a wrong answer to an accepted vector is judged.
-fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level {
-    let Expect::Accept(accept) = &vector.expect else { return vector.level() };
-    let TesteeReaction::Answer(Answer::Ok(output)) = reaction else { return vector.level() };
-    let decides = |one: &&Assumption| one.decides || one.encodes && op == "encode";
-    let has_other_end = || match (&output.value, &output.hex) {
-        (Some(value), _) => {
-            !matches!(compare::compare(&accept.value, value), Some(compare::Difference::Other(_)))
-        }
-        (None, Some(bytes)) => {
-            forms(vector, accept).iter().any(|form| has_end_alone(vector, form, bytes))
-        }
-        (None, None) => false,
-    };
-    // A number of another width also changes the number of bytes.
-    let has_other_length = || {
-        let same =
-            |bytes: &Vec<u8>| forms(vector, accept).iter().any(|one| one.len() == bytes.len());
-        output.hex.as_ref().is_some_and(|bytes| !same(bytes))
-    };
-    // If the answer has other fields than expected, any of them may be wrong.
-    let wrong = wrong_fields(vector, output, false);
-    let is_wrong = |is: fn(&FieldSpec) -> bool| wrong.as_ref().is_none_or(|wrong| wrong.has(is));
-    let rests_on = |one: &Assumption| match one.about {
-        Some(About::End) => has_other_end(),
-        Some(About::Acceptance) => has_other_length(),
-        Some(About::Characters) => is_wrong(|row| row.ty == Type::String),
-        Some(About::Codes) => is_wrong(|row| ["type", "access"].contains(&row.name)),
-        _ => true,
-    };
-    let mut deciding = vector.assumed.iter().filter(decides).peekable();
-    if deciding.peek().is_none() {
-        vector.level()
-    } else if deciding.any(rests_on) {
-        Level::Info
-    } else {
-        vector.stated_level()
-    }
-}
-
-/// Whether bytes differ from the expected ones only in the ends of texts: the bytes after the first
-/// NUL of a field, and NULs at the end of the stream.
-fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
-    let trimmed = |bytes: &[u8]| {
-        let len =
-            bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last.saturating_add(1));
-        bytes.get(..len).unwrap_or_default().to_vec()
-    };
-    if trimmed(expected) == trimmed(found) {
-        return true;
-    }
-    let Some(stream) = Stream::by_name(&vector.stream) else { return false };
-    let (mut rest, mut is_same) = (found, expected.len() == found.len());
-    let walked = stream.walk(expected, |segment| {
-        let Some((part, left)) = rest.split_at_checked(segment.bytes.len()) else { return };
-        rest = left;
-        let is_text = segment.field.spec().is_some_and(|row| row.ty == Type::String);
-        is_same &= part == segment.bytes || is_text && until_nul(part) == until_nul(segment.bytes);
-    });
-    walked.is_ok() && is_same
 }
 
 /// A fault in the packets of this text.

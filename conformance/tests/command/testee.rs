@@ -126,13 +126,18 @@ fn miniatures_fail() {
     }
 }
 
+/// The output of a run against a codec that writes a wrong size into descriptions.
+fn with_wrong_size(args: &[&str]) -> String {
+    let testee = format!("{} --defect variable-description.size.flip", own());
+    let mut run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    run.args(["run", "--testee", &testee]).args(args);
+    String::from_utf8(run.output().unwrap().stdout).unwrap()
+}
+
 /// The expected value is stated once, and the bytes of the wrong field are marked.
 #[test]
 fn a_wrong_field_is_marked() {
-    let testee = format!("{} --defect variable-description.size.flip", own());
-    let mut run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-    run.args(["run", "--only", "VAR-8", "--seed", "1", "--testee", &testee]);
-    let stdout = String::from_utf8(run.output().unwrap().stdout).unwrap();
+    let stdout = with_wrong_size(&["--only", "VAR-8", "--seed", "1"]);
     assert!(
         stdout.contains("vec-description-one-dimension: size: 4 is expected, not 5\n"),
         "{stdout}"
@@ -144,10 +149,7 @@ fn a_wrong_field_is_marked() {
 /// that follows from it is listed once.
 #[test]
 fn an_assumption_about_another_field_excuses_nothing() {
-    let testee = format!("{} --defect variable-description.size.flip", own());
-    let mut run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-    run.args(["run", "--only", "variable-description", "-v", "--testee", &testee]);
-    let shown = String::from_utf8(run.output().unwrap().stdout).unwrap();
+    let shown = with_wrong_size(&["--only", "variable-description", "-v"]);
     assert!(!shown.contains("\nDIFFERS"), "{shown}");
     let (_, followers) = shown.split_once("  follows from it: ").unwrap();
     let (followers, _) = followers.split_once("again: ").unwrap();

@@ -60,8 +60,8 @@ impl Run {
         let by = if self.profile.is_some() { ClaimsBy::Profile } else { ClaimsBy::Queries };
         let discovery = suite::discover(&mut session, by);
         if !self.display.is_quiet() {
-            let most = if self.only.is_empty() { "about" } else { "at most about" };
-            print_forecast(&discovery, most);
+            let about = if self.only.is_empty() { "about" } else { "at most about" };
+            print_forecast(&discovery, about);
         }
         let target = TargetReport {
             name: "device".to_owned(),
@@ -188,8 +188,9 @@ impl Run {
     }
 }
 
-/// Prints the result of the discovery, and how many requests all cases would send.
-fn print_forecast(discovery: &Discovery, most: &str) {
+/// Prints the result of the discovery, and how many requests all cases would send: `about` that number, or
+/// for a selection of them at most that number.
+fn print_forecast(discovery: &Discovery, about: &str) {
     let found = &discovery.found;
     print_error(format_args!("found {}", found.summary()));
     if let Some(sampled) = found.sampled() {
@@ -207,7 +208,7 @@ fn print_forecast(discovery: &Discovery, most: &str) {
         String::new()
     };
     let requests = plural(requests, "request");
-    print_error(format_args!("the queries of the cases: {most} {requests}{time}"));
+    print_error(format_args!("the queries of the cases: {about} {requests}{time}"));
 }
 
 /// Whether the case writes and has been executed.
