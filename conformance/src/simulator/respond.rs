@@ -27,7 +27,7 @@ const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
 pub type ReplyData = Result<Vec<u8>, AdsError>;
 
 /// Answers a request with data or an error number.
-type Answering<'a> = &'a dyn Fn(&Call<'_>) -> ReplyData;
+type Answering<'a> = &'a mut dyn FnMut(&Call<'_>) -> ReplyData;
 
 /// Appends the frame of the reply; see [`Responder::respond`](super::Responder::respond).
 pub(crate) fn respond(

@@ -7,6 +7,7 @@ use std::time::Duration;
 use ads_cnc::ads::{AmsNetId, FrameRef};
 use ads_cnc::operation::Call;
 
+use super::frames::Frames;
 use super::respond::{ReplyData, respond};
 
 /// Answers ADS requests: a [`Cnc`](super::Cnc), or middleware around one.
@@ -23,7 +24,14 @@ pub trait Responder: fmt::Debug + Send + Sync {
     /// A frame to another NetId or to a port without a task is answered with an AMS error without data;
     /// other invalid requests are answered with an error in the result.
     fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
-        respond(&|call| self.answer(call), net_id, frame, answers);
+        respond(&mut |call| self.answer(call), net_id, frame, answers);
+    }
+
+    /// Appends the replies to several frames, in order. A CNC answers all of them at the same time.
+    fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
+        while let Some(frame) = frames.next(answers) {
+            self.respond(net_id, &frame, answers);
+        }
     }
 
     /// Maximum number of bytes to send at a time; at least 1.
@@ -42,6 +50,10 @@ impl<R: Responder + ?Sized> Responder for Arc<R> {
 
     fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
         (**self).respond(net_id, frame, answers);
+    }
+
+    fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
+        (**self).respond_all(net_id, frames, answers);
     }
 
     fn piece(&self) -> usize {

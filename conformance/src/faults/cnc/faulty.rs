@@ -12,10 +12,10 @@ use ads_cnc::operation::Call;
 use super::{CncFault, Memory, ReplyData, Upstream, is};
 use crate::faults::field::FieldDefect;
 use crate::faults::seed::{How, Seed};
-use crate::simulator::{Cnc, Model, Responder, respond};
+use crate::simulator::{Cnc, Frames, Model, Responder, respond};
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
-/// A CNC, optionally with a defect.
+/// A simulated CNC with at most one seed, or with several field defects.
 ///
 /// A field defect changes the streams of requests before the CNC decodes them, and the streams of its
 /// replies.
@@ -26,12 +26,12 @@ pub struct Faulty {
     /// The field defects.
     fields: Vec<FieldDefect>,
     memory: Mutex<Memory>,
-    /// Whether a field defect has changed any byte.
+    /// Whether a field defect has changed at least one byte.
     shown: AtomicBool,
 }
 
 impl Faulty {
-    /// Creates a CNC in its initial state, with this defect.
+    /// Adds a defect or a variant to a CNC that has processed no request.
     pub fn new(cnc: Cnc, seed: Option<&Seed>) -> Self {
         let how = seed.map(|seed| seed.how.clone());
         let cnc = match &how {
@@ -57,13 +57,13 @@ impl Faulty {
         Self { fields, ..Self::new(cnc, None) }
     }
 
-    /// The CNC without the defect.
+    /// The CNC to which the defect was added.
     pub const fn cnc(&self) -> &Arc<Cnc> {
         &self.cnc
     }
 
-    /// Whether the defect has changed a byte. A change to the value that a field already has is not
-    /// detectable.
+    /// Whether a field defect has changed at least one byte; true for other seeds. A field defect that
+    /// sets a field to the value that it already has is not detectable.
     pub(crate) fn has_shown(&self) -> bool {
         self.fields.is_empty() || self.shown.load(Ordering::Relaxed)
     }
@@ -72,7 +72,7 @@ impl Faulty {
         Upstream { cnc: &self.cnc, memory: &self.memory }
     }
 
-    /// The bytes of a stream with the defect; `None` if it does not change them.
+    /// The bytes of a stream, changed by the field defects; `None` if no byte changes.
     fn change(&self, stream: Option<Stream>, bytes: &[u8]) -> Option<Vec<u8>> {
         let stream = stream?;
         let mut changed = None;
@@ -84,7 +84,7 @@ impl Faulty {
         Some(changed)
     }
 
-    /// Applies the defect to the frame of a reply.
+    /// Applies the field defects to the two headers and the data of a response frame.
     fn change_frame(&self, command: Command, answer: &mut [u8]) {
         let reply = match (service_of(command), command) {
             (Some(service), _) => Some(reply_stream(service)),
@@ -127,7 +127,7 @@ impl Responder for Faulty {
         let (start, command) = (answers.len(), frame.header().command);
         let misread = self.change(service_of(command).map(request_stream), frame.data());
         let misread = misread.as_deref().and_then(|data| FrameRef::new(frame.header(), data).ok());
-        respond(&|call| self.answer(call), net_id, misread.as_ref().unwrap_or(frame), answers);
+        respond(&mut |call| self.answer(call), net_id, misread.as_ref().unwrap_or(frame), answers);
         if let Some(How::Cnc(CncFault::Frame(sent))) = self.how
             && answers.len() > start
         {
@@ -135,6 +135,15 @@ impl Responder for Faulty {
             answers.extend(sent(&self.upstream(), frame, right));
         }
         self.change_frame(command, answers.get_mut(start..).unwrap_or_default());
+    }
+
+    fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
+        if self.how.is_none() && self.fields.is_empty() {
+            return self.cnc.respond_all(net_id, frames, answers);
+        }
+        while let Some(frame) = frames.next(answers) {
+            self.respond(net_id, &frame, answers);
+        }
     }
 
     fn piece(&self) -> usize {

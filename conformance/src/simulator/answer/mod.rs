@@ -14,7 +14,9 @@ use ads_cnc::operation::{Call, Function, Reply, Request, WriteProgramStream};
 use ads_cnc::{Encode, NoData};
 
 use super::clock::Clock;
+use super::frames::Frames;
 use super::program::Policy;
+use super::respond::respond;
 use super::state::CncState;
 use super::{Model, ModelError, ReplyData, Responder, program, to_u32};
 
@@ -100,16 +102,16 @@ impl Cnc {
 
     /// The state, advanced to the current time.
     pub(super) fn state(&self) -> MutexGuard<'_, CncState> {
-        self.state_and_time().0
+        self.answering().state
     }
 
-    /// The state and its time, because the clock is read only once for each request.
-    fn state_and_time(&self) -> (MutexGuard<'_, CncState>, Duration) {
+    /// The CNC at the current time.
+    fn answering(&self) -> AnsweringCnc<'_> {
         // No panic can occur under the lock, and each value would be valid after one.
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let now = self.now();
         state.advance(now);
-        (state, now)
+        AnsweringCnc { model: &self.model, state, now }
     }
 
     /// Time since the start of the CNC.
@@ -133,12 +135,7 @@ impl Cnc {
     /// | 0x706 | index out of bounds, or too many indices; handle of no variable of the channel, or of a kind that is accessible by name only; write to a place without an axis; impossible axis exchange; no room for NC text now |
     /// | 0x710 | no such name or kind |
     pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
-        let request = dispatch(call)?;
-        let reply = self.reply(&request)?;
-        if to_u32(reply.len()) > call.read_length {
-            return Err(AdsError::INVALID_SIZE);
-        }
-        Ok(reply)
+        self.answering().answer(call)
     }
 
     /// Appends the frame of the reply; see [`Responder::respond`].
@@ -150,41 +147,50 @@ impl Cnc {
     pub(super) const fn policy(&self) -> Policy {
         self.policy
     }
+}
 
-    fn reply(&self, request: &Request<'_>) -> ReplyData {
-        let (state, now) = self.state_and_time();
-        let mut running = AnsweringCnc { model: &self.model, state, now };
+impl AnsweringCnc<'_> {
+    fn answer(&mut self, call: &Call<'_>) -> ReplyData {
+        let request = dispatch(call)?;
+        let reply = self.reply(&request)?;
+        if to_u32(reply.len()) > call.read_length {
+            return Err(AdsError::INVALID_SIZE);
+        }
+        Ok(reply)
+    }
+
+    fn reply(&mut self, request: &Request<'_>) -> ReplyData {
         match request {
-            Request::CountObjects(op) => running.count_objects(op),
-            Request::ReadDescriptors(op) => running.descriptors(op),
-            Request::ReadObject(op) => running.read_object(op),
-            Request::WriteObject(op) => running.write_object(op),
-            Request::FindInstance(op) => running.find_instance(op),
-            Request::CountElements(op) => running.read_element(op.element()),
-            Request::ReadElement(op) => running.read_element(op.element()),
-            Request::WriteElement(op) => running.write_element(op),
-            Request::ReadElementName(op) => running.element_name(op.element),
-            Request::ReadElementType(op) => running.element_type(op.element),
-            Request::ReadElementLength(op) => running.element_length(op.element),
-            Request::ReadElementUnit(op) => running.element_unit(op.element),
-            Request::ReadElementWriteFlag(op) => running.element_write_flag(op.element),
-            Request::CountVariables(op) => running.count_variables(op),
-            Request::DescribeByIndex(op) => running.describe_by_index(op),
-            Request::DescribeExtended(op) => running.describe_extended(op),
-            Request::DescribeByName(op) => running.describe_by_name(op),
-            Request::HandleByName(op) => running.handle_by_name(op),
-            Request::ReadByHandle(op) => running.read_by_handle(op),
-            Request::ReadByName(op) => running.read_by_name(op),
-            Request::WriteByHandle(op) => running.write_by_handle(op),
-            Request::WriteByName(op) => running.write_by_name(op),
-            Request::AxisHandleByName(op) => running.axis_handle_by_name(op),
-            Request::AxisReadByName(op) => running.axis_read_by_name(op),
-            Request::AxisWriteByName(op) => running.axis_write_by_name(op),
-            Request::CountDynamic(op) => running.count_dynamic(op),
-            Request::DynamicNameByIndex(op) => running.dynamic_name(op),
-            Request::DynamicValueByName(op) => running.dynamic_by_name(op),
-            Request::DynamicValueByIndex(op) => running.dynamic_by_index(op),
-            Request::WriteProgramStream(op) => running.write_program_stream(op),
+            Request::CountObjects(op) => self.count_objects(op),
+            Request::ReadDescriptors(op) => self.descriptors(op),
+            Request::ReadObject(op) => self.read_object(op),
+            Request::WriteObject(op) => self.write_object(op),
+            Request::FindInstance(op) => self.find_instance(op),
+            Request::CountElements(op) => self.read_element(op.element()),
+            Request::ReadElement(op) => self.read_element(op.element()),
+            Request::WriteElement(op) => self.write_element(op),
+            Request::ReadElementName(op) => self.element_name(op.element),
+            Request::ReadElementType(op) => self.element_type(op.element),
+            Request::ReadElementLength(op) => self.element_length(op.element),
+            Request::ReadElementUnit(op) => self.element_unit(op.element),
+            Request::ReadElementWriteFlag(op) => self.element_write_flag(op.element),
+            Request::CountVariables(op) => self.count_variables(op),
+            Request::DescribeByIndex(op) => self.describe_by_index(op),
+            Request::DescribeExtended(op) => self.describe_extended(op),
+            Request::DescribeByName(op) => self.describe_by_name(op),
+            Request::HandleByName(op) => self.handle_by_name(op),
+            Request::ReadByHandle(op) => self.read_by_handle(op),
+            Request::ReadByName(op) => self.read_by_name(op),
+            Request::WriteByHandle(op) => self.write_by_handle(op),
+            Request::WriteByName(op) => self.write_by_name(op),
+            Request::AxisHandleByName(op) => self.axis_handle_by_name(op),
+            Request::AxisReadByName(op) => self.axis_read_by_name(op),
+            Request::AxisWriteByName(op) => self.axis_write_by_name(op),
+            Request::CountDynamic(op) => self.count_dynamic(op),
+            Request::DynamicNameByIndex(op) => self.dynamic_name(op),
+            Request::DynamicValueByName(op) => self.dynamic_by_name(op),
+            Request::DynamicValueByIndex(op) => self.dynamic_by_index(op),
+            Request::WriteProgramStream(op) => self.write_program_stream(op),
             // `Request` is non-exhaustive; the following assertion fails for a new function.
             _ => Err(AdsError::INVALID_OFFSET),
         }
@@ -196,6 +202,14 @@ const _: () = assert!(Function::ALL.len() == 30, "add the new function to `Cnc::
 impl Responder for Cnc {
     fn answer(&self, call: &Call<'_>) -> ReplyData {
         Self::answer(self, call)
+    }
+
+    fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
+        // Locking the state, reading the clock and advancing the programs take longer than a request.
+        let mut cnc = self.answering();
+        while let Some(frame) = frames.next(answers) {
+            respond(&mut |call| cnc.answer(call), net_id, &frame, answers);
+        }
     }
 
     fn pass(&self, time: Duration) {

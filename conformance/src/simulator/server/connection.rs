@@ -5,17 +5,15 @@ use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use ads_cnc::ads::{AmsNetId, FrameRef};
+use ads_cnc::ads::AmsNetId;
 
 use super::ServerOptions;
-use crate::simulator::{DATA_MAX, FRAME_MAX, Responder};
+use crate::simulator::frames::GATHERED_MAX;
+use crate::simulator::{FRAME_MAX, Frames, Responder};
 use crate::text::plural;
 
 /// Buffer size: the longest frame and some following bytes.
 const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
-
-/// Size at which gathered replies are sent; the last reply may exceed it.
-const GATHERED_MAX: usize = 32 * 1024;
 
 /// Maximum number of bytes buffered by a connection.
 pub(super) const BUFFERED_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
@@ -91,29 +89,20 @@ impl Received {
         mut send: impl FnMut(&[u8]) -> io::Result<()>,
     ) -> io::Result<usize> {
         self.buffered = self.buffered.saturating_add(count).min(self.bytes.len());
-        let buffered = self.bytes.get(..self.buffered).unwrap_or_default();
-        let mut rest = buffered;
-        let broken = loop {
-            match split(rest) {
-                Ok(Some((frame, len))) => {
-                    cnc.respond(net_id, &frame, &mut self.answers);
-                    rest = rest.get(len..).unwrap_or_default();
-                }
-                Ok(None) => break Ok(()),
-                Err(error) => break Err(error),
-            }
-            if self.answers.len() >= GATHERED_MAX {
+        let mut frames = Frames::new(self.bytes.get(..self.buffered).unwrap_or_default());
+        loop {
+            cnc.respond_all(net_id, &mut frames, &mut self.answers);
+            let is_full = self.answers.len() >= GATHERED_MAX;
+            if !self.answers.is_empty() {
                 send(&self.answers)?;
                 self.answers.clear();
             }
-        };
-        // Send the replies to requests before an invalid frame.
-        if !self.answers.is_empty() {
-            send(&self.answers)?;
-            self.answers.clear();
+            if !is_full {
+                break;
+            }
         }
-        broken?;
-        let answered = buffered.len().saturating_sub(rest.len());
+        // The replies to requests before an invalid frame have been sent.
+        let answered = frames.end()?;
         if answered > 0 {
             self.bytes.copy_within(answered..self.buffered, 0);
             self.buffered = self.buffered.saturating_sub(answered);
@@ -163,12 +152,6 @@ pub(super) fn serve(
 /// Sends replies in pieces of the responder's size.
 fn send(cnc: &dyn Responder, mut stream: &TcpStream, answers: &[u8]) -> io::Result<()> {
     answers.chunks(cnc.piece()).try_for_each(|piece| stream.write_all(piece))
-}
-
-fn split(received: &[u8]) -> io::Result<Option<(FrameRef<'_>, usize)>> {
-    let malformed =
-        |error| io::Error::new(io::ErrorKind::InvalidData, format!("malformed frame: {error}"));
-    FrameRef::split(received, DATA_MAX).map_err(malformed)
 }
 
 /// The time limit for the next complete frame.
