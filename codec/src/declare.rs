@@ -1,15 +1,8 @@
 //! The declaration of a stream, in the form of its table in the manual. The types, their traits and the
 //! documentation of the stream are generated from it.
 
-use crate::layout::{Layout, Stream};
 #[cfg(feature = "arbitrary")]
 use crate::rows::Owned;
-
-/// A type that is declared as a stream.
-pub(crate) trait Declared {
-    const STREAM: Stream;
-    const LAYOUT: Layout;
-}
 
 /// The kinds of rows, one line each: the type in a view, the type in an owned type, the row, and the
 /// size and type in the documentation. `as` gives a number its own Rust type.
@@ -91,7 +84,7 @@ macro_rules! stream {
                 [$crate::declare::row!(row ($kind $($($arg)+)? $(as $new)?) 'static)] $meaning] )+]
         }
 
-        impl $crate::declare::Declared for $crate::declare::stream!(@type $view $(/ $owned)?) {
+        impl $crate::layout::Declared for $crate::declare::stream!(@type $view $(/ $owned)?) {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
             const LAYOUT: $crate::layout::Layout = $crate::layout::Layout {
                 name: $name,
@@ -125,20 +118,20 @@ macro_rules! stream {
         const _: () = {
             type Type = $crate::declare::stream!(@static $view $(/ $owned)?);
             assert!(
-                <Type as $crate::declare::Declared>::LAYOUT.is_headed(),
+                <Type as $crate::layout::Declared>::LAYOUT.is_headed(),
                 "a row of fixed size follows a row of variable size",
             );
             assert!(
-                <Type as $crate::declare::Declared>::LAYOUT.is_filled(),
+                <Type as $crate::layout::Declared>::LAYOUT.is_filled(),
                 "the maximum of a row does not fill the maximum length of the stream",
             );
             $(
                 $( assert!(
-                    <Type as $crate::declare::Declared>::LAYOUT.is_at(stringify!($count)),
+                    <Type as $crate::layout::Declared>::LAYOUT.is_at(stringify!($count)),
                     concat!("`", stringify!($count), "` does not begin where the rows before it end"),
                 ); )?
                 assert!(
-                    <Type as $crate::declare::Declared>::LAYOUT
+                    <Type as $crate::layout::Declared>::LAYOUT
                         .is_at($crate::declare::stream!(@name [$field $($label)?])),
                     concat!("`", stringify!($field), "` does not begin where the rows before it end"),
                 );
@@ -168,7 +161,7 @@ macro_rules! stream {
                 #[cfg_attr(feature = "serde", serde $renamed)]
                 #[cfg_attr(feature = "binrw",
                     br(parse_with = $crate::io::parse::<$row, _>,
-                        args(<$view as $crate::declare::Declared>::STREAM,
+                        args(<$view as $crate::layout::Declared>::STREAM,
                         const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
                     bw(write_with = $crate::io::emit::<$row, _>))]
                 pub $field: $crate::declare::row!(view $kind 'static),
@@ -193,7 +186,7 @@ macro_rules! stream {
             pub struct $view(
                 #[cfg_attr(feature = "binrw",
                     br(parse_with = $crate::io::parse::<$row, _>,
-                        args(<$view as $crate::declare::Declared>::STREAM,
+                        args(<$view as $crate::layout::Declared>::STREAM,
                         const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
                     bw(write_with = $crate::io::emit::<$row, _>))]
                 pub $crate::declare::row!(view $kind 'static),
@@ -259,15 +252,15 @@ macro_rules! stream {
 
     (@numbers $view:ident $max:literal $built:tt [$( [$field:ident $label:tt $at:literal [$row:ty] $member:tt] )+]) => {
         const _: () = assert!(
-            <$view as $crate::declare::Declared>::LAYOUT.head() == $max,
+            <$view as $crate::layout::Declared>::LAYOUT.head() == $max,
             "the rows do not have the length of the stream",
         );
 
         impl<'a> $crate::stream::Decode<'a> for $view {
-            const STREAM: $crate::layout::Stream = <Self as $crate::declare::Declared>::STREAM;
+            const STREAM: $crate::layout::Stream = <Self as $crate::layout::Declared>::STREAM;
 
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                let stream = <Self as $crate::declare::Declared>::STREAM;
+                let stream = <Self as $crate::layout::Declared>::STREAM;
                 let mut input = $crate::bytes::Reader::without_limit(stream, &[]);
                 let head: &[u8; $max] = match $crate::bytes::Reader::exact(stream, bytes) {
                     Ok(head) => head,
@@ -305,7 +298,7 @@ macro_rules! stream {
                 )?; )+
                 let mut head = [0; $max];
                 $( <$row as $crate::rows::Row>::write_head(self.$member, &mut head, $at); )+
-                $crate::bytes::Writer::copy(<Self as $crate::declare::Declared>::STREAM, &head, buf)
+                $crate::bytes::Writer::copy(<Self as $crate::layout::Declared>::STREAM, &head, buf)
             }
         }
 
@@ -357,9 +350,9 @@ macro_rules! stream {
                         <$row as $crate::rows::Row>::len(self.$member),
                     );
                 )+
-                let stream = <Self as $crate::declare::Declared>::STREAM;
+                let stream = <Self as $crate::layout::Declared>::STREAM;
                 $crate::bytes::Writer::run(stream, len, buf, |out| {
-                    let mut head = [0; <$view<'static> as $crate::declare::Declared>::LAYOUT.head()];
+                    let mut head = [0; <$view<'static> as $crate::layout::Declared>::LAYOUT.head()];
                     $( <$row as $crate::rows::Row>::write_head(self.$member, &mut head, $at); )+
                     out.array(head);
                     $( <$row as $crate::rows::Row>::write(self.$member, out); )+
@@ -382,11 +375,11 @@ macro_rules! stream {
         }
 
         impl<'a> $crate::stream::Decode<'a> for $view<'a> {
-            const STREAM: $crate::layout::Stream = <Self as $crate::declare::Declared>::STREAM;
+            const STREAM: $crate::layout::Stream = <Self as $crate::layout::Declared>::STREAM;
 
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                let mut input = $crate::bytes::Reader::new(<Self as $crate::declare::Declared>::STREAM, bytes)?;
-                let head = input.head::<{ <$view<'static> as $crate::declare::Declared>::LAYOUT.head() }>()?;
+                let mut input = $crate::bytes::Reader::new(<Self as $crate::layout::Declared>::STREAM, bytes)?;
+                let head = input.head::<{ <$view<'static> as $crate::layout::Declared>::LAYOUT.head() }>()?;
                 $( let $field = <$row as $crate::rows::Row>::read(
                     &mut input,
                     head,
@@ -416,7 +409,7 @@ macro_rules! stream {
             #[cfg_attr(feature = "serde", serde $renamed)]
             #[cfg_attr(feature = "binrw",
                 br(parse_with = $crate::io::parse::<$row, _>,
-                    args(<$view<'static> as $crate::declare::Declared>::STREAM,
+                    args(<$view<'static> as $crate::layout::Declared>::STREAM,
                         const { $crate::layout::Field::of::<$view<'static>>($crate::declare::stream!(@name $label)) })),
                 bw(write_with = $crate::io::emit::<$row, _>))]
             pub $field: $crate::declare::row!(owned $kind 'static),
@@ -446,7 +439,7 @@ macro_rules! stream {
             }
 
             impl $crate::stream::Decode<'_> for $owned {
-                const STREAM: $crate::layout::Stream = <$view<'static> as $crate::declare::Declared>::STREAM;
+                const STREAM: $crate::layout::Stream = <$view<'static> as $crate::layout::Declared>::STREAM;
 
                 fn decode(bytes: &[u8]) -> Result<Self, $crate::error::Error> {
                     <$view<'_> as $crate::stream::Decode<'_>>::decode(bytes).map(Self::from)
@@ -458,7 +451,7 @@ macro_rules! stream {
             #[cfg(feature = "arbitrary")]
             impl<'u> arbitrary::Arbitrary<'u> for $owned {
                 fn arbitrary(u: &mut arbitrary::Unstructured<'u>) -> arbitrary::Result<Self> {
-                    let room = <$view<'_> as $crate::declare::Declared>::LAYOUT.room();
+                    let room = <$view<'_> as $crate::layout::Declared>::LAYOUT.room();
                     $(
                         let $field = <$row as $crate::rows::Owned>::any(u, room)?;
                         let room = room.saturating_sub($crate::declare::used::<$row>(&$field));
@@ -472,8 +465,8 @@ macro_rules! stream {
 
     (@name [$field:ident]) => { stringify!($field) };
     (@name [$field:ident $label:literal]) => { $label };
-    (@max ADS_DATA) => { $crate::limits::ADS_DATA };
-    (@max (ADS_DATA + $header:literal)) => { $crate::limits::ADS_DATA + $header };
+    (@max ADS_DATA) => { $crate::layout::ADS_DATA };
+    (@max (ADS_DATA + $header:literal)) => { $crate::layout::ADS_DATA + $header };
     (@max $max:literal) => { $max };
     (@shown ADS_DATA) => { "[`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX)" };
     (@shown (ADS_DATA + $header:literal)) => { concat!($crate::declare::stream!(@shown ADS_DATA), " + ", $header) };

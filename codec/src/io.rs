@@ -11,24 +11,11 @@ use crate::ads::{AmsHeader, DeviceInfoReply, ReadReply, ReadWriteReply};
 use crate::bytes::{Reader, Writer, to_u32, to_usize};
 use crate::dynamic::DynamicValue;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Size, Stream};
-use crate::limits::ADS_DATA;
-use crate::rows::Owned;
+use crate::layout::{ADS_DATA, Field, Size, Stream};
+use crate::rows::{Owned, Pull};
 use crate::sda::ElementLength;
 use crate::stream::{Decode, Encode};
 use crate::{Descriptor, Descriptors, ExtendedReply};
-
-/// Pulls the bytes of one row from a reader, at most one more than the maximum of the row.
-pub(crate) trait Pull {
-    /// Takes `len` bytes, or fewer at the end of the reader.
-    fn exact(&mut self, len: usize) -> io::Result<()>;
-    /// Takes all bytes to the end of the reader, at most `max` + 1.
-    fn rest(&mut self, max: u32) -> io::Result<()>;
-    /// Takes the bytes up to the first NUL, at most `max`.
-    fn until_nul(&mut self, max: u32) -> io::Result<()>;
-    /// Takes a count and that number of items, unless the count exceeds `max`.
-    fn counted(&mut self, each: usize, max: u32) -> io::Result<()>;
-}
 
 struct Source<'r, R> {
     reader: &'r mut R,

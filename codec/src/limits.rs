@@ -1,19 +1,15 @@
 //! Maxima of lengths and counts. Most are taken from the declarations of the streams.
 
 use crate::ads::{AmsTcpHeader, HeaderLayout};
+use crate::bytes::to_usize;
 use crate::com::DescriptorLayout;
-use crate::declare::Declared;
 use crate::dynamic::DynamicNameRef;
+use crate::layout::{ADS_DATA, Declared};
 use crate::streaming::ProgramStreamRef;
 use crate::{
     DescriptionByNameRef, DescriptionRef, HandleReadRef, HandleWriteRef, NameWriteRef, ValueRef,
     VariableIndexKindRef, VariableNameRef,
 };
-
-#[allow(clippy::as_conversions, reason = "`try_from` is not const; usize has at least 32 bits")]
-pub(crate) const fn to_usize(size: u32) -> usize {
-    size as usize
-}
 
 /// The maximum length of a stream in bytes.
 pub(crate) const fn length<T: Declared>() -> usize {
@@ -53,8 +49,6 @@ pub const DESCRIPTOR_LEN: usize = length::<DescriptorLayout>();
 pub const DESCRIPTOR_TEXT_LEN: usize = most::<DescriptorLayout>("name");
 /// Data bytes of an ADS request or reply. The manuals document no limit; this crate assumes one.
 pub const ADS_DATA_MAX: usize = to_usize(ADS_DATA);
-/// [`ADS_DATA_MAX`], in the type that declarations use.
-pub(crate) const ADS_DATA: u32 = 0x40_0000;
 /// Bytes of the AMS/TCP header (ADS-5).
 pub const AMS_TCP_HEADER_LEN: usize = length::<AmsTcpHeader>();
 /// Bytes of the AMS header (ADS-5).

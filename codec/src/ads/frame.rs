@@ -5,9 +5,8 @@ use zerocopy::IntoBytes as _;
 use super::header::HeaderLayout;
 use super::{AmsHeader, AmsTcpHeader, ReadWriteRequestRef};
 use crate::bytes::{Writer, to_u32, to_usize};
-use crate::declare::Declared as _;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream, Subject};
+use crate::layout::{Declared as _, Field, Stream, Subject};
 use crate::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN, length};
 use crate::stream::{Decode, Encode};
 

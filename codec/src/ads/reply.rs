@@ -1,11 +1,11 @@
 //! Replies of the three services.
 
 use super::AdsError;
+use crate::bytes::to_usize;
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::declare::stream;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
-use crate::limits::to_usize;
 use crate::stream::{Decode, Encode};
 
 stream! {

@@ -13,6 +13,7 @@ pub(crate) fn to_u32(len: usize) -> u32 {
     u32::try_from(len).unwrap_or(u32::MAX)
 }
 
-pub(crate) fn to_usize(size: u32) -> usize {
-    usize::try_from(size).unwrap_or(usize::MAX)
+#[allow(clippy::as_conversions, reason = "`try_from` is not const; usize has at least 32 bits")]
+pub(crate) const fn to_usize(size: u32) -> usize {
+    size as usize
 }

@@ -7,9 +7,9 @@ use zerocopy::little_endian::{U16, U32};
 
 use crate::address::{IndexGroup, IndexOffset};
 use crate::bytes::{Reader, Writer, to_u32};
-use crate::declare::{Declared as _, stream};
+use crate::declare::stream;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream};
+use crate::layout::{Declared as _, Field, Stream};
 use crate::limits::{DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN};
 use crate::number::code;
 use crate::stream::{Decode, Encode};

@@ -78,7 +78,7 @@ const fn least(mut fields: &[FieldSpec]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declare::Declared;
+    use crate::layout::Declared;
     use crate::layout::Type;
     use crate::{DescriptionRef, HandleWriteRef, NameWriteRef};
     use std::{sync::Mutex, vec::Vec};

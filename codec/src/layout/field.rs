@@ -2,9 +2,8 @@
 
 use core::fmt;
 
-use super::spec::FieldSpec;
+use super::spec::{Declared, FieldSpec};
 use super::{Stream, Subject};
-use crate::declare::Declared;
 
 /// A field of a stream, a part of another [`Subject`], or a stream or subject as a whole.
 ///

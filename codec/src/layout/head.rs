@@ -1,7 +1,7 @@
 //! The fixed fields at the start of a record, as numbers: building an error does not need their names.
 
 use super::spec::FieldSpec;
-use crate::limits::to_usize;
+use crate::bytes::to_usize;
 
 /// The number of fixed fields at the start of a record.
 pub(super) const fn count(fields: &[FieldSpec]) -> usize {

@@ -24,6 +24,7 @@ mod tables;
 mod walk;
 
 pub use field::Field;
+pub(crate) use spec::{ADS_DATA, Declared};
 pub use spec::{FieldSpec, Layout, Size, Type};
 pub use subject::Subject;
 pub(crate) use subject::{

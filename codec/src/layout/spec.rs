@@ -2,6 +2,17 @@
 
 use core::fmt;
 
+use super::Stream;
+
+/// [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX), in the type that declarations use.
+pub(crate) const ADS_DATA: u32 = 0x40_0000;
+
+/// A type that is declared as a stream.
+pub(crate) trait Declared {
+    const STREAM: Stream;
+    const LAYOUT: Layout;
+}
+
 /// The table of one stream.
 ///
 /// ```

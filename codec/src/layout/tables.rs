@@ -1,14 +1,12 @@
 //! [`Stream`], and the tables that are not declared by `stream!`.
 
 use super::head;
-use super::spec::{FieldSpec, Layout, Size, Type};
+use super::spec::{ADS_DATA, Declared, FieldSpec, Layout, Size, Type};
 use crate::ads::{
     AmsHeader, DeviceInfoReply, HeaderLayout, InfoLayout, ReadReplyRef, ReadWriteReplyRef,
 };
 use crate::com::{DescriptorLayout, DescriptorRef, DescriptorsRef};
-use crate::declare::Declared;
 use crate::dynamic::DynamicValue;
-use crate::limits::ADS_DATA;
 use crate::sda::ElementLength;
 use crate::stream::NoData;
 use crate::variable::{ExtendedDescription, ExtendedReply};

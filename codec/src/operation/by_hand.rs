@@ -20,8 +20,8 @@ use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
 use crate::layout::index_group::INSTANCE;
 use crate::layout::index_offset::{ELEMENT, OBJECT};
-use crate::layout::{Field, Stream};
-use crate::limits::{ADS_DATA, DESCRIPTOR_LEN};
+use crate::layout::{ADS_DATA, Field, Stream};
+use crate::limits::DESCRIPTOR_LEN;
 use crate::sda::ObjectAddressQuery;
 
 /// Bytes of one descriptor.

@@ -3,8 +3,7 @@
 use super::{Row, count, put_count};
 use crate::bytes::{Reader, Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Size, Type};
-use crate::limits::ADS_DATA;
+use crate::layout::{ADS_DATA, Field, Size, Type};
 use crate::variable::U32List;
 
 /// A list of UNS32. Its count has its own row.
@@ -134,7 +133,7 @@ mod owned {
     use super::super::any::{Any, up_to};
     use super::*;
     #[cfg(feature = "binrw")]
-    use crate::io::Pull;
+    use crate::rows::Pull;
 
     impl<const MAX: u32> Owned for List<MAX> {
         type Type = Vec<u32>;

@@ -12,8 +12,6 @@ pub(crate) use text::{CString, CStringPrefix, KindText, OptionalNul, TextAndTail
 
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
-#[cfg(feature = "binrw")]
-use crate::io::Pull;
 use crate::layout::{Field, Size, Type};
 
 /// A kind of row.
@@ -48,6 +46,19 @@ pub(crate) trait Row {
     fn write(_: Self::View<'_>, _: &mut Writer<'_>) {}
 }
 
+/// Pulls the bytes of one row from a reader, at most one more than the maximum of the row.
+#[cfg(feature = "binrw")]
+pub(crate) trait Pull {
+    /// Takes `len` bytes, or fewer at the end of the reader.
+    fn exact(&mut self, len: usize) -> binrw::io::Result<()>;
+    /// Takes all bytes to the end of the reader, at most `max` + 1.
+    fn rest(&mut self, max: u32) -> binrw::io::Result<()>;
+    /// Takes the bytes up to the first NUL, at most `max`.
+    fn until_nul(&mut self, max: u32) -> binrw::io::Result<()>;
+    /// Takes a count and that number of items, unless the count exceeds `max`.
+    fn counted(&mut self, each: usize, max: u32) -> binrw::io::Result<()>;
+}
+
 /// A kind of row in a type that owns its data.
 #[cfg(feature = "alloc")]
 pub(crate) trait Owned: Row {
@@ -56,7 +67,7 @@ pub(crate) trait Owned: Row {
     #[cfg(feature = "arbitrary")]
     const LEAST: usize = match Self::SIZE {
         Size::Items { .. } => 4,
-        size => crate::limits::to_usize(size.least()),
+        size => crate::bytes::to_usize(size.least()),
     };
 
     fn own(view: Self::View<'_>) -> Self::Type;

@@ -136,7 +136,7 @@ mod owned {
     use super::super::Owned;
     use super::*;
     #[cfg(feature = "binrw")]
-    use crate::io::Pull;
+    use crate::rows::Pull;
 
     /// Rows with the same type in a view and in an owned type.
     macro_rules! numbers {

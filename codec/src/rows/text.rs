@@ -197,7 +197,7 @@ mod owned {
     #[cfg(feature = "arbitrary")]
     use crate::bytes::to_usize;
     #[cfg(feature = "binrw")]
-    use crate::io::Pull;
+    use crate::rows::Pull;
     use crate::text::{CncString, Text};
 
     /// Implements `Owned` for rows that are owned as a [`Text`], which keeps the bytes after the text.

@@ -5,9 +5,8 @@ use zerocopy::IntoBytes as _;
 use super::{DataType, Element, Elements};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Subject;
 use crate::layout::typed_value::VALUE;
-use crate::limits::ADS_DATA;
+use crate::layout::{ADS_DATA, Subject};
 use crate::text::{CncStr, TextRef};
 
 /// A value that can be encoded: a number, a `bool` or [`Boolean`](super::Boolean), a slice or an array
