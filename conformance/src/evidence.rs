@@ -1,9 +1,12 @@
-//! The bytes that a check is based on.
+//! The bytes that a check is based on, and the texts of its expected and its actual result.
+
+use std::fmt::{self, Display};
 
 use ads_cnc::operation::Function;
+use ads_cnc_vectors::Hex;
 
 use crate::text::plural;
-use crate::values::ValueFormat;
+use crate::value_format::ValueFormat;
 
 /// The bytes of an exchange, as shown in a report.
 #[derive(Clone, Debug, Default)]
@@ -72,3 +75,28 @@ impl Evidence {
         self
     }
 }
+
+/// The expected or the actual result of a check. It is formatted only if the check fails: for a
+/// pass, no closure is called and no `format_args!` is formatted.
+pub trait Describe {
+    /// The text in a report.
+    fn describe(self) -> String;
+}
+
+impl<F: FnOnce() -> D, D: Display> Describe for F {
+    fn describe(self) -> String {
+        self().to_string()
+    }
+}
+
+macro_rules! describe {
+    ($($displayed:ty),+ $(,)?) => {$(
+        impl Describe for $displayed {
+            fn describe(self) -> String {
+                self.to_string()
+            }
+        }
+    )+};
+}
+
+describe! { &str, String, &String, fmt::Arguments<'_>, Hex, u32, usize, ads_cnc::Error }

@@ -12,8 +12,8 @@ use ads_cnc::{Decode as _, Error};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
+use crate::evidence::{Describe, Evidence};
 use crate::gate::Refusal;
-use crate::judge::{Describe, Evidence};
 use crate::text::plural;
 
 /// A request and its result.

@@ -26,11 +26,14 @@
 //! | [`tables`] | the codec's tables as data, and a dissector generated from them |
 //! | [`explain`] | the bytes of any stream, field by field |
 //! | [`codec`], [`show`] | the codec by the names of the vectors, and their values as text |
-//! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
+//! | [`judge`] | case, check, outcome, verdict, plan, waiver |
+//! | [`evidence`] | the bytes that a check is based on |
 //! | [`values`] | typed values: parsing and formatting |
 //! | [`profile`], [`edition`] | the claims of a target; features by edition and version |
 //! | [`wire_service`] | requirement, streams and reply of the three ADS services |
 //! | [`deadline`] | when a tool stops sending requests |
+//! | [`value_format`] | the type of a value, given by the user |
+//! | [`exit`] | the exit codes |
 //! | [`text`] | hex, escapes, durations, JSON |
 //!
 //! All bytes that the simulated CNC sends are encoded by [`ads_cnc`]; there is no second encoder.
@@ -67,7 +70,9 @@ pub mod codec;
 pub mod deadline;
 #[allow(clippy::restriction)]
 pub mod edition;
+pub mod evidence;
 pub mod exchange;
+pub mod exit;
 pub mod explain;
 #[allow(clippy::restriction)]
 pub mod faults;
@@ -95,5 +100,6 @@ pub mod suite;
 pub mod tables;
 pub mod testee;
 pub mod text;
+pub mod value_format;
 pub mod values;
 pub mod wire_service;

@@ -1,4 +1,4 @@
-//! The only module that opens sockets; a lint forbids it elsewhere.
+//! The only module that opens sockets; a lint forbids this in other modules.
 
 #![allow(clippy::disallowed_methods, reason = "this is the one place")]
 
@@ -15,12 +15,12 @@ use crate::gate::Permit;
 /// Listens on an address; for port 0 the system chooses the port.
 ///
 /// # Errors
-/// Those of the system, for example if the port is in use or the address is not one of this machine.
+/// An error of the system, for example if the port is in use or this machine does not have the address.
 pub fn listen(addr: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(addr)
 }
 
-/// Accepts the connections of a listener in its own thread, until dropped.
+/// Accepts the connections of a listener in its own thread, until the `Acceptor` is dropped.
 #[derive(Debug)]
 pub struct Acceptor {
     addr: SocketAddr,
@@ -29,7 +29,7 @@ pub struct Acceptor {
 }
 
 impl Acceptor {
-    /// Calls `f` with each connection and the address of its peer.
+    /// Calls `take` with each accepted connection and the address of its peer.
     ///
     /// # Errors
     /// If the listener has no address, or the system cannot start a thread.
@@ -48,7 +48,8 @@ impl Acceptor {
             match accepted {
                 Ok((stream, peer)) => take(stream, peer),
                 Err(error) => {
-                    // Most likely no file descriptor is free: wait until other connections end.
+                    // The most likely cause is that no file descriptor is free: waits until other
+                    // connections end.
                     tracing::warn!("no connection accepted: {error}");
                     thread::sleep(Duration::from_millis(50));
                 }
@@ -58,7 +59,7 @@ impl Acceptor {
         Ok(Self { addr, stopped, thread: Some(thread) })
     }
 
-    /// The address on which it listens.
+    /// The address on which the listener listens.
     pub const fn addr(&self) -> SocketAddr {
         self.addr
     }
@@ -67,15 +68,15 @@ impl Acceptor {
     pub fn stop(&mut self) {
         let Some(thread) = self.thread.take() else { return };
         self.stopped.store(true, Ordering::SeqCst);
-        // The thread blocks in `accept` until a connection arrives. If none can be made, it is not
-        // joined.
+        // The thread blocks in `accept` until a connection arrives. If no connection can be made, the
+        // thread is not joined.
         if self.wake_listener().is_ok() || thread.is_finished() {
             let _panicked = thread.join();
         }
     }
 
     fn wake_listener(&self) -> io::Result<()> {
-        // Reach a listener on all addresses through the loopback address.
+        // A listener on all addresses can be reached at the loopback address.
         let ip = match self.addr.ip() {
             IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
             IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
@@ -92,8 +93,8 @@ impl Drop for Acceptor {
     }
 }
 
-/// Connects to a listener on this machine without a gate, for a deliberately faulty client and the
-/// simulated CNC.
+/// Connects to a listener on this machine without a gate: a client with a deliberate defect uses this
+/// connection to the simulated CNC.
 ///
 /// # Errors
 /// An error of the system, or [`io::ErrorKind::PermissionDenied`] for another machine.

@@ -6,8 +6,8 @@ use std::time::Duration;
 use super::endpoint::Endpoint;
 use super::frames::Span;
 use super::time::Time;
+use crate::evidence::Evidence;
 use crate::exchange::Exchange;
-use crate::judge::Evidence;
 use crate::rules::Observation;
 
 /// The location of frames in a capture.

@@ -9,10 +9,11 @@ use ads_cnc::operation::{Call, DispatchError, Function, Service};
 
 use super::file::FileEnd;
 use crate::exchange::Exchange;
-use crate::explain::{ExplainQuery, ExplainSubject, ValueFormat, command_name, explain};
+use crate::explain::{ExplainQuery, ExplainSubject, command_name, explain};
 use crate::rules::function_at;
 use crate::text::hex::spaced;
 use crate::text::{escape, plural, shorten};
+use crate::value_format::ValueFormat;
 use crate::values::until_nul;
 
 /// Maximum number of different unknown addresses that are counted.

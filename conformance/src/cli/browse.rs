@@ -10,7 +10,7 @@ use super::model::ModelArgs;
 use super::name::{no_channel, written};
 use super::progress::ProgressLine;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::objects::{
     NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
     VALUE, WalkResult, absent_of, channels_of, columns, csv, table, walk,

@@ -12,7 +12,7 @@ use super::message::print_error;
 use crate::clients::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::text::{did_you_mean, json_error};
 
 /// Answer the protocol of `run --client` with this project's client

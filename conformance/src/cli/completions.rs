@@ -6,7 +6,7 @@ use clap::{Args, Command};
 use clap_complete::Shell;
 
 use super::message::print_error;
-use crate::judge::Exit;
+use crate::exit::Exit;
 
 /// Print a script that completes the command line in a shell
 #[derive(Args, Debug)]

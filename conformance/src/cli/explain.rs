@@ -15,11 +15,11 @@ use super::check::compressed;
 use super::display::Color;
 use super::message::print_error;
 use super::name::number;
+use crate::exit::Exit;
 use crate::explain::{
     ExplainQuery, ExplainSubject, Paint, ServiceAddress, ValueFormat, candidates, explain,
     looks_like_frame, parse_hex, print, type_by_name,
 };
-use crate::judge::Exit;
 use crate::text::did_you_mean;
 
 /// Maximum input size in bytes: several frames of maximum length.

@@ -8,7 +8,7 @@ use super::message::print_error;
 use super::model::ModelArgs;
 use super::name::{NameArgs, headline, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::named::find;
 use crate::objects::{Object, ObjectReport, ObjectsReport};
 use crate::session::ToolError;

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use crate::judge::Exit;
+use crate::exit::Exit;
 
 /// Writes an error to stderr; ignores a failure of the write.
 pub(super) fn print_error(why: impl std::fmt::Display) {

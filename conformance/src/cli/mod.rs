@@ -14,6 +14,7 @@ mod log;
 mod message;
 mod model;
 mod name;
+mod not_sent;
 mod numbers;
 mod progress;
 mod report;
@@ -37,7 +38,7 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::text::nearest;
 
 /// Judge, simulate and inspect the ADS interface of ISG and TwinCAT CNCs

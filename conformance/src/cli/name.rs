@@ -11,11 +11,11 @@ use clap::Args;
 use super::model::ModelArgs;
 use super::target::{ChannelArgs, TargetArgs};
 use crate::deadline::Deadline;
-use crate::explain::type_by_name;
 use crate::named::{Lookup, by_name_alone};
 use crate::objects::{Object, Options, Pattern, channels_of, walk};
 use crate::session::ToolError;
 use crate::text::{nearest, plural};
+use crate::value_format::type_by_name;
 
 /// The options that identify a value.
 #[derive(Args, Clone, Debug)]

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::display::DisplayArgs;
 use super::message::print_error;
 use super::report_output::{ReportFormats, is_stdout, lost, show, write};
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::report::{self, Report};
 use crate::text::utf8;
 

@@ -8,7 +8,8 @@ use clap::Args;
 
 use super::message::print_error;
 use crate::clients;
-use crate::judge::{Exit, Waivers};
+use crate::exit::Exit;
+use crate::judge::Waivers;
 use crate::matrix;
 use crate::report::{self, Report};
 use crate::text::{did_you_mean, utf8};

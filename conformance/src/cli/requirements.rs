@@ -7,7 +7,8 @@ use ads_cnc::operation::Function;
 use ads_cnc_vectors::{Erratum, erratum};
 
 use super::message::print_error;
-use crate::judge::{Exit, clauses_of, names};
+use crate::exit::Exit;
+use crate::judge::{clauses_of, names};
 use crate::matrix::{self, RequirementRow};
 use crate::text::did_you_mean;
 

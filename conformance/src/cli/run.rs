@@ -28,10 +28,10 @@ use super::run_testee;
 use super::serve::find_defect;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN};
 use crate::edition::Edition;
+use crate::exit::Exit;
 use crate::faults::Seed;
 use crate::judge::{
-    Case, CaseOutcome, CaseSubject, ENOUGH, Exit, Needs, Plan, Selection, Unmatched, Waivers,
-    any_seed,
+    Case, CaseOutcome, CaseSubject, ENOUGH, Needs, Plan, Selection, Unmatched, Waivers, any_seed,
 };
 use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};

@@ -12,7 +12,8 @@ use std::time::Duration;
 
 use crate::codec::message::Identity;
 use crate::deadline::Deadline;
-use crate::judge::{Case, CaseOutcome, CaseSubject, Exit};
+use crate::exit::Exit;
+use crate::judge::{Case, CaseOutcome, CaseSubject};
 use crate::process::interrupt;
 use crate::report::TargetReport;
 use crate::testee::{JudgedTestee, ProtocolFinding, Terms, TesteeProcess, check_protocol, judge};

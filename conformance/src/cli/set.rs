@@ -15,10 +15,11 @@ use clap::Args;
 use super::message::print_error;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
+use super::not_sent;
 use super::target::{
     DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, simulator_gate,
 };
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::named::{Lookup, by_name_alone, find};
 use crate::objects::{Object, ReportedAccess, ValueAddress};
 use crate::session::{Session, ToolError};
@@ -173,7 +174,7 @@ impl Set {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
             Some(object) if simulated && self.target.is_dry() => {
-                Session::dry_simulated(simulator_gate(object.entry()))
+                Session::dry_simulated(simulator_gate(object.entry()), not_sent::print)
             }
             _ => Ok(self.model.open(&self.target)?.with_deadline(self.deadline.begin())),
         }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use clap::Args;
 
 use super::report_output::{lost, show};
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::tables::{self, OffsetTable, Tables};
 use crate::text::plural;
 

@@ -13,12 +13,13 @@ use ads_cnc::ads::AmsNetId;
 use clap::Args;
 
 use super::message::print_error;
+use super::not_sent;
 use super::numbers::time;
 use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::deadline::Deadline;
+use crate::exit::Exit;
 use crate::gate::{Allowed, Entry, Gate, Moment};
-use crate::judge::Exit;
 use crate::session::{Session, TIMEOUT, ToolError};
 use crate::simulator::{Cnc, NET_ID};
 use crate::text::shown_time;
@@ -188,7 +189,7 @@ impl TargetArgs {
     ) -> Result<Session, ToolError> {
         match (self.is_device() || self.has_file(), self.dry_run) {
             (true, _) => self.open_or(cnc),
-            (false, true) => Session::dry_simulated(simulator_gate(entry)),
+            (false, true) => Session::dry_simulated(simulator_gate(entry), not_sent::print),
             (false, false) => {
                 tell_simulated();
                 self.recorded(Session::simulated(cnc()?, simulator_gate(entry))?)
@@ -203,7 +204,9 @@ impl TargetArgs {
         check: impl FnOnce(&Session) -> Result<(), ToolError>,
     ) -> Result<(), ToolError> {
         match self.device()? {
-            Some(target) if !self.dry_run => check(&Session::dry(target, self.gate()?)?),
+            Some(target) if !self.dry_run => {
+                check(&Session::dry(target, self.gate()?, not_sent::print)?)
+            }
             _ => Ok(()),
         }
     }
@@ -239,9 +242,9 @@ impl TargetArgs {
                 tell_simulated();
                 self.recorded(Session::simulated(cnc()?, gate)?)
             }
-            (None, true) => Session::dry_simulated(gate),
+            (None, true) => Session::dry_simulated(gate, not_sent::print),
             (Some(target), false) => self.recorded(Session::connect(target, gate)?),
-            (Some(target), true) => Session::dry(target, gate),
+            (Some(target), true) => Session::dry(target, gate, not_sent::print),
         }
     }
 

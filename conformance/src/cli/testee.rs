@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::message::print_error;
 use super::serve::find_defect;
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::testee::{Answer, AnswerLine, CodecTestee, Miniature, MiniatureAction, TesteeCommand};
 use crate::text::json_error;
 

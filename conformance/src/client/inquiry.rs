@@ -10,8 +10,8 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::Client;
+use crate::evidence::Evidence;
 use crate::exchange::{ExchangeError, Violation, violations};
-use crate::judge::Evidence;
 
 /// A command whose request has no data. The type is that of its reply.
 pub trait Inquiry: for<'a> Decode<'a> {

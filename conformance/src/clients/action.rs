@@ -1,4 +1,4 @@
-//! The actions that a client is told to execute. The meaning of a word never changes.
+//! The actions that the suite tells a client to execute. The meaning of an action never changes.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ pub struct ActionWord {
     pub name: &'static str,
     /// Names of the arguments. The last argument may contain blanks.
     pub arguments: &'static [&'static str],
-    /// The result, and what the client does.
+    /// The result of the action, and what the client does if the name does not say it.
     pub gives: &'static str,
 }
 

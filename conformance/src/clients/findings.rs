@@ -1,11 +1,12 @@
-//! The checks of a client in one scenario.
+//! Records the checks of a client in one scenario.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
 
 use super::test_server::RecordedExchange;
+use crate::evidence::{Describe, Evidence};
 use crate::exchange::meaning;
-use crate::judge::{Describe, Evidence, Record, Rule, Rules, Verdict};
+use crate::judge::{Record, Rule, Rules, Verdict};
 use crate::text::plural;
 use crate::wire_service::{decode_reply, service_of};
 
@@ -28,14 +29,14 @@ impl Findings {
         self.record.add_all(rules, passed, expected, found, || exchange.map(evidence));
     }
 
-    /// The first clause that failed. A faulty request comes first, because the client's answer is
-    /// judged last.
+    /// The requirement of the first failed check. Checks of requests come before those of the client's
+    /// answer, which is judged last.
     pub(super) fn first_failed(&self) -> Option<&'static str> {
         let mut judgements = self.record.judgements.iter();
         judgements.find(|one| one.verdict == Verdict::Fail).map(|one| one.requirement)
     }
 
-    /// Marks all failed checks as consequences of a cause.
+    /// Marks all failed checks of other requirements as consequences of the requirement `cause`.
     pub(super) fn follow_all(&mut self, cause: &'static str) {
         for one in &mut self.record.judgements {
             if one.verdict == Verdict::Fail && one.requirement != cause {
@@ -44,7 +45,8 @@ impl Findings {
         }
     }
 
-    /// Records failed checks of rules; all except those of the cause are consequences of it.
+    /// Records that the check of these rules failed. Rules other than that of the requirement `cause` fail
+    /// as consequences of it.
     pub(super) fn follow(
         &mut self,
         rules: &[Rule],
@@ -63,7 +65,7 @@ impl Findings {
 
 /// The evidence of an exchange in a report.
 pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
-    // The client's request is judged, so the evidence shows the request.
+    // The suite judges the client's request, so the evidence shows the request, not only the reply.
     let fault = exchange.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
         call: format!("bytes that are not a request{fault}"),
@@ -113,7 +115,7 @@ pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
 mod tests {
     use super::*;
 
-    /// Bytes that are not a request are shown with the fault.
+    /// The evidence shows bytes that are not a request, and why they are not.
     #[test]
     fn garbage_is_shown() {
         let request = b"GET / HTTP/1.0\r\n\r\n".to_vec();
@@ -127,7 +129,7 @@ mod tests {
         assert_eq!((shown.sent, shown.result.as_str()), (request, "0 bytes"));
     }
 
-    /// The data of a request with an unknown command is shown too.
+    /// The evidence also shows the data of a request with an unknown command.
     #[test]
     fn data_of_an_unknown_command_is_shown() {
         let mut request =

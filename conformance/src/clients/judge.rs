@@ -24,19 +24,19 @@ use crate::judge::{
 use crate::process::{interrupt, progress};
 use crate::simulator::Cnc;
 
-/// Maximum number of consecutive scenarios without an answer; the scenarios after them are not tried.
+/// After this many consecutive scenarios without an answer, the remaining scenarios are not run.
 const UNANSWERED_MAX: usize = 12;
 
 #[derive(Debug)]
 pub struct JudgedClient {
     pub hello: Option<ClientHello>,
-    /// The outcomes of the scenarios, and of the protocol.
+    /// The outcomes of the scenarios, and of the case about the client protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub requests: usize,
 }
 
-/// Runs a client through scenarios in order, and judges it; after `most` failed ones, the others are not
-/// run.
+/// Runs a client through scenarios in order, and judges it. After `most` failed scenarios, the remaining
+/// ones are not run.
 pub fn judge(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
@@ -54,7 +54,7 @@ pub fn judge(
             return JudgedClient { hello: None, outcomes, requests };
         }
         Err(reaction) => {
-            // After the deadline, a missing answer proves nothing.
+            // After the deadline the suite no longer waits, so a missing answer is not a failure.
             let over = actor.over();
             let (verdict, why) = match &over {
                 Some(why) => (Verdict::Inconclusive, why.as_str()),
@@ -112,7 +112,7 @@ pub fn judge(
         let played =
             caught(|| play(actor, server, scenario, &place(port))).and_then(|played| played);
         if interrupt::is_requested() {
-            // An interrupted action has no verdict.
+            // The user interrupted the action, so the scenario has no verdict.
             outcomes.push(CaseOutcome::interrupted(case));
             continue;
         }
@@ -148,7 +148,7 @@ pub fn judge(
     JudgedClient { hello: Some(hello), outcomes, requests }
 }
 
-/// Checks that the client prints one line per action.
+/// Records each line that the client has printed in addition to one line per action.
 fn one_line(actor: &mut dyn ClientUnderTest, protocol: &mut Findings) {
     for line in actor.unasked() {
         protocol.check(Rule::CLIENT, false, None, "one line for each action", || {
@@ -157,8 +157,8 @@ fn one_line(actor: &mut dyn ClientUnderTest, protocol: &mut Findings) {
     }
 }
 
-/// Runs this project's client with a defect through the scenarios with the violated requirement,
-/// until it fails; a valid variant runs through all scenarios.
+/// Runs this project's client with a defect through the scenarios that test the violated requirement,
+/// until this requirement fails. A valid variant runs through all scenarios.
 pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     let mut own = ReferenceClient { fault: Some(defect.fault) };
     let wanted = Rule::of(defect.requirement).id;
@@ -177,8 +177,8 @@ pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     outcomes
 }
 
-/// Runs one scenario. Returns its outcome, whether the client stopped answering, and the number of
-/// requests it sent.
+/// Runs one scenario. Returns its outcome, whether the client gave no valid answer, and the number of
+/// requests that the client sent.
 fn play(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
@@ -206,8 +206,8 @@ fn play(
     let mut requests = RequestJudge::of_scenario();
     requests.judge(&exchanges, &mut findings);
     requests.finish(&mut findings);
-    // A client may reject a program with a loop word, or detect an inconsistent reply, without a
-    // request.
+    // `asks` is empty if the client may correctly send no request: it may reject a program with a
+    // loop word before it sends anything.
     request_match::judge(&scenario.asks, &exchanges, may_write(scenario), &mut findings);
     if let Some(watch) = scenario.watch {
         ordering::judge(watch, scenario, &script, &exchanges, &mut findings);
@@ -217,7 +217,8 @@ fn play(
     progress::requests(exchanges.len());
     let is_lost = !matches!(reaction, ClientReaction::Answer(_));
     let mut case = scenario.case();
-    // Requests beyond those of the scenario are judged by their requirements too.
+    // The client may send more requests than the scenario expects: the case then also has the
+    // requirements by which those requests were judged.
     for judgement in &findings.record.judgements {
         if !case.requirements.contains(&judgement.requirement) {
             case.requirements.push(judgement.requirement);
@@ -232,7 +233,7 @@ fn may_write(scenario: &Scenario) -> bool {
     word.starts_with("write") || ["stream", "serve-echo", "ask-service"].contains(&word)
 }
 
-/// Judges the client's answer.
+/// Judges the client's answer to the action. Returns why the scenario has no verdict, if it has none.
 fn judge_reaction(
     scenario: &Scenario,
     script: &ScenarioScript,
@@ -256,7 +257,7 @@ fn judge_reaction(
     let rules = scenario.rules();
     let passed = match reaction {
         ClientReaction::Answer(ActionResult::Unsupported(what)) => {
-            // The client listed this action in its hello.
+            // The client listed this action in its hello, so it must support the action.
             let found = || format!("unsupported: {what}");
             findings.check(
                 Rule::CLIENT,
@@ -280,13 +281,13 @@ fn judge_reaction(
     };
     let (rules, cause): (Vec<Rule>, _) = match reaction {
         ClientReaction::Answer(_) => (rules, findings.first_failed()),
-        // A crash is judged at level must, even if the scenario's rules are assumed.
+        // A crash is a failure at level *must*, even if the scenario's rules are assumptions.
         ClientReaction::Died(_) => {
             let must = rules.into_iter().map(|rule| rule.at(Level::Must));
             (must.chain([Rule::CLIENT]).collect(), None)
         }
         ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
-            // Nothing else that such a client does or omits proves anything.
+            // The missing or unreadable answer is the cause of all other failed checks.
             findings.follow_all(CLIENT);
             (rules.into_iter().chain([Rule::CLIENT]).collect(), Some(CLIENT))
         }
@@ -301,7 +302,7 @@ fn judge_reaction(
     None
 }
 
-/// Converts the address of an instance to logical addressing.
+/// Converts an object address, index group and offset in JSON, to logical addressing.
 fn logical(place: &Value) -> Value {
     let parts = place.as_array().map(Vec::as_slice).unwrap_or_default();
     match (parts, parts.first().and_then(Value::as_u64).and_then(|group| group.try_into().ok())) {
@@ -350,7 +351,7 @@ fn protocol_outcome(findings: Findings) -> CaseOutcome {
     CaseOutcome::tried(case, findings.record.judgements, findings.record.checks.max(1), None)
 }
 
-/// A temporary file with an NC program, removed on drop.
+/// A temporary file with an NC program, which is removed on drop.
 struct ProgramFile(PathBuf);
 
 impl ProgramFile {

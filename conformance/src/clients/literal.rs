@@ -1,18 +1,19 @@
-//! Printed frames, built without the codec from printed bytes and handwritten headers. They detect
-//! errors that client and CNC would share because both use the same codec.
+//! Requests and replies printed in the manuals as whole frames, built from the printed bytes and from
+//! headers written by hand, without the codec. They detect errors of the codec, which this project's
+//! client and the simulated CNC share.
 
 /// A printed example: the expected request and its reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Literal {
-    /// The service, by the number of its command.
+    /// The command number of the service: 2 Read, 3 Write, 9 ReadWrite.
     pub(super) command: u8,
     pub(super) port: u16,
     pub(super) group: u32,
     pub(super) offset: u32,
     pub(super) data: Vec<u8>,
-    /// Maximum length of a name that is padded with NULs; 0 for other data.
+    /// The length in bytes to which a client may pad `data` with NULs, if `data` is a name; otherwise 0.
     pub(super) padded: usize,
-    /// Data of the reply; empty for a Write.
+    /// The data of the reply, without result and length; empty for a Write.
     pub(super) reply: Vec<u8>,
 }
 
@@ -36,8 +37,8 @@ impl Literal {
         forms
     }
 
-    /// The data of the service before and after the read length; the client may choose the read
-    /// length.
+    /// The service data of the request before the read length, and after it. The read length is not
+    /// compared, because the client may choose it.
     fn request(&self) -> (Vec<u8>, Vec<u8>) {
         let mut front = self.group.to_le_bytes().to_vec();
         front.extend(self.offset.to_le_bytes());
@@ -50,7 +51,7 @@ impl Literal {
         (front, after)
     }
 
-    /// Whether a frame is this request, whatever its source address, invoke ID and read length.
+    /// Whether a frame is this request; its source address, invoke ID and read length are not compared.
     fn is(&self, frame: &[u8]) -> bool {
         let (front, after) = self.request();
         let between = if self.command == 3 { 0_usize } else { 4 };

@@ -1,4 +1,4 @@
-//! The lines of the client protocol.
+//! The messages of the client protocol, each of which is one line.
 
 use std::net::SocketAddr;
 
@@ -15,10 +15,10 @@ pub const PROTOCOL: u32 = 1;
 /// A client's answer to hello.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClientHello {
-    /// Version of the protocol that it implements.
+    /// Version of the client protocol that the client implements.
     pub protocol: u32,
     pub client: Identity,
-    /// The words of the vocabulary that it implements.
+    /// The names of the actions that the client implements.
     pub actions: Vec<String>,
     /// Whether the client keeps running and reads actions from stdin, or is started for each
     /// action.
@@ -26,12 +26,12 @@ pub struct ClientHello {
     pub stays: bool,
 }
 
-/// The address of the CNC.
+/// The address of the CNC to which a client connects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CncAddress {
-    /// Its TCP address.
+    /// The IP address and TCP port of the CNC.
     pub addr: SocketAddr,
-    /// Its AMS NetId.
+    /// The AMS NetId of the CNC.
     pub net_id: AmsNetId,
     /// The AMS port of the task that executes the action.
     pub port: u16,
@@ -70,7 +70,7 @@ pub(super) fn environment(
     ]
 }
 
-/// Maximum length of an answer in a message.
+/// Maximum length of an answer as shown in a message.
 const SHOWN: usize = 200;
 
 /// The result of an action that returns no value.

@@ -43,7 +43,7 @@ pub trait ClientUnderTest {
     /// Tells the client to execute an action. A process that has ended is restarted.
     fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction;
 
-    /// Tells the client to end.
+    /// Tells the client to exit, and checks its exit code.
     fn bye(&mut self) -> Result<(), String>;
 
     /// The lines that the client has printed in addition to its answers since the last call.
@@ -51,12 +51,12 @@ pub trait ClientUnderTest {
         Vec::new()
     }
 
-    /// Why no more actions may be sent; `None` if they may.
+    /// Why the suite may send no more actions to the client; `None` if it may.
     fn over(&self) -> Option<String> {
         None
     }
 
-    /// The output to stderr.
+    /// The output of the client to stderr.
     fn stderr(&self) -> String {
         String::new()
     }

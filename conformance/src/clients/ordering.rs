@@ -1,4 +1,5 @@
-//! Checks the order of a client's requests: packets of an NC program, and the Service Interface.
+//! Checks the order of a client's requests: of the packets of an NC program, and of the reads and writes
+//! of the variables of the Service Interface.
 
 use ads_cnc::operation::Request;
 use ads_cnc::service::ServiceVariable;
@@ -14,7 +15,7 @@ use crate::judge::assumed;
 use crate::text::plural;
 use crate::values::until_nul;
 
-/// Maximum length of a packet, and of a line without its line end.
+/// Maximum length in bytes of a packet, and so of a line with its CR LF.
 const PACKET_MAX: usize = 992;
 
 /// Judges the order of the requests of a scenario.
@@ -46,7 +47,7 @@ pub(super) fn judge(
     }
 }
 
-/// The writes to the streaming object of channel 1, identified without the codec.
+/// The writes to the program stream of channel 1 with their data, identified without the codec.
 fn packets(exchanges: &[RecordedExchange]) -> Vec<(&RecordedExchange, &[u8])> {
     let is_one = |frame: &[u8]| {
         let group = frame.get(38..42);
@@ -62,7 +63,7 @@ fn packets(exchanges: &[RecordedExchange]) -> Vec<(&RecordedExchange, &[u8])> {
         .collect()
 }
 
-/// The program with CR LF after every line, as it must be sent.
+/// The program as the client must send it, with CR LF after every line.
 fn on_the_wire(program: &[u8]) -> Vec<u8> {
     let text = program.strip_suffix(b"\n").unwrap_or(program);
     let lines = text.split(|&byte| byte == b'\n');
@@ -192,7 +193,7 @@ fn host(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mut 
     if let Some(cleared) =
         all.iter().position(|one| one.variable == RequestState && one.value.is_some())
     {
-        // REQUEST_STATE = 0 after RESPONSE_STATE would cancel the response (SVC-3).
+        // A write of REQUEST_STATE after RESPONSE_STATE would cancel the response (SVC-3).
         let passed = state.is_none_or(|state| cleared < state);
         let expected = "no write of REQUEST_STATE after RESPONSE_STATE";
         findings.check(
@@ -231,10 +232,10 @@ fn caller(script: &ScenarioScript, exchanges: &[RecordedExchange], findings: &mu
     findings.check(SVC_6, passed, exchange, expected, "otherwise");
 }
 
-/// Whether the value in a reply is not 0; it follows the result and the length.
+/// Whether the value of 4 bytes in a reply, which follows the result and the length, is not 0.
 fn saw(exchange: &RecordedExchange) -> bool {
     exchange.sent.get(46..50).is_some_and(|state| state.iter().any(|&byte| byte != 0))
 }
 
-/// The request of the NC program, which the response must repeat.
+/// The text of the request of the NC program, which the response must repeat.
 pub(super) const REQUEST: &str = "some-command";

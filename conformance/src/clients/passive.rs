@@ -10,7 +10,7 @@ use super::test_server::{RecordedExchange, TestServer};
 use crate::judge::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Stop};
 use crate::simulator::{Cnc, ModelError};
 
-/// The case of all requests; its requirements are those that the requests concern.
+/// The case that judges all requests of such a client, with the requirements of all functions.
 pub fn requests_case() -> Case {
     let functions = Function::ALL.iter().map(|function| function.spec().clause);
     let mut requirements: Vec<&'static str> =
@@ -28,10 +28,11 @@ pub fn requests_case() -> Case {
 }
 
 /// Serves the default model to every client until all connections are closed or `go_on` returns
-/// false, and judges every request. Also returns the number of requests.
+/// false, and judges every request. Returns the outcome, whose requirements are those of the received
+/// requests, and the number of requests.
 ///
 /// # Errors
-/// Never in practice: a test builds the default model.
+/// An error in the default model, which a test excludes.
 pub fn listen(
     server: &TestServer,
     mut go_on: impl FnMut() -> bool,

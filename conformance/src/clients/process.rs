@@ -1,4 +1,4 @@
-//! A client in its own process, which is started once or for each action.
+//! A client in its own process, which the suite starts once or for each action.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, not_json};
 use crate::text::did_you_mean;
 
-/// The name of the scenario that requests hello.
+/// The value of the environment variables with scenario and action when the suite requests hello.
 const HELLO: &str = "hello";
 
 /// A client that is started by a command line.
@@ -19,7 +19,7 @@ const HELLO: &str = "hello";
 pub struct ClientProcess {
     process: Subprocess,
     stays: bool,
-    /// The lines that the client has printed without an action.
+    /// The lines that the client has printed in addition to its answers.
     unasked: Vec<String>,
 }
 
@@ -35,7 +35,7 @@ impl ClientProcess {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// Receives the line with the answer; if none arrives, the process is killed.
+    /// Receives the line with the answer; if no line arrives in time, the process is killed.
     fn recv(&mut self, timeout: Duration) -> Result<String, ClientReaction> {
         let line = self.process.recv(timeout);
         if line.is_err() {
@@ -75,7 +75,7 @@ impl ClientProcess {
         Ok(match serde_json::from_str::<ActionResult>(&line) {
             Ok(answer) => ClientReaction::Answer(answer),
             Err(error) => {
-                // The next line may be the answer to this action.
+                // The process is killed, because its next line may be the late answer to this action.
                 self.process.running = None;
                 ClientReaction::Garbled(not_json(&line, &error))
             }
@@ -83,8 +83,8 @@ impl ClientProcess {
     }
 }
 
-/// Rejects a hello with an unknown action. Otherwise a misspelt action would not be noticed,
-/// because its cases would not be applicable.
+/// Rejects a hello with an unknown action: the cases of a misspelt action would only be reported as
+/// not applicable.
 fn known_actions(hello: &ClientHello) -> Result<(), ClientReaction> {
     let words = || VOCABULARY.iter().map(|word| word.name);
     match hello.actions.iter().find(|one| !words().any(|word| word == one.as_str())) {
@@ -122,7 +122,7 @@ impl ClientUnderTest for ClientProcess {
     }
 
     fn act(&mut self, place: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
-        // After too many additional lines, the next one cannot be attributed to an action.
+        // If the client has printed additional lines, its next line cannot be attributed to an action.
         if let Some(unasked) = self.process.running.as_ref().and_then(LineProcess::unasked) {
             self.process.running = None;
             self.unasked.push(unasked);

@@ -13,7 +13,7 @@ use crate::judge::assumed;
 use crate::text::plural;
 use crate::values::until_nul;
 
-/// A request in raw bytes; the codec is only used to find the end of the frame.
+/// The fields of a client's request, read from its bytes without the codec.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct RawRequest {
     command: u16,
@@ -47,8 +47,8 @@ impl RawRequest {
     }
 }
 
-/// Converts a group of the default model from addressing by rank to logical addressing: the
-/// channels 1, 2 and 6 have the ranks 1, 2 and 3.
+/// Converts an index group from addressing by rank to logical addressing, for the default model, in
+/// which the channels 1, 2 and 6 have the ranks 1, 2 and 3. Other groups are returned unchanged.
 pub(super) const fn logical(group: u32) -> u32 {
     let spindle = group & 0xF000 == 0x5000;
     let known = group & 0xF0_0000 == 0 && group & 0x0F_0000 >= 0x02_0000;
@@ -59,7 +59,7 @@ pub(super) const fn logical(group: u32) -> u32 {
     }
 }
 
-/// Checks that all requests of the scenario were sent, and no other write.
+/// Checks that the client sent all requests of the scenario and, unless `may_write`, no other write.
 pub(super) fn judge(
     asks: &[ExpectedRequest],
     exchanges: &[RecordedExchange],
@@ -94,7 +94,7 @@ fn one(
     let place = |one: &RawRequest| (one.group, one.offset) == (ask.group, ask.offset);
     let is_data = |one: &RawRequest| one.data == ask.data || ask.also.contains(&one.data);
     let service = |one: &RawRequest| one.command == ask.command;
-    // The request to report: the one with the same address, or otherwise with the same data.
+    // The request that is compared: that with the most parts equal to the expected request.
     let nearest = sent.iter().max_by_key(|(one, _)| {
         let alike = [
             place(one) && is_data(one) && service(one) && one.port == ask.port,
@@ -130,7 +130,7 @@ fn one(
         findings.check(ask.place, false, exchange, || describe(ask), found);
         return;
     }
-    // The manual specifies only for the decoder which of SDA and GEO serves a class.
+    // The manual specifies only for the decoder whether the port of SDA or GEO serves the class.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
     findings.check(GEN_4, port, exchange, || format!("port {}", ask.port), || one.port);
@@ -165,7 +165,8 @@ fn one(
     findings.check(rule, enough, exchange, expected, || format!("a read length of {}", one.length));
 }
 
-/// Whether data starts with the expected text in UTF-8, where CP1252 has other bytes.
+/// Whether the data starts with the expected text in UTF-8 instead of CP1252, and the text has
+/// characters whose bytes differ.
 fn is_in_utf8(expected: &[u8], found: &[u8]) -> bool {
     let text = until_nul(expected);
     let utf8 = CncStr::from_bytes(text).map(|text| text.to_string()).unwrap_or_default();
@@ -183,7 +184,7 @@ fn describe(ask: &ExpectedRequest) -> String {
     format!("{service} {group:#x}, {offset:#x} at port {port}{data}")
 }
 
-/// The result in the reply to a Write.
+/// The result in the reply to a Write; `None` if the reply is not a complete frame with a result.
 pub(super) fn result_of(exchange: &RecordedExchange) -> Option<u32> {
     let (frame, _) = FrameRef::split(&exchange.sent, u32::MAX).ok()??;
     let bytes: [u8; 4] = frame.data().get(..4)?.try_into().ok()?;

@@ -9,8 +9,9 @@ use ads_cnc_vectors::ids::*;
 use super::findings::{Findings, evidence};
 use super::test_server::RecordedExchange;
 use crate::client::answer;
+use crate::evidence::Evidence;
 use crate::exchange::Exchange;
-use crate::judge::{Evidence, Rule};
+use crate::judge::Rule;
 use crate::rules::{Observation, RuleBook, function_at};
 use crate::simulator::{DATA_MAX, NET_ID};
 use crate::text::plural;
@@ -20,10 +21,10 @@ use crate::wire_service::{self, service_of};
 #[derive(Debug)]
 pub(super) struct RequestJudge {
     rules: RuleBook,
-    /// Connection and invoke ID of the previous request.
+    /// The connection and the invoke ID of the previous request.
     before: Option<(usize, u32)>,
-    /// Whether later requests are compared with earlier replies. Not in a scenario, where the suite
-    /// itself gives the names and changes replies.
+    /// Whether requests are compared with earlier replies, for example with the types that they
+    /// contained. False in a scenario, where the suite tells the client the names and changes replies.
     learns: bool,
 }
 
@@ -34,7 +35,7 @@ impl Observation for RecordedExchange {
 }
 
 impl RequestJudge {
-    /// For a client that decides by itself what to request.
+    /// A judge for a client that decides by itself what to request.
     pub(super) fn passive() -> Self {
         Self { learns: true, ..Self::of_scenario() }
     }
@@ -43,7 +44,7 @@ impl RequestJudge {
         Self { rules: RuleBook::new(false), before: None, learns: false }
     }
 
-    /// Adds the checks so far to the findings.
+    /// Adds the checks of the rules to the findings.
     pub(super) fn finish(self, findings: &mut Findings) {
         findings.record.append(self.rules.records.into_client_record());
     }
@@ -74,7 +75,7 @@ impl RequestJudge {
         let port = header.target.port;
         let has_task = Task::from_port(port).is_some();
         check(GEN_4.into(), has_task, "port 551, 552 or 553", &port);
-        // With a constant invoke ID, a client cannot detect a late reply.
+        // A client that repeats an invoke ID cannot tell a late reply from the next one.
         let before = self.before.replace((exchange.connection, header.invoke_id));
         let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
         self.rules.request_headers(exchange, &header, is_repeated);
@@ -123,7 +124,7 @@ fn name(command: Command) -> String {
     }
 }
 
-/// The requirement that an address without a function violates.
+/// The requirement that a request violates whose address has no function.
 fn address_clause(call: &Call<'_>) -> Rule {
     match (call.dispatch(), call.port) {
         (Err(DispatchError::Group(_)), AmsPort::COM) => ADR_3.into(),
@@ -134,7 +135,7 @@ fn address_clause(call: &Call<'_>) -> Rule {
     }
 }
 
-/// Calls a function with the decoded request of an exchange, if it decodes.
+/// Calls `then` with the decoded request of an exchange; `None` if the request does not decode.
 pub(super) fn with_request<T>(
     exchange: &RecordedExchange,
     then: impl FnOnce(&Request<'_>) -> T,
@@ -144,7 +145,7 @@ pub(super) fn with_request<T>(
     Some(then(&request))
 }
 
-/// The function of a request that changes the state of the CNC.
+/// The requirement of the function that a request calls, if the function changes the state of the CNC.
 pub(super) fn writes(exchange: &RecordedExchange) -> Option<Rule> {
     with_request(exchange, |request| {
         let spec = request.function().spec();

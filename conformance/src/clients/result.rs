@@ -1,10 +1,10 @@
-//! Compares the result of a client with the expected value, whatever its JSON notation.
+//! Compares the result of a client with the expected value; several JSON notations of a value are equal.
 
 use serde_json::Value;
 
-/// Whether a result is the expected one. An array of one element equals the element, and nested
-/// arrays equal the flat array. A number may be a string. Of an object, only the fields that the
-/// client returns are compared.
+/// Whether a result equals the expected value. An array of one element equals the element, and nested
+/// arrays equal the flat array. A number may be written as a string. Of an object, only the fields that
+/// the client returns are compared.
 pub(super) fn same(expected: &Value, found: &Value) -> bool {
     match (expected, found) {
         (Value::Object(expected), Value::Object(found)) => {
@@ -79,7 +79,7 @@ fn number(value: &Value) -> Option<NumericValue> {
     whole.or_else(|| text.parse().ok().map(NumericValue::Real))
 }
 
-/// Whether two numbers are equal to fifteen decimal digits.
+/// Whether two numbers are equal in about 14 decimal digits.
 fn near(expected: f64, found: f64) -> bool {
     let off = (expected - found).abs();
     off <= expected.abs() * 1e-14

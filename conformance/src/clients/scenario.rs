@@ -1,4 +1,4 @@
-//! A scenario: an action, the requests that the client must send, and the answer that it must give.
+//! A scenario: an action, the requests that the client must send, and the answer that it must return.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
@@ -21,13 +21,13 @@ pub(super) struct ExpectedRequest {
     pub(super) group: u32,
     pub(super) offset: u32,
     pub(super) data: Vec<u8>,
-    /// The permitted read lengths.
+    /// The read lengths that the client may choose.
     pub(super) length: ReadLength,
-    /// Other data that is equivalent.
+    /// Other data that is as correct as `data`.
     pub(super) also: Vec<Vec<u8>>,
-    /// Data that differs from the assumed form, but is not wrong.
+    /// Data that violates only an assumption about `data`, not a clause of the manuals.
     pub(super) tolerated: Vec<Vec<u8>>,
-    /// Name of the function.
+    /// The requirement of the function, which the index group and offset must satisfy.
     pub(super) place: Rule,
     pub(super) stream: Rule,
 }
@@ -56,7 +56,7 @@ impl ExpectedRequest {
         self
     }
 
-    /// The requirement of the index group.
+    /// The requirement that specifies the index group.
     pub(super) const fn group_rule(&self) -> ClauseId {
         let table = self.group & 0xF00;
         match self.group & 0xFF_FF00 {
@@ -105,7 +105,7 @@ pub(super) const fn read(port: u16, group: u32, offset: u32, least: u32) -> Expe
     ask(2, port, group, offset, Vec::new(), least)
 }
 
-/// A ReadWrite to the SDA task.
+/// A ReadWrite of at least `least` bytes at the port of SDA.
 pub(super) fn both(group: u32, offset: u32, data: &[u8], least: u32) -> ExpectedRequest {
     ask(9, 552, group, offset, data.to_vec(), least)
 }
@@ -114,16 +114,16 @@ pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> Expected
     ask(3, port, group, offset, data.to_vec(), 0)
 }
 
-/// The answer that a client must give.
+/// The answer that a client must return.
 #[derive(Clone, Debug)]
 pub(super) enum ExpectedAnswer {
     /// This result.
     Result(Value),
-    /// The result that the simulated CNC gives.
+    /// The result according to the unchanged replies of the simulated CNC.
     Asked(fn(&ScenarioScript) -> Option<Value>),
     /// This result or an error.
     ResultOrError(Value),
-    /// The result that the simulated CNC gives, or an error.
+    /// The result according to the unchanged replies of the simulated CNC, or an error.
     AskedOrError(fn(&ScenarioScript) -> Option<Value>),
     /// Any result.
     Done,
@@ -133,18 +133,18 @@ pub(super) enum ExpectedAnswer {
     Error,
 }
 
-/// What the order of the requests is checked for.
+/// The rules for the order of the requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RequestOrder {
-    /// The whole program is sent in packets.
+    /// The client sends the whole program in packets.
     Stream,
-    /// No part of a program that cannot be streamed is sent; the clause is the reason.
+    /// The client sends no part of a program that cannot be streamed because of this clause.
     NoStream(ClauseId),
-    /// The service answers the request of the program.
+    /// The client acts as a service, and answers the request of the NC program.
     Host,
-    /// The service does not answer without a request.
+    /// The client acts as a service that no NC program requests, and must not write.
     IdleHost,
-    /// The client acts as the NC program and keeps its order of accesses.
+    /// The client acts as the NC program, and reads and writes the variables in the specified order.
     Caller,
 }
 
@@ -155,13 +155,13 @@ pub struct Scenario {
     pub id: String,
     /// The verified behaviour, as a sentence.
     pub title: String,
-    /// The action; for `stream` the file name is appended.
+    /// The action with its arguments; for `stream`, the suite appends the file name.
     pub(super) action: String,
     pub(super) asks: Vec<ExpectedRequest>,
     pub(super) expect: ExpectedAnswer,
-    /// The rules of the client's answer.
+    /// The rules that the client's answer must satisfy; if empty, the rule of the first request.
     pub(super) rules: Vec<Rule>,
-    /// Further requirements that the answer may violate.
+    /// Further requirements that the scenario tests.
     pub(super) more: Vec<ClauseId>,
     pub(super) tamper: Option<(Function, Tamper)>,
     pub(super) refused: Vec<(usize, AdsError)>,
@@ -237,7 +237,7 @@ impl Scenario {
 
     /// The scenario as a case of the suite.
     pub fn case(&self) -> Case {
-        // A request that must not be sent has no service to judge.
+        // If the client must send no request, the requirements of frames and ports are not tested.
         let silent = matches!(self.watch, Some(RequestOrder::NoStream(_)));
         let mut requirements =
             if silent { Vec::new() } else { vec![ADS_5.as_str(), GEN_4.as_str()] };

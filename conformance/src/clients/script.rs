@@ -12,7 +12,7 @@ use super::literal::Literal;
 use super::tamper::{SendStep, Tamper};
 use crate::simulator::{Cnc, DATA_MAX, NET_ID};
 
-/// Number of reads of RESPONSE_STATE after which the simulated host writes its response.
+/// The number of the read of RESPONSE_STATE after which the simulated service writes its response.
 const POLLS: usize = 2;
 
 /// The replies of the CNC in a scenario.
@@ -20,14 +20,14 @@ const POLLS: usize = 2;
 pub(super) struct ScenarioScript {
     /// The CNC whose replies the script changes.
     pub(super) cnc: Cnc,
-    /// The change to the replies of a function.
+    /// The function whose replies are changed, and the change.
     pub(super) tamper: Option<(Function, Tamper)>,
-    /// The writes to the streaming object that are rejected: their number, counted from 0, and the
-    /// error.
+    /// The writes to the program stream that the script rejects: the number of the write, counted
+    /// from 0, and the error.
     pub(super) refused: Vec<(usize, AdsError)>,
-    /// A printed request with its reply.
+    /// A request printed in the manuals, to which the script replies with the printed bytes.
     pub(super) literal: Option<Literal>,
-    /// The response of the simulated host of the Service Interface.
+    /// The response of the simulated service; `None` if no service responds.
     pub(super) response: Option<&'static str>,
     looks: Option<usize>,
     streamed: usize,
@@ -35,7 +35,7 @@ pub(super) struct ScenarioScript {
 }
 
 impl ScenarioScript {
-    /// A script with a CNC whose replies are not changed.
+    /// A script that sends the replies of the CNC unchanged.
     pub(super) const fn new(cnc: Cnc) -> Self {
         Self {
             cnc,
@@ -49,7 +49,7 @@ impl ScenarioScript {
         }
     }
 
-    /// The steps that send the reply to a frame.
+    /// The steps that send the reply to a frame on this connection.
     pub(super) fn answer(
         &mut self,
         connection: usize,
@@ -80,7 +80,8 @@ impl ScenarioScript {
         })
     }
 
-    /// The error of a write to the streaming object, if the script rejects it.
+    /// The error with which the script rejects a request; `None` unless the request is a write to the
+    /// program stream that must be rejected. Counts these writes.
     fn refusal(&mut self, asked: &Request<'_>) -> Option<AdsError> {
         let Request::WriteProgramStream(_) = asked else { return None };
         let number = self.streamed;
@@ -88,7 +89,8 @@ impl ScenarioScript {
         self.refused.iter().find(|(refused, _)| *refused == number).map(|(_, error)| *error)
     }
 
-    /// Lets the simulated host answer the client's request after a while.
+    /// Simulates the service: after [`POLLS`] reads of RESPONSE_STATE, it writes the response to the
+    /// client's request.
     fn host(&mut self, asked: &Request<'_>) {
         let Some(response) = self.response else { return };
         match self.service_variable(asked) {
@@ -138,7 +140,7 @@ impl ScenarioScript {
         Handle::decode(&self.ask(asked)?).ok()
     }
 
-    /// Writes a variable of the Service Interface for the other side.
+    /// Writes a variable of the Service Interface of channel 1 as the partner of the client.
     pub(super) fn write_variable(&self, variable: ServiceVariable, value: &[u8]) {
         let write = Channel::new(1)
             .ok()
@@ -146,7 +148,7 @@ impl ScenarioScript {
         let _written = write.and_then(|write| self.ask(write));
     }
 
-    /// The unchanged reply of a function.
+    /// The unchanged reply of the CNC to a request; `None` if the CNC rejects the request.
     pub(super) fn ask<'a>(&self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];
@@ -155,7 +157,7 @@ impl ScenarioScript {
     }
 }
 
-/// A Write reply with an error that the CNC itself would not return.
+/// A Write reply with an error that the script returns instead of the simulated CNC.
 fn write_reply(asked: AmsHeader, result: AdsError) -> Option<Vec<u8>> {
     let data = WriteReply { result }.encode_to_vec().ok()?;
     FrameRef::new(asked.response(), &data).ok()?.encode_to_vec().ok()

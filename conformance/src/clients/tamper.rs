@@ -1,4 +1,4 @@
-//! Changes to a reply: to its bytes, or to how they are sent.
+//! Changes to a reply: to its bytes, or to the way in which they are sent.
 
 use std::time::Duration;
 
@@ -12,51 +12,51 @@ use crate::wire_service::{decode_reply, encode_reply, service_of};
 /// How a reply is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tamper {
-    /// One byte at a time.
+    /// Sends one byte at a time.
     Bytewise,
-    /// In two pieces with a pause in between; the first has this size.
+    /// Sends two pieces with a pause between them; the first piece has this many bytes.
     Pieces(usize),
-    /// After a reply with another invoke ID and other data, in one segment.
+    /// Sends a reply with another invoke ID and other data before the reply, in one segment.
     Foreign,
-    /// The same reply twice, in one segment.
+    /// Sends the reply twice, in one segment.
     Twice,
-    /// After the reply to the previous request, in one segment.
+    /// Sends the reply to the previous request once more before the reply, in one segment.
     Late,
-    /// Only a reply with another invoke ID; the connection is closed later.
+    /// Sends only a reply with another invoke ID and other data, and closes the connection after a pause.
     OtherInvokeId,
-    /// With a wrong length field; the connection is closed later.
+    /// Sends a reply with a wrong length field, and closes the connection after a pause.
     Length(LengthField, WrongLength),
-    /// With another command in its header.
+    /// Sends a reply with another command in its AMS header, and closes the connection after a pause.
     OtherCommand,
-    /// With the flags of a request.
+    /// Sends a reply with the state flags of a request, and closes the connection after a pause.
     Request,
-    /// An AMS error without payload.
+    /// Sends an error in the AMS header, without service data.
     AmsError,
-    /// An error result without length and data.
+    /// Sends an error in the result field, without the length field and the data.
     BareResult,
-    /// An error result with the length 0.
+    /// Sends an error in the result field, with the length 0 and no data.
     EmptyResult,
-    /// An error result before the data of a success.
+    /// Sends an error in the result field, but the length and data of the successful reply.
     ResultWithData,
-    /// The connection is closed after this many bytes of the reply.
+    /// Closes the connection after this many bytes of the reply.
     CutAt(usize),
-    /// The connection is closed before the last byte.
+    /// Closes the connection before the last byte of the reply.
     CutEnd,
-    /// No reply.
+    /// Sends no reply.
     Silence,
-    /// This many additional bytes of data; all lengths match.
+    /// Appends this many bytes to the data; all length fields match.
     More(usize),
-    /// This many bytes of data fewer; all lengths match.
+    /// Removes this many bytes from the end of the data; all length fields match.
     Less(usize),
-    /// Only this many bytes of data.
+    /// Sends only this many bytes of the data; all length fields match.
     Only(usize),
-    /// The name that begins at this offset is padded with NULs to 256 bytes.
+    /// Pads the name that begins at this offset of the data with NULs to 256 bytes.
     Padded(usize),
-    /// Without the NUL at the end.
+    /// Removes the NUL at the end of the data.
     Open,
-    /// Other bytes in the data, starting at this offset.
+    /// Replaces the four bytes of the data at this offset.
     Patch(usize, [u8; 4]),
-    /// At most this many descriptors.
+    /// Sends at most this many descriptors of a list.
     Descriptors(usize),
 }
 
@@ -92,14 +92,15 @@ pub(super) enum SendStep {
     Close,
 }
 
-/// Long enough for a client to read the bytes sent before.
+/// A pause that is long enough for a client to read the bytes sent before it.
 const PAUSE: Duration = Duration::from_millis(40);
 
-/// The AMS error of a router for an unknown port.
+/// The error in the AMS header with which an AMS router reports an unknown port.
 const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
 
 impl Tamper {
-    /// The steps that send a changed reply. `before` is the last reply to another request.
+    /// The steps that send the changed reply. `before` is the reply to the previous request on the same
+    /// connection.
     pub(super) fn steps(self, reply: &[u8], before: Option<&[u8]>) -> Vec<SendStep> {
         let send = |bytes: Vec<u8>| vec![SendStep::Send(bytes)];
         let then_close =
@@ -185,7 +186,7 @@ struct ReplyParts {
 
 enum ReplyBody {
     None,
-    /// Result and data; a Write has no data.
+    /// The result and the data; `None` instead of data for a Write.
     Result(AdsError, Option<Vec<u8>>),
 }
 
@@ -195,7 +196,7 @@ fn rebuilt(reply: &[u8], change: impl FnOnce(&mut ReplyParts)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
         let header = frame.header();
-        // The reply to any other command is a result, like that of a Write.
+        // The reply to any other command starts with a result, like the reply to a Write.
         let service = service_of(header.command).unwrap_or(Service::Write);
         let (result, data) = decode_reply(service, frame.data()).ok()?;
         let body = ReplyBody::Result(result, data.map(<[u8]>::to_vec));
@@ -224,7 +225,7 @@ fn with_data(reply: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
     })
 }
 
-/// A reply with an unknown invoke ID, and other data of the same length.
+/// The reply with an invoke ID that the client did not use, and other data of the same length.
 fn foreign(reply: &[u8]) -> Vec<u8> {
     let other = with_data(reply, |data| {
         for byte in data.iter_mut() {

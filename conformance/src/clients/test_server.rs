@@ -1,5 +1,5 @@
-//! The server to which a client under test connects: it records all frames and can change its
-//! replies.
+//! The CNC to which a client under test connects: a TCP server that records all frames and can change
+//! the replies of the simulated CNC.
 
 use std::collections::HashMap;
 use std::io::{self, Read as _, Write as _};
@@ -19,25 +19,27 @@ use crate::net;
 use crate::simulator::{FRAME_MAX, NET_ID};
 use crate::text::plural;
 
-/// Maximum number of connections in a scenario; further ones are counted and closed.
+/// Maximum number of connections in a scenario; the server counts and closes further connections.
 pub(super) const CONNECTIONS_MAX: usize = 64;
 
-/// Maximum number of recorded bytes of requests and replies; [`TURN`] is the overhead of a request.
+/// Maximum number of recorded bytes of requests and replies, where each request counts [`TURN`] bytes
+/// more than its length.
 pub(super) const RECORDED_BYTES_MAX: usize = 8 << 20;
 const TURN: usize = 128;
 
-/// How long to wait for a connection to end after the client has closed it.
+/// How long to wait for the client to close its connections at the end of a scenario, and how long no
+/// connection must be open until [`TestServer::watch`] returns.
 const LINGER: Duration = Duration::from_millis(200);
 
-/// A request and all bytes sent in return.
+/// A request and all bytes that the server sent as its reply.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct RecordedExchange {
     pub(super) connection: usize,
     /// The request; the last one of a connection may be incomplete.
     pub(super) request: Vec<u8>,
-    /// All bytes sent in return.
+    /// All bytes that the server sent as the reply.
     pub(super) sent: Vec<u8>,
-    /// Why the bytes are not a frame, if they are not.
+    /// Why the bytes of the request are not a frame; `None` if they are.
     pub(super) fault: Option<String>,
 }
 
@@ -45,10 +47,10 @@ pub(super) struct RecordedExchange {
 #[derive(Debug, Default)]
 struct Recording {
     kept: Vec<RecordedExchange>,
-    /// Number of exchanges that were already taken to be judged.
+    /// Number of exchanges that were removed from `kept` to be judged.
     taken: usize,
     bytes: usize,
-    /// Number of exchanges that were not recorded.
+    /// Number of exchanges that were not recorded because the limit was exceeded.
     beyond: usize,
 }
 
@@ -80,7 +82,7 @@ impl Recording {
         exchanges
     }
 
-    /// Takes all recorded exchanges in their order.
+    /// Removes all recorded exchanges and returns them in their order.
     fn take(&mut self) -> Vec<RecordedExchange> {
         let exchanges = std::mem::take(&mut self.kept);
         self.taken = self.taken.saturating_add(exchanges.len());
@@ -89,17 +91,17 @@ impl Recording {
     }
 }
 
-/// The requests and connections that exceeded the limits.
+/// The number of requests and connections that exceeded the limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Overflow {
-    /// Number of requests that were answered, but not judged.
+    /// Number of requests to which the server replied, but which are not judged.
     pub(super) requests: usize,
-    /// Number of connections that were closed immediately.
+    /// Number of connections that the server closed immediately.
     pub(super) connections: usize,
 }
 
 impl Overflow {
-    /// Why the case cannot pass.
+    /// Why the case is inconclusive; `None` if no limit was exceeded.
     pub(super) fn stop(self) -> Option<Stop> {
         (self != Self::default()).then(|| Stop::Inconclusive(self.to_string()))
     }
@@ -133,7 +135,7 @@ impl std::fmt::Display for Overflow {
     }
 }
 
-/// A listener that runs one scenario after another.
+/// The TCP server, which runs one scenario after another.
 #[derive(Debug)]
 pub struct TestServer {
     acceptor: net::Acceptor,
@@ -141,16 +143,16 @@ pub struct TestServer {
     capture: Option<Mutex<ClientCapture>>,
 }
 
-/// A capture of connections, one after another.
+/// The capture of the traffic with clients, one connection after another.
 #[derive(Debug)]
 struct ClientCapture {
     tap: Box<dyn Tap>,
-    /// The open connection: client, server.
+    /// The addresses of client and server of the connection that is open in the capture.
     open: Option<(SocketAddr, SocketAddr)>,
 }
 
 impl ClientCapture {
-    /// Ends the open connection and begins the next one, if it is another.
+    /// Ends the open connection in the capture and begins the connection `next`, if they differ.
     fn switch(&mut self, next: Option<(SocketAddr, SocketAddr)>) {
         if self.open == next {
             return;
@@ -170,9 +172,9 @@ impl ClientCapture {
 struct TestRun {
     script: Mutex<ScenarioScript>,
     exchanges: Mutex<Recording>,
-    /// Number of open connections, and number of all connections so far.
+    /// All connections so far, so that the end of the scenario can close them.
     streams: Mutex<Vec<TcpStream>>,
-    /// The address of the client, by the number of the connection.
+    /// The address of the client for each connection number.
     peers: Mutex<HashMap<usize, SocketAddr>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
     count: AtomicUsize,
@@ -190,15 +192,15 @@ impl TestServer {
         let run: Arc<Mutex<Option<Arc<TestRun>>>> = Arc::default();
         let playing = Arc::clone(&run);
         let acceptor = net::Acceptor::start("clients", net::listen(addr)?, move |stream, _| {
-            // A connection is closed if no scenario is running. The lock is held until the
-            // connection is registered with its scenario, because a scenario may end at any time.
+            // If no scenario is running, the connection is dropped and so closed. The lock is held until
+            // the connection is registered with its scenario, because a scenario may end at any time.
             let run = lock(&playing);
             let _gone = run.clone().map(|run| run.connect(stream));
         })?;
         Ok(Self { acceptor, run, capture: None })
     }
 
-    /// Captures all connections, one after another.
+    /// Writes the traffic of all connections to a capture.
     #[must_use]
     pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
         self.capture = Some(Mutex::new(ClientCapture { tap: capture.into(), open: None }));
@@ -269,8 +271,8 @@ impl TestServer {
         }
     }
 
-    /// Takes the requests recorded since the last call, except the last one, whose reply may not
-    /// have been sent yet.
+    /// Removes and returns the exchanges recorded since the last call, except the last exchange, whose
+    /// reply the server may not have sent yet.
     pub(super) fn exchanges(&self) -> Vec<RecordedExchange> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
         let exchanges = lock(&run.exchanges).take_answered();
@@ -278,12 +280,12 @@ impl TestServer {
         exchanges
     }
 
-    /// Ends the scenario and closes all connections.
+    /// Ends the scenario and closes all connections. The script is `None` if it is still in use.
     pub(super) fn end(&self) -> (Vec<RecordedExchange>, Overflow, Option<ScenarioScript>) {
         let Some(run) = lock(&self.run).take() else {
             return (Vec::new(), Overflow::default(), None);
         };
-        // Bytes that a client sent just before it closed the connection may still arrive.
+        // Waits until the server has read the bytes that a client sent before it closed a connection.
         drop(run.closed.wait_timeout_while(lock(&run.open), LINGER, |open| *open > 0));
         for stream in lock(&run.streams).iter() {
             let _closed = stream.shutdown(Shutdown::Both);
@@ -385,15 +387,15 @@ impl TestRun {
         }
     }
 
-    /// Answers a frame. Returns whether the connection stays open.
+    /// Replies to a frame. Returns whether the connection stays open.
     fn exchange(
         &self,
         connection: usize,
         request: Vec<u8>,
         mut stream: &TcpStream,
     ) -> io::Result<bool> {
-        // Recorded before it is answered, because the client may close the connection after the
-        // answer.
+        // The request is recorded before the reply is sent, because the scenario may end as soon as
+        // the client has received the reply.
         let place = self.record(RecordedExchange {
             connection,
             request: request.clone(),
@@ -432,7 +434,8 @@ impl TestRun {
     }
 }
 
-/// The length of a frame according to its header, without the codec, which judges the frame later.
+/// The length of a frame according to its AMS/TCP header; `None` if the header is incomplete. It is
+/// read without the codec, which judges the frame later.
 fn frame_len(received: &[u8]) -> Option<usize> {
     let length = received.get(2..6)?.try_into().ok()?;
     Some(usize::try_from(u32::from_le_bytes(length)).unwrap_or(usize::MAX).saturating_add(6))

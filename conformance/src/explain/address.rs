@@ -11,7 +11,7 @@ use super::group::describe;
 use super::model::{ExplainedAddress, ExplainedStream, FunctionReport, ServiceAddress};
 use super::part;
 use crate::edition::Feature;
-use crate::values::ValueFormat;
+use crate::value_format::ValueFormat;
 
 /// Data of a service at an address.
 pub(super) fn of_place(

@@ -14,7 +14,7 @@ use super::codes;
 use super::model::{ExplainedFault, ExplainedStream, ServiceAddress};
 use super::part;
 use crate::text::plural;
-use crate::values::ValueFormat;
+use crate::value_format::ValueFormat;
 use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// Command, index group and offset of requests, by source, target and invoke ID.

@@ -35,7 +35,7 @@ mod typed;
 mod value;
 
 pub use crate::text::hex::{HexError, parse_hex};
-pub use crate::values::{UnknownType, ValueFormat, type_by_name};
+pub use crate::value_format::{UnknownType, ValueFormat, type_by_name};
 pub(crate) use codes::command as command_name;
 pub use frame::looks_like_frame;
 pub use group::describe;

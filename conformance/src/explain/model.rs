@@ -9,9 +9,9 @@ use ads_cnc_vectors::requirement;
 use serde::Serialize;
 
 use crate::codec::class;
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::text::hex::spaced;
-use crate::values::ValueFormat;
+use crate::value_format::ValueFormat;
 
 /// The meaning of the bytes, and the types of values in them.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use ads_cnc::layout::{Segment, Stream};
 use super::model::{ExplainedFault, ExplainedStream, size};
 use super::nc;
 use super::value;
-use crate::values::ValueFormat;
+use crate::value_format::ValueFormat;
 
 /// Explains a stream that begins at `at` of the input.
 pub(super) fn of_stream(

@@ -52,7 +52,7 @@ fn place(item: u32, dimensions: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::values::type_by_name;
+    use crate::value_format::type_by_name;
 
     #[test]
     fn the_last_index_changes_fastest() {

@@ -10,7 +10,7 @@ use super::codes::{self, number, quoted, text};
 use super::model::{ExplainedFault, ExplainedField, ExplainedStream, size};
 use super::typed;
 use crate::text::plural;
-use crate::values::ValueFormat;
+use crate::value_format::ValueFormat;
 
 /// Maximum length of a value of unknown type that is shown as every type of its size.
 const GUESSED: usize = 8;

@@ -56,7 +56,8 @@ impl FieldChange {
 impl FieldDefect {
     /// The defects of every stream that is sent on its own.
     ///
-    /// A list of descriptors has no own defects: a defect of the descriptor changes each record.
+    /// `Stream::ObjectDescriptors` has no defects of its own: a defect of `Stream::ObjectDescriptor`
+    /// changes each record of the list.
     pub fn all() -> Vec<Self> {
         let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);
         streams.flat_map(Self::of_stream).collect()
@@ -82,7 +83,7 @@ impl FieldDefect {
         Stream::all().flat_map(Self::of_stream).find(|defect| defect.id == id)
     }
 
-    /// Whether the field belongs to this stream, or to the records in it.
+    /// Whether the field belongs to this stream, or to the records that this stream contains.
     pub fn touches(&self, stream: Stream) -> bool {
         self.stream == stream || stream == self.sequence()
     }
@@ -91,7 +92,7 @@ impl FieldDefect {
     /// the walk over the stream does not reach are not changed.
     pub fn apply(&self, bytes: &[u8]) -> Vec<u8> {
         let mut places = Vec::new();
-        // The walk ends at a fault; the fields before it are changed nevertheless.
+        // The walk ends at the first invalid field; the fields before that field are changed nevertheless.
         let _reached = self.sequence().walk(bytes, |segment: Segment<'_>| {
             if segment.field.name() == self.field.name() {
                 let start = usize::try_from(segment.offset).unwrap_or(usize::MAX);
@@ -107,8 +108,8 @@ impl FieldDefect {
         changed
     }
 
-    /// The stream of several such records, for the stream of one record, so that the same walk
-    /// serves both.
+    /// The stream whose walk finds the field: `Stream::ObjectDescriptors` for a field of one descriptor,
+    /// because a single descriptor is a list with one record; otherwise the stream of the defect.
     fn sequence(&self) -> Stream {
         match self.stream {
             Stream::ObjectDescriptor => Stream::ObjectDescriptors,
@@ -133,8 +134,8 @@ impl fmt::Display for FieldDefect {
 mod tests {
     use super::*;
 
-    /// The printed description with another handle, because the printed one is the same in reverse
-    /// byte order.
+    /// The description printed in the manual, but with another handle, because the printed handle is
+    /// the same in reverse byte order.
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 

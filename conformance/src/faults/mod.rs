@@ -1,8 +1,8 @@
 //! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
-//! They are middleware around the codec and the simulated CNC, or give the CNC another model or
-//! policy. They test the suite: with a defect, a requirement that it violates must fail; with a
-//! valid variant, none may fail.
+//! A seed is a defect or a variant: middleware around the codec or the simulated CNC, or another data
+//! model or policy of the CNC. Seeds test the suite: with a defect, at least one of the requirements
+//! that the defect violates must fail; with a valid variant, no requirement may fail.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::{self, SeedKind};
@@ -44,9 +44,10 @@ pub fn by_id(id: &str) -> Option<&'static Seed> {
     all().iter().find(|seed| seed.id == id)
 }
 
-/// Requirements of level must that no seed violates, with the reason.
+/// The requirements of level *must* that no defect violates, each with the reason.
 ///
-/// [Defects of a client](crate::clients::defects) violate the requirements that concern only clients.
+/// Requirements that concern only clients are not in this list:
+/// [defects of a client](crate::clients::defects) violate them.
 pub const fn without() -> &'static [(ClauseId, &'static str)] {
     &[
         (

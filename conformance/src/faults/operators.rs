@@ -1,5 +1,5 @@
-//! Generated defects of one function: each operator changes the correct reply, or that to another
-//! request.
+//! Generated defects of one function: each operator changes the correct reply, or returns the reply to
+//! another request.
 //!
 //! ```
 //! use ads_cnc_conformance::faults;
@@ -29,11 +29,11 @@ use super::cnc::{
 };
 use super::seed::{How, Seed, SeedKind};
 
-/// A defect that any function of a certain kind can have.
+/// A defect that every function for which `applies` returns true can have.
 struct Operator {
     name: &'static str,
     what: &'static str,
-    /// The requirements that the defect violates, in addition to that of the function.
+    /// The requirements that the defect violates, in addition to the requirement of the function.
     breaks: &'static [ClauseId],
     applies: fn(&FunctionSpec) -> bool,
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
@@ -49,7 +49,7 @@ const fn operator(
     Operator { name, what, breaks, applies, answer }
 }
 
-/// The request is mistaken for another one.
+/// Defects that handle a request as another request, or reject it.
 const OF_REQUESTS: &[Operator] = &[
     operator("reject", "it is rejected", &[], |_| true, |_, _| Err(AdsError::INVALID_DATA)),
     operator(
@@ -174,7 +174,7 @@ const OF_REQUESTS: &[Operator] = &[
     ),
 ];
 
-/// The request is understood, but its reply or its execution is wrong.
+/// Defects that decode the request correctly, but reply to it or execute it wrongly.
 const OF_ANSWERS: &[Operator] = &[
     operator("empty", "the reply is empty", &[], has_reply, |cnc, call| {
         changed(cnc, call, Vec::clear)
@@ -302,8 +302,8 @@ const OF_ANSWERS: &[Operator] = &[
 
 /// The defects of all functions.
 pub(super) fn seeds() -> impl Iterator<Item = Seed> {
-    // Rows about streaming are handwritten: a stream may be rejected temporarily, and cannot be
-    // read back.
+    // The defects of streaming are written by hand: a CNC may reject a packet temporarily, and the
+    // suite cannot read a packet back.
     let functions = Function::ALL.iter().filter(|one| **one != Function::WriteProgramStream);
     functions.flat_map(|function| {
         let of_requests = OF_REQUESTS.iter().map(|operator| (operator, function.spec().request));
@@ -321,7 +321,7 @@ fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream
     requirements.extend(streams.map(|stream| stream.layout().clause));
     requirements.extend(breaks.iter().filter(|id| concerns(**id, spec)).map(|id| id.as_str()));
     if *function == Function::ReadElementName {
-        // The name of element 0 is that of the instance.
+        // The name of element 0 is the name of the instance (SDA-4).
         requirements.push(SDA_4.as_str());
     }
     requirements.sort_unstable();
@@ -337,7 +337,7 @@ fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream
     }
 }
 
-/// Whether a requirement is about the function.
+/// Whether a requirement of an operator concerns the function.
 fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
     let area = |id: &'static str| id.split('-').next();
     match clause {
@@ -355,7 +355,7 @@ fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
     }
 }
 
-/// The ID part of a function: `describe-by-index` for `DescribeByIndex`.
+/// The part of a defect's ID that names the function: `describe-by-index` for `DescribeByIndex`.
 fn kebab(function: Function) -> String {
     let mut text = String::new();
     for letter in format!("{function:?}").chars() {

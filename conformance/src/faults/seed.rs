@@ -1,4 +1,4 @@
-//! A seeded defect, or a variant.
+//! A seeded defect, or a valid variant.
 
 use std::fmt;
 
@@ -16,16 +16,16 @@ use crate::text::named;
 pub struct Seed {
     /// The ID, which is unique.
     pub id: String,
-    /// The requirements that the defect violates, at least one of which must fail. Empty for a valid
-    /// variant.
+    /// The requirements that the defect violates; with the defect, the suite must report that at least
+    /// one of them failed. Empty for a valid variant.
     pub requirements: Vec<&'static str>,
     pub what: String,
     /// The kind: codec, CNC or valid variant.
     pub kind: SeedKind,
     /// The only edition in which the defect is detectable; `None` for both.
     pub edition: Option<Edition>,
-    /// Whether the printed examples that the defect concerns are still answered literally. A valid
-    /// variant may answer them differently.
+    /// Whether the CNC with this seed claims to reply literally as in the manuals' printed examples
+    /// (`printed_examples` of its profile). False for valid variants that reply differently.
     pub printed: bool,
     pub(super) how: How,
 }
@@ -33,7 +33,7 @@ pub struct Seed {
 /// The kind of a seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SeedKind {
-    /// A defect of a codec. A CNC can also have a field defect.
+    /// A defect of a codec. Field defects are of this kind, but a simulated CNC can have them too.
     Codec,
     Cnc,
     /// A valid variant of a CNC.
@@ -51,11 +51,11 @@ pub(super) enum How {
 
 impl From<FieldDefect> for Seed {
     fn from(defect: FieldDefect) -> Self {
-        // The requirement of the field, and that of its offset in the stream.
+        // The requirement of the stream, which specifies the offset of the field, and that of the field.
         let layout = defect.stream.layout();
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));
-        // The content of an element is the same stream.
+        // The contents of COM objects and the contents of elements (SDA-4) are the same stream.
         if defect.stream == Stream::Content {
             requirements.push(SDA_4.as_str());
         }
@@ -98,7 +98,7 @@ impl Seed {
         }
     }
 
-    /// The defect of a codec's answers; `None` for any other seed.
+    /// The defect that changes a codec's answers in the testee protocol; `None` for any other seed.
     pub(crate) const fn of_codec(&self) -> Option<CodecFault> {
         match self.how {
             How::Codec(fault) => Some(fault),
@@ -111,7 +111,7 @@ impl Seed {
         matches!(self.how, How::Field(_) | How::Cnc(_))
     }
 
-    /// The model of a CNC with other channels, variables and objects.
+    /// The data model that this variant uses instead of the default model; `None` if it uses the default.
     pub(crate) const fn own_model(&self) -> Option<&'static str> {
         match self.how {
             How::Cnc(CncFault::Model(model)) => Some(model),

@@ -1,4 +1,5 @@
-//! Valid variants of a CNC: different from the simulated CNC, but permitted.
+//! Valid variants of a CNC: they behave differently from the simulated CNC, in ways that the manuals
+//! permit.
 
 mod elements;
 mod models;
@@ -17,7 +18,8 @@ use super::cnc::{
 };
 use row::{sent, unprinted};
 
-/// Changes the handles in replies, and changes those in requests back.
+/// Changes the handles in replies with `other`, and changes the handles in requests back with the same
+/// function, which must be its own inverse.
 fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     let spec = function(call).map(Function::spec);
     match spec.map(|spec| (first(spec.request), first(spec.reply))) {
@@ -32,7 +34,7 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
     }
 }
 
-/// Pads the text at the end of a reply, which starts at an offset, with NULs to a length.
+/// Pads the last text of a reply, which starts at the offset `from`, with NULs to `len` bytes.
 fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     let end = from.saturating_add(len).max(bytes.len());
     bytes.resize(end, 0);

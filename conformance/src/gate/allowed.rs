@@ -1,4 +1,4 @@
-//! The allowed writes: target, expiry and entries.
+//! The contents of a file of `--allow-write`: target, expiry and allowed writes.
 
 use std::net::IpAddr;
 
@@ -9,9 +9,9 @@ use super::{Entry, Moment, Reason};
 /// The default AMS NetId of the simulated CNC.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
-/// The allowed writes: target, values and expiry.
+/// The contents of a file of `--allow-write`: the target, the values that may be written, and the expiry.
 ///
-/// In a file, every table may be repeated; channels and axes have the numbers of the CNC:
+/// Every table of the file may be repeated. Channels and axes have the numbers that the CNC uses:
 ///
 /// ```
 /// let file = r#"
@@ -66,8 +66,8 @@ pub struct Allowed {
 }
 
 impl Allowed {
-    /// Checks whether the file applies to this target now; `address` is the address of the
-    /// connection, if known.
+    /// Checks whether the file applies to this target now. `address` is the IP address of the
+    /// connection, if it is known.
     ///
     /// # Errors
     /// The first reason why the file does not apply.
@@ -83,7 +83,8 @@ impl Allowed {
         if self.address.is_some() && self.address != address {
             return Err(Reason::OtherAddress { allowed: self.address, address });
         }
-        // Each router uses this NetId for its own machine, so on another machine it means that one.
+        // Every AMS router uses this NetId for its own machine, so over a connection to another machine
+        // the NetId means that machine.
         if target == NET_ID && !address.is_some_and(|address| address.is_loopback()) {
             return Err(Reason::LocalNetId(address));
         }

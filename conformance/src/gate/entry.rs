@@ -1,4 +1,4 @@
-//! An allowed write.
+//! An entry of a file of `--allow-write`.
 
 use std::fmt;
 
@@ -7,15 +7,15 @@ use ads_cnc::operation::{ObjectList, Operation as _, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString};
 
-/// An allowed write. `Display` formats it as a TOML table of the file.
+/// A value that may be written. `Display` formats the entry as a TOML table of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {
     /// A variable by its name, or by a handle that the device returned for this name.
     Variable {
         channel: Channel,
-        /// The axis, for the axis interface.
+        /// The axis, if the write uses the axis interface.
         axis: Option<ChannelAxis>,
-        /// The name. Without an index, it includes all elements.
+        /// The name of the variable. A name without an index allows writes to all elements.
         name: CncString,
     },
     /// The content of a COM object or of an element, by its address.
@@ -24,7 +24,7 @@ pub enum Entry {
     Object { list: AllowedList, name: CncString },
     /// NC programs for a channel.
     Stream(Channel),
-    /// The variables that a host of the Service Interface writes in a channel.
+    /// The variables of the Service Interface that a service writes in a channel.
     Service(Channel),
 }
 
@@ -39,7 +39,7 @@ pub enum AllowedList {
 }
 
 impl AllowedList {
-    /// The list, with addressing by number or by index as for the channel.
+    /// The list of objects, addressed by number or by rank like the channel of the entry.
     pub fn list(self) -> ObjectList {
         match self {
             Self::Platform => ObjectList::PLATFORM,
@@ -88,7 +88,7 @@ impl Entry {
     }
 }
 
-/// The variables of the Service Interface that the host writes; the NC program writes the others.
+/// The variables of the Service Interface that a service writes; the NC program writes the others.
 const SERVICE: [ServiceVariable; 3] =
     [ServiceVariable::RequestState, ServiceVariable::ResponseState, ServiceVariable::Response];
 
@@ -149,7 +149,7 @@ fn at(channel: Channel) -> String {
     format!("{key} = {}", channel.number())
 }
 
-/// A basic string of TOML.
+/// The name as a basic string of TOML, in quotes and escaped.
 fn quoted(name: &CncString) -> String {
     let escaped = name.as_cnc_str().chars().flat_map(|character| match character {
         '"' | '\\' => vec!['\\', character],

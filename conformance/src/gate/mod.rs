@@ -1,15 +1,15 @@
-//! Decides which frames may be sent to a target. A frame may move a machine, so every frame that is
-//! not allowed is rejected.
+//! Decides which frames may be sent to a target. A frame may move a machine, so the gate rejects every
+//! frame that is not explicitly allowed.
 //!
 //! [`Wire::send`](crate::net::Wire::send) sends a frame only with the [`Permit`] that
-//! [`Gate::check`] returns for its bytes. By default, the gate allows the queries of the function
-//! table at their documented port, ReadDeviceInfo and ReadState. A write needs an entry in a file
-//! with the value, the target and an expiry: see [`Allowed`].
+//! [`Gate::check`] returns for the bytes of the frame. By default, the gate allows the queries of the
+//! function table at their documented port, ReadDeviceInfo and ReadState. A write needs a file that
+//! names the value, the target and an expiry: see [`Allowed`].
 //!
-//! A file contains names, but a write contains a handle or an address, and only the device knows
-//! which name belongs to it. Therefore, the gate observes the names in replies. It rejects a write by
-//! a handle or address for which any reply contains a name that is not in the file: see
-//! [`Ambiguity`].
+//! The file contains names, but a write may contain a handle or an address instead, and only the device
+//! knows the name that belongs to this handle or address. Therefore, the gate records the names in
+//! replies. It rejects a write by a handle or an address if any reply contained a name for the handle or
+//! the address that is not in the file: see [`Ambiguity`].
 //!
 //! ```
 //! use ads_cnc::Encode;
@@ -51,7 +51,7 @@ use observed::Observed;
 /// Checks every frame before it is sent.
 #[derive(Clone, Debug, Default)]
 pub struct Gate {
-    /// Whether malformed frames are allowed if the file permits them, too.
+    /// Whether the user allows malformed frames; the file must permit them, too.
     malformed: bool,
     /// The address of a simulated CNC in this process, to which every write is allowed.
     simulated: Option<SocketAddr>,
@@ -61,7 +61,7 @@ pub struct Gate {
     observed: Observed,
 }
 
-/// The permission to send one frame. Only a gate creates it.
+/// The permission to send one frame. Only a gate can create a permit.
 #[derive(Clone, Copy, Debug)]
 pub struct Permit<'f> {
     frame: &'f [u8],
@@ -93,47 +93,48 @@ impl Gate {
         Self::default()
     }
 
-    /// Creates a gate that allows every request except those that are never sent, but only to this
-    /// address of a [`Server`](crate::simulator::Server) of this process, see [`Gate::of_server`].
+    /// Creates a gate that allows every request except those that this program never sends, such as
+    /// WriteControl, but only to this address of a [`Server`](crate::simulator::Server) of this process,
+    /// see [`Gate::of_server`].
     pub(crate) fn of_address(simulated: SocketAddr) -> Self {
         Self { simulated: Some(simulated), ..Self::default() }
     }
 
-    /// The only address that the gate allows; `None` if it is not restricted.
+    /// The only address to which the gate allows requests; `None` if it does not restrict the address.
     pub const fn simulated(&self) -> Option<SocketAddr> {
         self.simulated
     }
 
-    /// Whether the gate may allow any write.
+    /// Whether the gate may allow at least one write.
     pub const fn may_let_writes_pass(&self) -> bool {
         self.simulated.is_some() || self.allowed.is_some()
     }
 
-    /// The content of the file; `None` without a file.
+    /// The contents of the file of `--allow-write`; `None` without a file.
     pub const fn allowed(&self) -> Option<&Allowed> {
         self.allowed.as_ref()
     }
 
-    /// Also allows the writes of a file.
+    /// Also allows the writes that a file names; `None` removes the file.
     #[must_use]
     pub fn with_allowed(self, allowed: Option<Allowed>) -> Self {
         Self { allowed, ..self }
     }
 
-    /// Also allows malformed requests, to the target for which a file permits them.
+    /// Also allows malformed requests to the target for which the file permits them.
     /// [`Client`](crate::client::Client) accepts such a gate only for a CNC on this machine.
     #[must_use]
     pub fn and_malformed(self) -> Self {
         Self { malformed: true, ..self }
     }
 
-    /// Sets the IP address to which the frames are sent; a file may require an address.
+    /// Sets the IP address to which the frames are sent; the file may require an address.
     #[must_use]
     pub fn to_address(self, peer: IpAddr) -> Self {
         Self { peer: Some(peer.to_canonical()), ..self }
     }
 
-    /// Whether malformed frames may be allowed; a CNC may execute some of them as writes.
+    /// Whether the gate may allow malformed frames. A CNC may execute some malformed frames as writes.
     pub fn lets_malformed_pass(&self) -> bool {
         let permits = |allowed: &Allowed| allowed.malformed;
         self.simulated.is_some() || self.malformed && self.allowed.as_ref().is_some_and(permits)
@@ -142,13 +143,13 @@ impl Gate {
     /// Checks whether the file applies to this target now.
     ///
     /// # Errors
-    /// The reason why the file does not apply; without a file, never.
+    /// The reason why the file does not apply. Without a file, no error is returned.
     pub fn check_target(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
         let Some(allowed) = &self.allowed else { return Ok(()) };
         allowed.check_target(target, self.peer, now).map_err(Refusal::from)
     }
 
-    /// Checks whether malformed requests may be sent to this target now.
+    /// Checks whether the file permits malformed requests to this target now.
     pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
         match &self.allowed {
             _ if self.simulated.is_some() => Ok(()),
@@ -157,8 +158,8 @@ impl Gate {
         }
     }
 
-    /// Checks whether this frame may be sent now. The result depends only on the gate and the
-    /// arguments.
+    /// Checks whether this frame may be sent at the time `now`. The result depends only on the gate and
+    /// the arguments.
     ///
     /// # Errors
     /// The reason why the frame must not be sent, and the entry that would allow it.
@@ -166,7 +167,7 @@ impl Gate {
         let permit = |repeatable| Ok(Permit { frame, repeatable });
         let whole = match whole(frame) {
             Ok(whole) => whole,
-            // Without a valid header, the target is unknown.
+            // The target of bytes without a valid header is unknown, so no file can permit them.
             Err(_) if self.simulated.is_some() => return permit(false),
             Err(reason) => return Err(reason.into()),
         };
@@ -179,7 +180,8 @@ impl Gate {
             }
         };
         let header = whole.header();
-        // Check the command first, so that invalid flags do not allow one that is never sent.
+        // The command is checked before the flags: otherwise a command that is never sent would pass
+        // as a malformed request if its flags are invalid.
         let repeatable = match header.command {
             Command::WRITE_CONTROL
             | Command::ADD_NOTIFICATION
@@ -205,15 +207,16 @@ impl Gate {
         permit(repeatable)
     }
 
-    /// Records the handles and object addresses in a reply, to check later whether a write by a
-    /// handle or an address affects a name in the file.
+    /// Records the handles and object addresses in a reply. With them, the gate checks whether a later
+    /// write by a handle or an address affects only names in the file.
     pub fn observe(&mut self, call: &Call<'_>, reply: &[u8]) {
         if let Some(allowed) = &self.allowed {
             self.observed.observe(allowed, call, reply);
         }
     }
 
-    /// Whether a reply on this connection returned this handle.
+    /// Whether a reply contained this handle. Also true if the gate has received more names than it can
+    /// store.
     pub fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         self.observed.knows_handle(channel, handle)
     }
@@ -224,7 +227,7 @@ impl Gate {
         self.observed.forget();
     }
 
-    /// Checks a call; returns whether it is repeatable.
+    /// Checks a call; returns whether executing the call twice has the same effect as once.
     fn check_call(&self, call: &Call<'_>, to: AmsNetId, now: Moment) -> Result<bool, Refusal> {
         never(call)?;
         let lets_malformed_pass = self.lets_malformed_pass();
@@ -239,7 +242,7 @@ impl Gate {
         match spec.effect {
             Effect::Query if at_home => Ok(true),
             Effect::Query if lets_malformed_pass => self.check_malformed(to, now).map(|()| true),
-            // Entries only apply to SDA and COM.
+            // An entry allows a write only at the documented port of its function.
             _ if call.port != spec.task.port() => {
                 Err(Reason::Port(call.port, request.function()).into())
             }
@@ -248,7 +251,8 @@ impl Gate {
         }
     }
 
-    /// Checks a write against the file: target, time and entries.
+    /// Checks whether an entry of the file allows a write, and whether the file applies to the target
+    /// now.
     fn check_change(
         &self,
         request: &Request<'_>,
@@ -276,8 +280,8 @@ impl Gate {
     }
 }
 
-/// The queries of classes, which the manual documents for both SDA and GEO (section 2.2). It is only
-/// assumed that GEO serves the other functions of SDA, so they are not sent to GEO.
+/// The queries of classes, which the manual documents for both SDA and GEO (section 2.2). The other
+/// functions of SDA are not sent to GEO, because the manual does not say that GEO serves them.
 const OF_CLASSES: [Function; 8] = [
     Function::FindInstance,
     Function::CountElements,
@@ -289,9 +293,9 @@ const OF_CLASSES: [Function; 8] = [
     Function::ReadElementWriteFlag,
 ];
 
-/// Rejects calls that neither an option nor an entry allows.
+/// Rejects calls that no option and no entry can allow.
 fn never(call: &Call<'_>) -> Result<(), Refusal> {
-    // A sum command contains requests, which may be writes.
+    // A sum command contains several requests, some of which may be writes.
     if SUMS.contains(&call.index_group.get()) {
         return Err(Reason::Sum(call.index_group).into());
     }
@@ -299,8 +303,8 @@ fn never(call: &Call<'_>) -> Result<(), Refusal> {
     let stream = call.index_offset == streaming::INDEX_OFFSET
         && com.access == Access::Element
         && com.table == ComTable::Channel;
-    // Channel 0, the platform, may have the same stream as channel 1. Reads of the stream, and
-    // writes at ports other than that of COM, are not documented.
+    // The only documented access to a program stream is a write to a channel at the port of COM. A
+    // write to instance 0, the platform, may reach the stream of channel 1.
     let documented =
         call.service == Service::Write && com.instance != 0 && call.port == AmsPort::COM;
     if stream && !documented { Err(Reason::Stream.into()) } else { Ok(()) }

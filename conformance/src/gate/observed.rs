@@ -1,4 +1,4 @@
-//! Observes the names of handles and object addresses in replies.
+//! Records the names that replies contain for handles and object addresses.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,33 +9,35 @@ use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 use super::refusal::OBSERVATIONS_MAX;
 use super::{Allowed, Ambiguity, Entry};
 
-/// The facts from the replies of a connection that allow or forbid writes.
+/// What the replies say about handles and object addresses; it allows or forbids writes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observed {
-    /// By channel as addressed, because a rank and a number may mean the same channel.
+    /// The names of each handle, by channel and handle. A channel by rank and the same channel by number
+    /// are different keys.
     handles: BTreeMap<(Channel, u32), HandleNames>,
-    /// The handle of each variable in the file; `None` if replies contain several.
+    /// The handle of each variable in the file; `None` if replies contained several handles.
     variables: BTreeMap<(Channel, CncString), Option<u32>>,
-    /// The lists for which the file contains an object.
+    /// The lists of objects from which the file allows an object by its name.
     lists: BTreeMap<IndexGroup, ObservedObjects>,
-    /// By address: the name of the object, and a different name in another list, if any.
+    /// For each object address: the first name that a list contained, and the first different name, if
+    /// any.
     contents: BTreeMap<(IndexGroup, IndexOffset), (CncString, Option<CncString>)>,
     kept: usize,
     full: bool,
 }
 
-/// The names of a handle.
+/// The names for which replies contained a handle.
 #[derive(Clone, Debug, Default)]
 struct HandleNames {
-    /// Names in the file.
+    /// The names that are in the file.
     allowed: BTreeMap<CncString, Sources>,
-    /// Axis and name if the handle belongs to the axis interface.
+    /// The axis and the name for which a reply of the axis interface contained the handle.
     of_axis: Option<(ChannelAxis, CncString)>,
     /// The first name that is not in the file.
     foreign: Option<CncString>,
 }
 
-/// The kinds of replies that contained a handle of a name.
+/// Which kinds of replies contained the handle for a name.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sources {
     handle_by_name: bool,
@@ -47,7 +49,7 @@ impl Sources {
     const DESCRIPTION: Self = Self { handle_by_name: false, description: true };
 }
 
-/// The part of a list of objects that was observed so far.
+/// The part of a list of objects that was recorded so far.
 #[derive(Clone, Debug, Default)]
 struct ObservedObjects {
     count: Option<u32>,
@@ -56,9 +58,9 @@ struct ObservedObjects {
 }
 
 impl Observed {
-    /// Discards the observations that allow writes; keeps foreign names.
+    /// Discards the records that allow writes; keeps the names that are not in the file.
     pub(super) fn forget(&mut self) {
-        // A variable with several handles remains forbidden.
+        // `None` means that the variable has several handles: it remains forbidden.
         self.variables.retain(|_, handle| handle.is_none());
         self.lists.clear();
         self.handles.values_mut().for_each(|named| named.allowed.clear());
@@ -67,13 +69,14 @@ impl Observed {
         self.kept = kept.into_iter().fold(0, usize::saturating_add);
     }
 
-    /// Whether a reply contained this handle; false after the limit was exceeded.
+    /// Whether a reply contained this handle; true for every handle after the limit was exceeded.
     pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         let has_names = |named: &HandleNames| !named.allowed.is_empty() || named.foreign.is_some();
         self.full || self.handles.get(&(channel, handle.0)).is_some_and(has_names)
     }
 
-    /// Checks whether a handle belongs to a variable in the file.
+    /// Whether a handle belongs only to variables in the file; false if no reply contained the
+    /// handle for such a variable.
     ///
     /// # Errors
     /// The reason why the handle may also belong to another variable.
@@ -86,7 +89,7 @@ impl Observed {
         if let Some(foreign) = &named.foreign {
             return Err(Ambiguity::Shared(foreign.clone()));
         }
-        // On the axis interface, the name of the variable does not contain the axis.
+        // In requests to the axis interface, the name of the variable does not contain the axis.
         let without_axis = |name: &CncString| {
             VariablePath::from_text(name.as_cnc_str()).and_then(|path| path.without_axis()).ok()
         };
@@ -108,8 +111,8 @@ impl Observed {
         }
     }
 
-    /// Checks whether the only object with a name in a list has this address. Only a completely read
-    /// list shows that no other object has the same name.
+    /// Whether the only object with a name in a list has this address. False until the list was read
+    /// completely, because an unread object may have the same name.
     ///
     /// # Errors
     /// The reason why another object may have this address.
@@ -146,7 +149,7 @@ impl Observed {
         }
     }
 
-    /// Checks that no list contains a second name for an address in the file.
+    /// Checks that replies contained at most one name for an address in the file.
     ///
     /// # Errors
     /// The second name.
@@ -180,7 +183,7 @@ impl Observed {
                 if is_named(allowed, op.list) =>
             {
                 let objects = self.lists.entry(op.list.index_group()).or_default();
-                // A different length means a different list.
+                // If the length has changed, the list has changed, so the recorded objects are discarded.
                 if objects.count != Some(count.0) {
                     *objects =
                         ObservedObjects { count: Some(count.0), ..ObservedObjects::default() };
@@ -193,14 +196,14 @@ impl Observed {
         }
     }
 
-    /// Counts an observation; returns whether it is within the limit.
+    /// Counts a new record; returns whether it is within the limit.
     fn has_room(&mut self) -> bool {
         self.full |= self.kept >= OBSERVATIONS_MAX;
         self.kept = self.kept.saturating_add(1);
         !self.full
     }
 
-    /// The names of a handle, to which the caller adds a name.
+    /// The names of a handle, to which the caller adds a name; `None` if the limit is exceeded.
     fn named(&mut self, (channel, handle): (Channel, Handle)) -> Option<&mut HandleNames> {
         let key = (channel, handle.0);
         let is_new = !self.handles.contains_key(&key);
@@ -217,7 +220,8 @@ impl Observed {
         name: CncStr<'_>,
         from: Sources,
     ) {
-        // A handle allows access to all elements, so an entry for one element does not allow it.
+        // A handle gives access to all elements of a variable, so an entry for one element does not
+        // allow writes by the handle.
         let whole = |entry: &Entry| match entry {
             Entry::Variable { name, .. } => !name.as_bytes().ends_with(b"]"),
             _ => true,
@@ -248,7 +252,7 @@ impl Observed {
         let asked = (axis, CncString::from(name));
         let Some(named) = self.named(key) else { return };
         let known = named.of_axis.get_or_insert_with(|| asked.clone());
-        // A handle that belongs to two axes is allowed for neither.
+        // Writes by a handle that belongs to two axes are not allowed.
         if *known != asked {
             named.foreign.get_or_insert(asked.1);
         }
@@ -262,7 +266,7 @@ impl Observed {
         all: &DescriptorsRef<'_>,
     ) {
         let is_of_list = |entry: &Entry, name: &CncString| matches!(entry, Entry::Object { list: of, name: one } if of.list() == list && one == name);
-        // Some CNCs return descriptors for indices after the last.
+        // The index is recorded, because some CNCs return descriptors for indices after the last one.
         for (object, index) in all.iter().zip(first..=u32::MAX) {
             let address = (object.index_group(), object.index_offset());
             let name = CncString::from(object.name());
@@ -300,14 +304,14 @@ impl ObservedObjects {
     }
 }
 
-/// Whether the file names an object of a list.
+/// Whether the file allows an object of this list by its name.
 fn is_named(allowed: &Allowed, asked: ObjectList) -> bool {
     let mut entries = allowed.entries.iter();
     entries.any(|entry| matches!(entry, Entry::Object { list, .. } if list.list() == asked))
 }
 
-/// Whether a content may belong to an object of the list; the number of a channel is unknown if it is
-/// addressed by rank.
+/// Whether the address of a content may belong to an object of the list. The number of a channel that is
+/// addressed by rank is unknown, so every channel number matches.
 fn is_of(list: ObjectList, group: IndexGroup) -> bool {
     let (list, Some(Group::Com(content))) = (list.parts(), group.parts()) else { return false };
     let same = list.instance == content.instance;
@@ -319,7 +323,7 @@ fn is_of(list: ObjectList, group: IndexGroup) -> bool {
 }
 
 impl Entry {
-    /// Checks whether the entry allows a request other than a query.
+    /// Whether the entry allows a request that is not a query.
     ///
     /// # Errors
     /// The reason why the write may affect a value other than that of the entry.
@@ -332,7 +336,7 @@ impl Entry {
             (Self::Object { list, name }, Request::WriteObject(op)) => {
                 observed.is_object(list.list(), name, (op.index_group(), op.index_offset()))
             }
-            // `is_variable` checks every name of the handle, independent of the entry.
+            // `is_variable` checks all names of the handle against the whole file, not only this entry.
             (Self::Variable { .. } | Self::Service(_), Request::WriteByHandle(op)) => {
                 observed.is_variable(op.channel, op.handle)
             }

@@ -11,16 +11,16 @@ use ads_cnc::{CncString, Error};
 
 use super::{Entry, Moment};
 
-/// Maximum number of handles, names and addresses that are stored. Beyond that, the gate rejects every
-/// write by handle, and every write to an object that the file allows by name, also on later
-/// connections.
+/// Maximum number of handles, names and addresses that the gate stores. If replies contain more, the gate
+/// rejects every write by handle, and every write to an object that the file allows by name, also on
+/// later connections.
 pub(super) const OBSERVATIONS_MAX: usize = 65_536;
 
 /// The rejection of a frame.
 #[derive(Clone, Debug)]
 pub struct Refusal {
     pub reason: Reason,
-    /// The entry that would allow the frame, if any.
+    /// The entry that would allow the frame; `None` if no entry would.
     pub needed: Option<Entry>,
 }
 
@@ -33,23 +33,23 @@ pub enum Reason {
     Malformed(Error),
     /// The state flags are not those of a request.
     NoRequest(StateFlags),
-    /// The port does not belong to a task.
+    /// The port is not that of GEO, SDA or COM.
     NoTask(AmsPort),
     /// The command has no data, but data follows.
     Data(Command),
-    /// The command is never sent.
+    /// This program never sends the command.
     Never(Command),
-    /// A sum command, which may contain writes.
+    /// The request is an ADS sum command, which may contain writes.
     Sum(IndexGroup),
-    /// An access to the program stream other than a write to that of a channel at the port of COM; the
-    /// effect is not documented.
+    /// The request accesses a program stream in an undocumented way: the only documented access is a
+    /// write to the stream of a channel at the port of COM.
     Stream,
-    /// Not a documented function, so the effect is unknown.
+    /// The request is not for a documented function, so its effect is unknown.
     Unknown(operation::DispatchError),
     /// The function is documented for another port, or is a write to GEO, which no entry of a file can
     /// allow.
     Port(AmsPort, Function),
-    /// The function is a write, and there is no file.
+    /// The function is a write, and the user gave no file of `--allow-write`.
     NoFile(Function, AmsNetId),
     /// The function is a write to a name that is not in the file.
     NoEntry(Function),
@@ -63,9 +63,10 @@ pub enum Reason {
     },
     /// The file is for 127.0.0.1.1.1, the local machine, but the connection is to another machine.
     LocalNetId(Option<IpAddr>),
-    /// The file has expired at this time.
+    /// The file expires at this time, which has passed or is too near.
     Expired(Moment),
-    /// The name is in the file, but the handle or the address may also belong to another name.
+    /// The name is in the file, but the handle or the address may also belong to another name, which is
+    /// not.
     Ambiguous(Function, Ambiguity),
     /// The file does not permit malformed requests.
     NoMalformed(AmsNetId),
@@ -91,13 +92,14 @@ impl Reason {
 /// The reason why a handle or an address may belong to a name that is not in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ambiguity {
-    /// The device also uses it for this name.
+    /// The device also uses the handle or the address for this name.
     Shared(CncString),
     /// The device has several handles for this name.
     Several(CncString),
-    /// Only one of HandleByName and a description returned the handle for this name.
+    /// Only one of the two required replies, HandleByName and a description, contained the handle for
+    /// this name.
     Unconfirmed(CncString),
-    /// The address of the object with this name belongs to another channel or axis.
+    /// The object with this name has an address of another channel or axis than that of the list.
     Elsewhere(CncString),
     /// The device returned more names than can be stored.
     TooMuch,
@@ -123,7 +125,7 @@ impl fmt::Display for Ambiguity {
     }
 }
 
-/// The expiry shown in advice.
+/// The expiry that advice suggests for a new file.
 fn tomorrow() -> Moment {
     Moment::now().after(Duration::from_secs(24 * 3600))
 }
@@ -133,7 +135,7 @@ impl Refusal {
         Self { reason, needed }
     }
 
-    /// Advice of one or more lines; empty if there is none.
+    /// Advice of one or more lines how to allow the frame; empty if no advice is known.
     pub fn advice(&self) -> String {
         match (&self.reason, &self.needed) {
             (Reason::NoFile(_, target), Some(entry)) => format!(
@@ -235,7 +237,7 @@ impl fmt::Display for Refusal {
                 write!(f, "no file permits malformed requests to {target}")
             }
             Reason::Expired(moment) => {
-                // A write that could not be restored in time is rejected earlier.
+                // A write is rejected before the expiry if its value could not be restored in time.
                 let verb = if Moment::now() >= *moment { "expired" } else { "expires" };
                 write!(f, "the file of --allow-write {verb} at {moment}")
             }

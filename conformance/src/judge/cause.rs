@@ -251,7 +251,8 @@ fn follow(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::{Case, CaseSubject, Evidence, Judgement};
+    use crate::evidence::Evidence;
+    use crate::judge::{Case, CaseSubject, Judgement};
 
     /// A failed check: case, clause, function, subject.
     type Failed = (&'static str, ClauseId, Function, &'static str);

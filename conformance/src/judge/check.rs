@@ -1,11 +1,11 @@
 //! Checks, their rules and their verdicts.
 
 use std::error::Error;
-use std::fmt::{self, Display};
 
-use ads_cnc_vectors::{ClauseId, Hex, Level, clause};
+use ads_cnc_vectors::{ClauseId, Level, clause};
 
-use super::{CLIENT, Evidence, Verdict};
+use super::{CLIENT, Verdict};
+use crate::evidence::{Describe, Evidence};
 use crate::text::shorten;
 
 /// The result of a step of a case.
@@ -162,31 +162,6 @@ impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
         self.as_slice().rules()
     }
 }
-
-/// The expected or the actual result of a check. It is formatted only if the check fails: for a
-/// pass, no closure is called and no `format_args!` is formatted.
-pub trait Describe {
-    /// The text in a report.
-    fn describe(self) -> String;
-}
-
-impl<F: FnOnce() -> D, D: Display> Describe for F {
-    fn describe(self) -> String {
-        self().to_string()
-    }
-}
-
-macro_rules! describe {
-    ($($displayed:ty),+ $(,)?) => {$(
-        impl Describe for $displayed {
-            fn describe(self) -> String {
-                self.to_string()
-            }
-        }
-    )+};
-}
-
-describe! { &str, String, &String, fmt::Arguments<'_>, Hex, u32, usize, ads_cnc::Error }
 
 #[derive(Clone, Debug)]
 pub struct Judgement {

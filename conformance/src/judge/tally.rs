@@ -1,68 +1,7 @@
-//! The exit codes, and how the verdicts of a run determine its exit code.
-
-use std::process::ExitCode;
+//! How the verdicts of a run determine its exit code.
 
 use super::Verdict;
-
-/// The exit code of a run; it is never a count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exit {
-    /// 0: every judged requirement passed; warnings and differences are permitted.
-    Success,
-    /// 1: a verdict is fail or vacuous.
-    Failure,
-    /// 2: the command line is wrong.
-    Usage,
-    /// 3: nothing was judged, a verdict is inconclusive, or the run was interrupted.
-    Nothing,
-    /// 4: the gate rejected a request, or the file of `--allow-write` does not fit the target
-    /// (`report/build.rs`).
-    Refused,
-    /// 5: a waiver is stale (`judge/waivers.rs`).
-    Stale,
-    /// 6: a value was changed and could not be restored.
-    LeftChanged,
-    /// 70: an error of the suite, such as a case that panics.
-    Internal,
-}
-
-impl Exit {
-    pub const fn code(self) -> u8 {
-        match self {
-            Self::Success => 0,
-            Self::Failure => 1,
-            Self::Usage => 2,
-            Self::Nothing => 3,
-            Self::Refused => 4,
-            Self::Stale => 5,
-            Self::LeftChanged => 6,
-            Self::Internal => 70,
-        }
-    }
-
-    pub fn from_code(code: u8) -> Option<Self> {
-        Self::ALL.into_iter().find(|exit| exit.code() == code)
-    }
-
-    /// All exit codes, in the order of precedence.
-    pub const ALL: [Self; 8] = [
-        Self::Internal,
-        Self::LeftChanged,
-        Self::Usage,
-        Self::Refused,
-        Self::Failure,
-        Self::Stale,
-        Self::Nothing,
-        Self::Success,
-    ];
-
-    /// The exit code for these verdicts.
-    pub fn of(verdicts: impl IntoIterator<Item = Verdict>) -> Self {
-        let mut tally = VerdictTally::default();
-        verdicts.into_iter().for_each(|verdict| tally.add(verdict, false));
-        tally.exit()
-    }
-}
+use crate::exit::Exit;
 
 /// The facts of a run that determine its exit code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -80,6 +19,13 @@ pub struct VerdictTally {
 }
 
 impl VerdictTally {
+    /// Counts verdicts that are not waived.
+    pub fn of(verdicts: impl IntoIterator<Item = Verdict>) -> Self {
+        let mut tally = Self::default();
+        verdicts.into_iter().for_each(|verdict| tally.add(verdict, false));
+        tally
+    }
+
     /// Counts a verdict. A waived verdict only counts as judged.
     pub const fn add(&mut self, verdict: Verdict, waived: bool) {
         if verdict.is_judged() || waived {
@@ -111,12 +57,6 @@ impl VerdictTally {
     }
 }
 
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> Self {
-        Self::from(exit.code())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,7 +79,11 @@ mod tests {
             (&[HarnessError], 70),
         ];
         for (verdicts, code) in cases {
-            assert_eq!(Exit::of(verdicts.iter().copied()).code(), code, "{verdicts:?}");
+            assert_eq!(
+                VerdictTally::of(verdicts.iter().copied()).exit().code(),
+                code,
+                "{verdicts:?}"
+            );
         }
     }
 

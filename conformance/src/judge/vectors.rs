@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use ads_cnc_vectors::{Context, Given, Sequence, Vector, sequence, sequences, vector, vectors};
 
 use super::{Body, Case, CaseSubject, Needs};
-use crate::values::{ValueFormat, type_by_name};
+use crate::value_format::{ValueFormat, type_by_name};
 
 /// A case for each vector, and for each NC text that is split into packets or checked.
 pub(crate) fn codec_cases() -> Vec<Case> {

@@ -1,4 +1,4 @@
-//! Signals that end a process (on Windows console events), and cleanup before the end.
+//! Catches signals that would end this process (on Windows, console events), so that it can clean up.
 
 use std::io;
 use std::process;
@@ -7,17 +7,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
 
-use crate::judge::Exit;
+use crate::exit::Exit;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// The exit code of a process that was ended by Ctrl-C, as in a shell.
+/// The exit code that a shell reports for a process ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// A second signal within this time counts as a repetition of the first.
+/// A second signal within this time counts as a repetition of the first signal, and is ignored.
 const REPEATED: Duration = Duration::from_millis(200);
 
-/// The polling interval of interruptible waits.
+/// The interval at which interruptible waits check for a signal.
 pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Whether a signal has been received.
@@ -25,7 +25,7 @@ pub(crate) fn is_requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
 }
 
-/// On Linux, SIGSTKFLT, SIGPWR and the real-time signals also end a process.
+/// Numbers of further signals that end a process on Linux: SIGSTKFLT, SIGPWR and the real-time signals.
 #[cfg(unix)]
 fn numbered() -> impl Iterator<Item = i32> {
     let is_linux = cfg!(all(
@@ -54,7 +54,7 @@ fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     ];
     let mut signals = signal_hook::iterator::Signals::new(all)?;
     for signal in numbered() {
-        // The C library may reserve a signal.
+        // Fails for a signal that the C library reserves for itself.
         let _kept = signals.add_signal(signal);
     }
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
@@ -68,13 +68,13 @@ fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     ctrlc::set_handler(handler).map_err(io::Error::other)
 }
 
-/// After the first signal, the command of the tool cleans up and ends by itself. A second signal ends
-/// the process at once, with all commands that it has started.
+/// The caught signals. After the first signal, the tool cleans up and ends by itself. A second signal
+/// ends the process at once, with all commands that the process has started.
 #[derive(Debug)]
 pub(crate) struct Interrupt(Receiver<()>);
 
 impl Interrupt {
-    /// Catches the signals; possible once per process.
+    /// Catches the signals; to be called only once per process.
     pub(crate) fn catch() -> io::Result<Self> {
         Self::catch_with(|| (), || None)
     }
@@ -91,7 +91,8 @@ impl Interrupt {
         let handler = move || {
             let begun: &Instant = begun.get_or_init(Instant::now);
             if REQUESTED.swap(true, Ordering::SeqCst) {
-                // `timeout` sends the signal to the process, and then to its whole group.
+                // The command `timeout` sends the signal to the process, and then again to its whole
+                // group.
                 if begun.elapsed() < REPEATED {
                     return;
                 }
@@ -99,7 +100,7 @@ impl Interrupt {
                 super::end_all();
                 process::exit(code);
             }
-            // Nobody may be waiting: `is_requested` polls the flag.
+            // Fails if nothing waits for the channel: some waits poll `is_requested` instead.
             let _waiting = tell.send(());
             on_first();
         };
@@ -109,7 +110,7 @@ impl Interrupt {
 
     /// Waits for a signal.
     pub(crate) fn wait(&self) {
-        // The sender is never dropped.
+        // `recv` does not fail, because the handler keeps the sender until the process ends.
         let _came = self.0.recv();
     }
 
@@ -118,9 +119,9 @@ impl Interrupt {
         is_requested()
     }
 
-    /// Waits for this time or until a signal; returns whether one was received.
+    /// Waits for this time or until a signal; returns whether a signal has been received.
     pub(crate) fn sleep(&self, time: Duration) -> bool {
-        // The channel delivers each signal once, after the flag was set.
+        // The flag is checked too, because another wait may have received the message of the signal.
         self.is_requested() || self.0.recv_timeout(time).is_ok()
     }
 }

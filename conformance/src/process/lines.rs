@@ -14,14 +14,14 @@ use crate::text::{escape_lines, json_error, plural};
 /// Maximum length of a line in bytes. The longest valid answer has a few thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
 
-/// Maximum number of commas and opening brackets in a line. Each may begin a JSON value, which
-/// occupies up to 7 kB of memory when parsed.
+/// Maximum number of commas, `[` and `{` in a line. Each of these characters may begin a JSON value,
+/// which occupies up to 7 kB of memory when parsed.
 const VALUES_MAX: usize = 1 << 13;
 
-/// Maximum number of stored bytes of stderr; the last ones are kept.
+/// Maximum number of bytes of stderr that are stored; only the last bytes are stored.
 const STDERR_MAX: usize = 64 << 10;
 
-/// The end of a command's stderr.
+/// The end of a command's output to stderr.
 #[derive(Clone, Debug, Default)]
 pub struct Stderr(Arc<Mutex<VecDeque<u8>>>);
 
@@ -52,7 +52,7 @@ pub enum RecvError {
     Interrupted,
     /// The command closed its stdout.
     Closed,
-    /// The output is not a line; the rest of the output is not read.
+    /// The line is longer than [`LINE_MAX`]; the rest of the output is not read.
     Garbled(String),
     /// The line is not UTF-8, or has too many values.
     NoText(String),
@@ -64,7 +64,7 @@ pub struct LineProcess {
     child: RunningCommand,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
-    /// Disconnected when stderr has been read to its end.
+    /// Is disconnected when stderr has been read to its end.
     stderr_end: Receiver<()>,
 }
 
@@ -102,7 +102,7 @@ impl LineProcess {
         Ok(Self { child, to, from, stderr_end })
     }
 
-    /// Sends a line. If the command has ended, this is detected when receiving the answer.
+    /// Sends a line. If the command has ended, only [`recv`](Self::recv) reports that.
     pub fn send(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         let _gone = self.to.send(line);
@@ -126,7 +126,7 @@ impl LineProcess {
         }
     }
 
-    /// A line that was received without a request, if there is one.
+    /// A line that the command has already sent without a request; `None` if it has sent none.
     pub fn unasked(&self) -> Option<String> {
         self.from.try_recv().ok().map(|line| show(&line))
     }
@@ -137,11 +137,11 @@ impl LineProcess {
         self.finish(limit).0
     }
 
-    /// Like `ended`, but also returns the first line received before the end.
+    /// Like [`ended`](Self::ended), but also returns the first line received before the end.
     pub fn finish(mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.to = mpsc::channel().0;
         let mut unasked = None;
-        // A command blocks if its stdout is not read.
+        // Reads stdout while waiting: a command whose stdout is not read may block and not end.
         let mut listen = |time| match self.from.recv_timeout(time) {
             Ok(line) => {
                 unasked.get_or_insert_with(|| show(&line));
@@ -156,7 +156,8 @@ impl LineProcess {
             }
         });
         let until = Instant::now().checked_add(OUTPUT_AFTER_EXIT);
-        // A process started by the command may keep stdout and stderr open.
+        // Reads the remaining output for a limited time only, because a process started by the command
+        // may keep stdout and stderr open.
         while status.is_some() && until.is_some_and(|until| Instant::now() < until) && listen(POLL)
         {
         }
@@ -168,10 +169,10 @@ impl LineProcess {
     }
 }
 
-/// Interval at which the command is polled.
+/// Interval at which to check whether the command has ended.
 const POLL: Duration = Duration::from_millis(2);
 
-/// Time to wait for output after the command has ended.
+/// Maximum time to wait for the rest of the output after the command has ended.
 const OUTPUT_AFTER_EXIT: Duration = Duration::from_millis(200);
 
 fn show(line: &Result<Vec<u8>, String>) -> String {
@@ -185,8 +186,8 @@ fn spawn(name: &str, run: impl FnOnce() + Send + 'static) -> io::Result<()> {
     thread::Builder::new().name(name.to_owned()).spawn(run).map(drop)
 }
 
-/// Writes lines to the command in a separate thread: a command that does not read must not block
-/// this process.
+/// Writes lines to the command; runs in its own thread, because a command that does not read must not
+/// block this process.
 fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
     while let Ok(line) = lines.recv() {
         if stdin.write_all(&line).and_then(|()| stdin.flush()).is_err() {
@@ -208,8 +209,8 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 /// ```
 ///
 /// # Errors
-/// If a line has more than `most` bytes without its line end. The line is dropped, and the rest of
-/// the stream cannot be read as lines.
+/// If a line has more than `most` bytes without its line end. A part of the line has then been read
+/// and is lost, so the rest of the stream cannot be read as lines.
 pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>, String>> {
     let limit = u64::try_from(most).unwrap_or(u64::MAX).saturating_add(2);
     let mut line = Vec::new();
@@ -229,7 +230,7 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
     Some(Ok(line))
 }
 
-/// A line of JSON as text.
+/// Converts a line of JSON from bytes to text.
 ///
 /// # Errors
 /// If the line has too many values, or is not UTF-8.

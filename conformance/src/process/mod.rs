@@ -24,13 +24,14 @@ pub use subprocess::{GRACE, Reaction, Subprocess};
 /// Minimum time limit for the first line of a command: some languages start slowly.
 pub const START: Duration = Duration::from_secs(20);
 
-/// A command line for the user's shell.
+/// The command that runs a command line in a shell: `sh`, or `cmd` on Windows.
 pub fn shell(line: &str) -> Command {
     #[cfg(windows)]
     {
         use std::os::windows::process::CommandExt as _;
 
-        // cmd does not understand the escapes of `arg`. With /S, it only removes the outer quotes.
+        // cmd does not understand the escapes that `arg` writes. With /S, cmd only removes the outer
+        // quotes.
         let mut command = Command::new("cmd");
         command.raw_arg(format!("/S /C \"{line}\""));
         command
@@ -45,14 +46,15 @@ pub fn shell(line: &str) -> Command {
 
 type SharedChild = Mutex<Box<dyn ChildWrapper>>;
 
-/// The running commands.
+/// The commands that were started and not dropped.
 static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 
 /// A running command. Dropping it ends the command and the processes that it started, even if the
 /// command has already ended: on Unix its process group (a process that created its own group or
 /// session continues), on Windows its job.
 ///
-/// Ctrl-C in a terminal only reaches this tool, which then ends the command.
+/// Because the command has its own process group, Ctrl-C in a terminal reaches only this tool, which
+/// then ends the command.
 #[derive(Debug)]
 pub struct RunningCommand(Arc<SharedChild>);
 
@@ -65,7 +67,7 @@ impl RunningCommand {
         command
             .wrap(CreationFlags(windows::Win32::System::Threading::CREATE_NEW_PROCESS_GROUP))
             .wrap(JobObject);
-        // Keep the lock during the start, so that `end_all` cannot miss the new command.
+        // The lock is held during the start, so that `end_all` cannot miss the new command.
         let mut running = lock(&RUNNING);
         let child = Arc::new(Mutex::new(command.spawn()?));
         running.retain(|one| one.strong_count() > 0);
@@ -97,18 +99,18 @@ impl RunningCommand {
 impl Drop for RunningCommand {
     fn drop(&mut self) {
         let mut child = lock(&self.0);
-        // Processes started by the command may still run. The ID of an empty group is not reused so
-        // quickly.
+        // Even if the command has ended, processes that it started may still run, so the group is
+        // killed. The system does not reuse the ID of an empty group so quickly.
         let _ended = child.start_kill();
         let _waited = child.inner_mut().wait();
     }
 }
 
-/// Ends all running commands, and prevents that others are started.
+/// Ends all running commands, and prevents the start of others by never releasing the lock.
 pub(crate) fn end_all() {
     let running = lock(&RUNNING);
     for child in running.iter().filter_map(Weak::upgrade) {
-        // Another thread that holds the lock is ending or polling the child.
+        // Another thread holds this lock only for a short time, to end or to poll the child.
         let _ended = lock(&child).start_kill();
     }
     std::mem::forget(running);

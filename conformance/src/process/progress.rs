@@ -1,4 +1,4 @@
-//! Counts the steps of a long run, for the progress line of the command line.
+//! Counts the steps of a long run, for the progress line in the terminal.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -7,7 +7,7 @@ static DONE: AtomicUsize = AtomicUsize::new(0);
 static FAILED: AtomicUsize = AtomicUsize::new(0);
 static REQUESTS: AtomicUsize = AtomicUsize::new(0);
 
-/// The counts at one moment.
+/// The counts at one moment: all steps, finished steps, failures and requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Counts {
     pub(crate) all: usize,
@@ -16,7 +16,7 @@ pub(crate) struct Counts {
     pub(crate) requests: usize,
 }
 
-/// Begins a part of the run with `all` steps.
+/// Begins a part of the run that has `all` steps.
 pub(crate) fn begin(all: usize) {
     ALL.store(all, Ordering::Relaxed);
     for count in [&DONE, &FAILED, &REQUESTS] {

@@ -9,17 +9,17 @@ use crate::deadline::Deadline;
 /// Time limit for a program to end after its stdin is closed.
 pub const GRACE: Duration = Duration::from_secs(2);
 
-/// The reaction of a program to a line.
+/// The reaction of a program to a line that was sent to it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reaction<A> {
     Answer(A),
-    /// A line that is not an answer.
+    /// The program sent a line that is not a valid answer.
     Garbled(String),
     /// The program ended, or closed its stdout.
     Died(String),
-    /// No line arrived within this time.
+    /// No line arrived within this time limit.
     Silent(Duration),
-    /// The line could not be sent.
+    /// The program could not be started, is not running, or the wait was interrupted.
     Broken(String),
 }
 
@@ -84,11 +84,11 @@ impl Subprocess {
         }
     }
 
-    /// Receives the line of an answer. If no line arrives, the program is ended; a line that is not
-    /// text does not end it.
+    /// Receives the line of an answer. If no line arrives in time, or the line is too long, the program is
+    /// killed. After a line that is not text, it continues to run.
     ///
     /// # Errors
-    /// The reaction instead of an answer.
+    /// The reaction of the program, if it is not a line of text.
     pub fn recv<A>(&mut self, timeout: Duration) -> Result<String, Reaction<A>> {
         let limit = self.limit(timeout);
         let Some(running) = self.running.take() else {
@@ -119,13 +119,14 @@ impl Subprocess {
         }
     }
 
-    /// Closes the program's stdin and waits for its end. Returns the exit status if it ended, and the
-    /// first line that it sent before.
+    /// Closes the program's stdin and waits for its end. Returns the exit status if the program ended in
+    /// time, and the first line that the program sent before.
     pub fn finish(&mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.running.take().map_or((None, None), |running| running.finish(limit))
     }
 
-    /// Tells a running program to end; returns the first line that it sent before.
+    /// Sends the line that tells a running program to end. Returns whether it ended with exit code 0, and
+    /// the first line that it sent before.
     pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
         if self.running.is_none() {
             return (Ok(()), None);

@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::model::Report;
-use crate::judge::{Exit, LeftChanged, Verdict};
+use crate::exit::Exit;
+use crate::judge::{LeftChanged, Verdict};
 use crate::text::{json, plural, shorten};
 
 /// The JSON that shields.io reads from an endpoint; it rejects other keys.

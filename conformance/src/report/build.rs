@@ -14,10 +14,12 @@ use super::model::{
 use super::{BytesReport, FoundReport};
 
 use crate::edition::Edition;
+use crate::evidence::Evidence;
+use crate::exit::Exit;
 use crate::explain;
 use crate::judge::{
-    CLIENT, CaseOutcome, CaseSubject, Evidence, Exit, Judgement, LeftChanged, LeftOut, TESTEE,
-    Verdict, VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
+    CLIENT, CaseOutcome, CaseSubject, Judgement, LeftChanged, LeftOut, TESTEE, Verdict,
+    VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
 };
 use crate::profile::Profile;
 use crate::text::{Moment, hex};

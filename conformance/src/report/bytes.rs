@@ -6,8 +6,9 @@ use ads_cnc::limits::AMS_TCP_HEADER_LEN;
 use ads_cnc::{Decode as _, Encode as _};
 use serde::{Deserialize, Serialize};
 
-use crate::explain::{ExplainQuery, ExplainSubject, ExplainedStream, ValueFormat, explain};
+use crate::explain::{ExplainQuery, ExplainSubject, ExplainedStream, explain};
 use crate::text::hex::{compact, spaced};
+use crate::value_format::ValueFormat;
 
 /// Bytes field by field.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use super::display::Detail;
 use super::failures::list;
 use super::model::{Report, RequirementReport};
-use crate::judge::{CaseSubject, Exit, Verdict};
+use crate::exit::Exit;
+use crate::judge::{CaseSubject, Verdict};
 use crate::text::plural;
 
 /// Maximum number of cases named on a line.

@@ -11,7 +11,8 @@ use super::failures::{blocks, list};
 use super::model::{
     CaseReport, FailureReport, Report, RequirementReport, SubjectReport, TargetReport, Totals,
 };
-use crate::judge::{CLIENT, CaseSubject, Exit, HELLO, NOT_CLAIMED, TESTEE, Verdict, WaiverReport};
+use crate::exit::Exit;
+use crate::judge::{CLIENT, CaseSubject, HELLO, NOT_CLAIMED, TESTEE, Verdict, WaiverReport};
 use crate::text::{plural, shorten};
 
 /// Maximum number of reasons why cases were not run.

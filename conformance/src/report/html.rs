@@ -11,7 +11,8 @@ use serde::Serialize;
 use super::FoundReport;
 use super::console::describe;
 use super::model::{ProfileReport, Report};
-use crate::judge::{Exit, Verdict, about};
+use crate::exit::Exit;
+use crate::judge::{Verdict, about};
 use cause::{CauseView, causes};
 use subject::{SubjectView, areas, subject};
 

@@ -2,8 +2,8 @@
 
 use super::bytes::ShownField;
 use super::{BytesReport, FieldReport};
-use crate::explain::ValueFormat;
 use crate::text::hex;
+use crate::value_format::ValueFormat;
 
 /// All lines of bytes, without a comparison.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {

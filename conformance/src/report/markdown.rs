@@ -8,7 +8,8 @@ use super::display::{DisplayOptions, NAMES_MAX, worded};
 use super::failures::{block, list, sentence};
 use super::groups::groups;
 use super::model::Report;
-use crate::judge::{Exit, Verdict, WaiverReport};
+use crate::exit::Exit;
+use crate::judge::{Verdict, WaiverReport};
 use crate::text::plural;
 
 /// Maximum number of characters of all failures: a comment on GitHub has at most 65 536.

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{BytesReport, DeviceReport, FoundReport};
-use crate::judge::{CaseSubject, Exit, LeftChanged, Verdict, WaiverReport};
+use crate::exit::Exit;
+use crate::judge::{CaseSubject, LeftChanged, Verdict, WaiverReport};
 use crate::text::hex::compact;
 use crate::text::json_error;
 

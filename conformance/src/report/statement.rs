@@ -12,7 +12,8 @@ use super::failures::list;
 use super::html::claims;
 use super::markdown::plain;
 use super::model::{AreaReport, Report, RequirementReport, SubjectReport};
-use crate::judge::{Exit, Verdict, about};
+use crate::exit::Exit;
+use crate::judge::{Verdict, about};
 
 const TEMPLATE: &str = include_str!("statement.html");
 

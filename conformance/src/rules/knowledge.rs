@@ -11,7 +11,8 @@ use ads_cnc::{Description, Descriptor};
 
 use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
-use crate::judge::{Checks as _, Describe, Rule, assumed};
+use crate::evidence::Describe;
+use crate::judge::{Checks as _, Rule, assumed};
 
 /// The context of the judgement of one exchange.
 pub(super) struct ExchangeJudge<'j> {

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
+use crate::evidence::Evidence;
 use crate::exchange::Exchange;
-use crate::judge::Evidence;
 
 /// The frames that a check is about.
 pub(crate) trait Observation {

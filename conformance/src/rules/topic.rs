@@ -8,9 +8,10 @@ use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirements;
 
 use super::observation::Observation;
+use crate::evidence::{Describe, Evidence};
 use crate::judge::{
-    Body, Case, CaseOutcome, CaseSubject, Checks, Describe, Evidence, Needs, Record, Rule, Rules,
-    Stop, Verdict, clauses_of,
+    Body, Case, CaseOutcome, CaseSubject, Checks, Needs, Record, Rule, Rules, Stop, Verdict,
+    clauses_of,
 };
 
 /// Declares [`Topic`].

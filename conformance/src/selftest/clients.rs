@@ -1,4 +1,4 @@
-//! Tests the suite with clients with a defect, and with valid variants.
+//! Tests the suite with clients that have a defect, and with valid variants of a client.
 
 use std::net::SocketAddr;
 

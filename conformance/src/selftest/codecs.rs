@@ -1,4 +1,5 @@
-//! Tests the suite with codecs with a defect, and with testees that misbehave in every case.
+//! Tests the suite with codecs that have a defect, and with miniatures: small testees that behave in the
+//! same way in every case, mostly wrongly.
 
 use std::time::Duration;
 
@@ -11,10 +12,10 @@ use crate::session::ToolError;
 use crate::suite;
 use crate::testee::{CodecTestee, Miniature, Terms, TesteeProcess, judge};
 
-/// Time limit for an answer of a miniature; a miniature that hangs takes this long per case.
+/// Time limit for an answer of a miniature; with a miniature that hangs, each case lasts this long.
 const TIMEOUT: Duration = Duration::from_millis(1000);
 
-/// A miniature behaves in the same way in every case, so only every n-th case is run.
+/// A miniature behaves in the same way in every case, so only every `SHARE`-th case is run.
 const SHARE: usize = 25;
 
 const TERMS: Terms<'static> =
@@ -32,7 +33,7 @@ fn of_seed(seed: &'static Seed) -> Candidate {
         what: seed.what.clone(),
         targets: seed.requirements.clone(),
         run: Box::new(move || {
-            // A defect of a field only affects its stream, so other cases need not run.
+            // A field defect affects only the stream of the field, so only the cases of this stream run.
             let field = seed.field();
             let touched = |case: &Case| match (&case.body, field) {
                 (Body::Vector(vector), Some(field)) => {
@@ -58,7 +59,7 @@ fn of_miniature(miniature: Miniature) -> Candidate {
     }
 }
 
-/// The requirements that a miniature breaks: the protocol, or all.
+/// The requirements that a miniature breaks: that of the testee protocol only, or those of all cases.
 fn targets(miniature: Miniature) -> Vec<&'static str> {
     match miniature {
         Miniature::KnowsAll

@@ -1,9 +1,9 @@
 //! Tests the suite: a codec, CNC or client with a seeded defect must fail a requirement that the
 //! defect breaks, and a valid variant must not fail.
 //!
-//! A defect is caught if a requirement that it breaks fails or, for a defect of requirements of the
-//! level should, has a warning. A defect that survives needs a written reason, otherwise the
-//! self-test fails.
+//! A defect is caught if a requirement that it breaks fails. For a requirement below the level *must*, a
+//! warning or a difference suffices. A defect that is not caught needs a written reason, otherwise
+//! the self-test fails.
 
 mod clients;
 mod codecs;
@@ -19,8 +19,9 @@ mod unseen;
 
 use serde::Serialize;
 
+use crate::exit::Exit;
 use crate::faults::{self, SeedKind};
-use crate::judge::{CaseOutcome, Exit, Verdict};
+use crate::judge::{CaseOutcome, Verdict};
 use detection::{CheckedTable, PairFigures, Scope};
 
 pub use parallel::SelfTestProgress;
@@ -34,17 +35,17 @@ pub use unseen::UNSEEN;
 pub struct SelfTest {
     /// All trials, in the order of groups and IDs.
     pub tried: Vec<Trial>,
-    /// Reasons that no surviving defect needs.
+    /// The IDs of written reasons why a defect survives, for which no surviving defect was found.
     pub stale: Vec<String>,
-    /// The table of detection, and the rows that were measured again.
+    /// The detection table, and the differences of the defects that were measured again.
     pub detection: CheckedTable,
-    /// Pairs of defects; tried only together with all defects.
+    /// The result of the pairs of defects; empty if only some of the trials were run.
     pub pairs: PairFigures,
 }
 
 impl SelfTest {
-    /// Number of trials of a group with the desired result, and of all trials; trials in which the
-    /// defect changed nothing do not count.
+    /// The number of trials of a group with the desired result, and the number of all its trials. Trials
+    /// in which the defect changed nothing do not count in either number.
     pub fn rate(&self, group: SelfTestGroup) -> (usize, usize) {
         let differs = |one: &&Trial| one.group == group && one.result != TrialResult::Same;
         let mine = || self.tried.iter().filter(differs);
@@ -54,8 +55,8 @@ impl SelfTest {
         (mine().filter(right).count(), mine().count())
     }
 
-    /// The exit code: a surviving defect without a reason, a false alarm and a stale reason are
-    /// failures.
+    /// The exit code. Failures are: a failed trial, a stale reason, a difference from the detection table,
+    /// and a pair in which one defect hides the other.
     pub fn exit(&self) -> Exit {
         let differs = !self.detection.differences.is_empty();
         let hides = !self.pairs.hidden.is_empty();
@@ -73,9 +74,9 @@ impl SelfTest {
     }
 }
 
-/// Runs all trials whose ID, group or requirement begins with one of the words in `only`; all trials
-/// if it is empty. `scope` is the part of the detection table to measure again. Calls `tell` after
-/// each trial.
+/// Runs the trials that a word in `only` selects by the start of their ID, by their group or by a
+/// requirement; all trials if `only` is empty. `scope` selects the defects that are measured again for
+/// the detection table; with words in `only`, all selected defects are. Calls `tell` after each trial.
 pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync) -> SelfTest {
     let wanted = |id: &str, group: SelfTestGroup, targets: &[&str]| {
         only.is_empty()
@@ -89,7 +90,7 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync
     candidates.extend(targets::candidates());
     candidates.extend(clients::candidates());
     candidates.retain(|one| wanted(&one.id, one.group, &one.targets));
-    // Use more threads than processors, because trials mostly wait for a connection.
+    // Uses more threads than processors, because most trials wait for a connection.
     let tried = parallel(("defects tried once", &candidates), 3, attempt, Trial::is_failure, &tell);
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
@@ -131,7 +132,8 @@ fn attempt(candidate: &Candidate) -> Trial {
     }
 }
 
-/// The result for a codec: warnings and differences count at the level of their requirements.
+/// The failed requirements and the result for a codec. If a requirement that the defect breaks has only
+/// warnings or differences, and none of these requirements fails, the result is `Noticed`.
 fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let (failed, result) = judge(targets, outcomes);
     let broken: Vec<&str> = targets.iter().map(|id| whole(id)).collect();

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 use std::thread;
 
-/// The progress of a part of the self-test.
+/// The progress of a part of the self-test: the number of all, processed and failed items.
 #[derive(Clone, Copy, Debug)]
 pub struct SelfTestProgress {
     /// The text after the number of items, such as "defects tried once".
@@ -16,7 +16,7 @@ pub struct SelfTestProgress {
 /// The function that is called after each item.
 pub(super) type Tell<'a> = &'a (dyn Fn(SelfTestProgress) + Sync);
 
-/// Processes each item in several threads per processor; returns the results in the order of the
+/// Processes the items in `threads` threads per processor; returns the results in the order of the
 /// items.
 pub(super) fn parallel<T: Sync, R: Send>(
     (part, items): (&'static str, &[T]),

@@ -3,7 +3,7 @@
 use super::tried::{SelfTestGroup, Trial, TrialResult};
 use super::unseen::UNSEEN;
 
-/// Group, prefix of the ID, and the reason why the defect is not detectable.
+/// The group and the prefix of the IDs of defects, and the reason why no case need detect them.
 #[rustfmt::skip]
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[
     (
@@ -41,7 +41,7 @@ const UNCHANGED: &str = "A success without a change differs from an error only b
 /// The reason for the defects in [`UNSEEN`].
 const INSIDE: &str = "No case can detect it; a test of the simulated CNC does.";
 
-/// Prefix of the ID of a defect, and the reason why a run against a device misses it.
+/// The prefix of the IDs of defects, and the reason why a run against a device misses them.
 #[rustfmt::skip]
 const MISSED: &[(&str, &str)] = &[
     ("cnc.var.cycle-", "V.CYC is in no list: a profile names it."),
@@ -88,12 +88,12 @@ const OTHERS: &str =
     "Only cases that write every variable show it: these are for the simulated CNC.";
 const PROFILE: &str = "Without a profile the run finds fewer values that it may write.";
 
-/// The reason why a run against a device misses a defect, if there is one.
+/// The reason why a run against a device misses the defect with this ID; `None` if no reason is listed.
 pub(super) fn of_missed(id: &str) -> Option<&'static str> {
     MISSED.iter().find(|(start, _)| id.starts_with(start)).map(|(_, reason)| *reason)
 }
 
-/// The reason why a defect may survive, if there is one.
+/// The reason why the defect with this ID may survive; `None` if no reason is listed.
 pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
     if group == SelfTestGroup::Cnc && UNSEEN.contains(&id) {
         return Some(INSIDE);
@@ -102,20 +102,20 @@ pub(super) fn of(group: SelfTestGroup, id: &str) -> Option<&'static str> {
     mine.map(|(_, _, reason)| *reason)
 }
 
-/// Group and prefix of each reason.
+/// The group and the ID prefix of each reason why a defect may survive.
 #[cfg(test)]
 pub(super) fn names() -> impl Iterator<Item = (SelfTestGroup, &'static str)> {
     let unseen = UNSEEN.iter().map(|id| (SelfTestGroup::Cnc, *id));
     REASONS.iter().map(|(group, start, _)| (*group, *start)).chain(unseen)
 }
 
-/// Prefixes of the missed defects.
+/// The ID prefixes of the reasons why a run against a device misses a defect.
 #[cfg(test)]
 pub(super) fn missed() -> impl Iterator<Item = &'static str> {
     MISSED.iter().map(|(start, _)| *start)
 }
 
-/// Reasons that no surviving defect needs.
+/// The stale reasons: those for which no surviving defect was found.
 pub(super) fn stale(tried: &[Trial]) -> Vec<String> {
     let needed = |(group, start, _): &&(SelfTestGroup, &str, &str)| {
         tried.iter().any(|one| {

@@ -4,10 +4,10 @@ use std::io::{self, Write};
 
 use super::detection::{CheckedTable, Figures, Mode, PairFigures};
 use super::{SelfTest, SelfTestGroup, Trial, TrialResult};
-use crate::judge::Exit;
+use crate::exit::Exit;
 use crate::text::plural;
 
-/// Maximum number of requirements on a line.
+/// Maximum number of requirements that are printed for a trial.
 const TARGETS_SHOWN: usize = 6;
 
 /// Prints the result of a self-test; with `verbose`, also each trial.
@@ -33,7 +33,7 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             continue;
         }
         match group {
-            // Printed below, by mode.
+            // The function `detection` prints these defects below, for each mode.
             SelfTestGroup::Cnc => {}
             SelfTestGroup::Different => {
                 let alarms = all.saturating_sub(right);
@@ -64,7 +64,8 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     writeln!(out, "{verdict}  exit code {}", test.exit().code())
 }
 
-/// Prints the detection of defects of a CNC: from outside, and by all cases for the simulated CNC.
+/// Prints how many defects of a CNC are detected: in runs against a device, for each mode, and by all
+/// cases for the simulated CNC.
 fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     let CheckedTable { table, measured, differences } = &test.detection;
     for difference in differences {

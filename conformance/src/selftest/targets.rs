@@ -1,4 +1,4 @@
-//! Tests the suite with CNCs with a defect, and with valid variants.
+//! Tests the suite with simulated CNCs that have a defect, and with valid variants of a CNC.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, TargetState};
 
-/// A version with the function 0x4C and all kinds of parameters.
+/// A CNC version that has the function at offset 0x4C and all kinds of dynamic parameters.
 const NEWEST: &str = "V4.29.0";
 
 pub(super) fn candidates() -> Vec<Candidate> {
@@ -32,8 +32,8 @@ fn of_seed(seed: &'static Seed) -> Candidate {
 /// Runs the cases of a target against a simulated CNC with the seed: with the default model, and
 /// with a version that has all features.
 ///
-/// The cases with a requirement that the defect breaks come first: if one fails, the defect is
-/// caught, and the others are not run.
+/// The cases with a requirement that the defect breaks run first: if they catch the defect, the other
+/// cases are not run. The result is `None` if the defect changed no byte.
 fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, ToolError> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
@@ -55,7 +55,7 @@ fn against(seed: &Seed) -> Result<Option<Vec<CaseOutcome>>, ToolError> {
     Ok(has_shown.then_some(outcomes))
 }
 
-/// The outcomes, and whether the defect changed any byte.
+/// The outcomes of the wanted cases, and whether the defect changed any byte.
 fn run(
     seed: &Seed,
     settings: Settings,

@@ -5,7 +5,7 @@ use super::*;
 use crate::judge::RequirementVerdict;
 use crate::suite;
 
-/// Outcomes with these verdicts on these requirements.
+/// One outcome with these verdicts on these requirements.
 fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<CaseOutcome> {
     let case = suite::cases().swap_remove(0);
     let verdicts = verdicts.iter().map(|&(requirement, verdict)| RequirementVerdict {
@@ -37,7 +37,7 @@ fn a_defect_is_caught_if_its_own_requirement_fails() {
     assert_eq!(judged(&["VAR-4"], &[("VAR-8", Fail)]), TrialResult::Elsewhere);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Pass)]), TrialResult::Survived);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", NotObserved)]), TrialResult::Survived);
-    // A warning counts as caught for a should, but not for a must.
+    // A warning counts as caught for a requirement of level *should*, but not of level *must*.
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Warning)]), TrialResult::Survived);
     assert_eq!(judged(&["VAR-4"], &[("VAR-4", Differs)]), TrialResult::Survived);
     assert_eq!(judged(&["ADS-8"], &[("ADS-8", Warning)]), TrialResult::Caught);
@@ -50,7 +50,7 @@ fn a_valid_variant_may_differ_but_not_fail() {
     assert_eq!(judged(&[], &[("VAR-4", Pass), ("VAR-8", Differs)]), TrialResult::Quiet);
     assert_eq!(judged(&[], &[("VAR-4", Warning)]), TrialResult::Quiet);
     assert_eq!(judged(&[], &[("VAR-4", Fail)]), TrialResult::FalseAlarm);
-    // A harness error takes precedence.
+    // A harness error takes precedence over the verdicts on requirements.
     assert_eq!(judged(&[], &[("VAR-4", HarnessError)]), TrialResult::Broken);
     let both = [("VAR-4", Fail), ("VAR-8", HarnessError)];
     assert_eq!(judged(&["VAR-4"], &both), TrialResult::Broken);
@@ -132,7 +132,7 @@ fn every_reason_belongs_to_a_missed_defect() {
     }
 }
 
-/// The committed files were written together, and every defect has a row.
+/// The table and the document in `doc` agree with the code, and every defect has a row.
 #[test]
 fn the_table_is_complete() {
     let table = DetectionTable::published().unwrap();

@@ -9,7 +9,7 @@ use crate::text::named;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SelfTestGroup {
-    /// Codecs with a defect, judged by the vectors.
+    /// Codecs with a defect, judged by the vectors and sequences.
     Codec,
     /// CNCs with a defect, judged by the cases over the wire.
     Cnc,
@@ -37,14 +37,14 @@ pub struct Trial {
     pub targets: Vec<String>,
     pub failed: Vec<String>,
     pub result: TrialResult,
-    /// The reason why the defect may survive.
+    /// The written reason why the defect may survive; only for a defect that survived.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
 impl Trial {
-    /// Whether this is a surviving defect without a reason, a false alarm, or a trial that could not be
-    /// run.
+    /// Whether the trial is a failure: a defect that was not caught and has no reason, a false alarm, or a
+    /// trial that could not be run.
     pub(super) fn is_failure(&self) -> bool {
         match self.result {
             TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet | TrialResult::Same => {
@@ -60,12 +60,13 @@ impl Trial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TrialResult {
-    /// A requirement that the defect breaks has failed.
+    /// A requirement that the defect breaks has failed or, below the level *must*, has a warning or a
+    /// difference.
     Caught,
     /// For codecs only: a vector of a requirement that the defect breaks has a warning or a difference,
     /// because the manuals do not state everything that the vector expects.
     Noticed,
-    /// Only other requirements have failed.
+    /// Only requirements that the defect does not break have failed.
     Elsewhere,
     /// No requirement has failed.
     Survived,
@@ -85,16 +86,17 @@ pub(super) struct Candidate {
     pub(super) group: SelfTestGroup,
     pub(super) what: String,
     pub(super) targets: Vec<&'static str>,
-    /// Runs the cases; `None` if the defect changed nothing.
+    /// Runs the cases; the outcomes are `None` if the defect changed nothing.
     pub(super) run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, ToolError> + Send + Sync>,
 }
 
-/// The requirement to which a requirement or a part of one belongs.
+/// The ID of the whole requirement: `VAR-4` for `VAR-4` and for its part `VAR-4.x`.
 pub(super) fn whole(id: &str) -> &str {
     id.split_once('.').map_or(id, |(of, _)| of)
 }
 
-/// The failed requirements, and the result.
+/// The failed requirements, and the result of the trial. After a harness error, the requirements
+/// with a harness error instead.
 pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
@@ -107,7 +109,7 @@ pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>,
         found
     };
     let failed = with(&[Verdict::Fail, Verdict::Vacuous]);
-    // A broken should causes a warning, and a broken assumption a difference.
+    // A violated requirement of level *should* causes a warning, a violated assumption a difference.
     let noticed = with(&[Verdict::Warning, Verdict::Differs]);
     let hit = |id: &&str| match ads_cnc_vectors::clause(id) {
         Some(clause) => {

@@ -1,7 +1,8 @@
 //! Defects of a CNC that no case can detect.
 
-/// The IDs of these defects. `tests/simulator/defects.rs` detects each with a test of the simulated
-/// CNC. For example, no reply contains the executed lines of a program.
+/// The IDs of the defects of a CNC that no case can detect: for example, no reply contains the lines of
+/// an NC program that were executed. `tests/simulator/defects.rs` detects each of these defects with a
+/// test of the simulated CNC.
 #[rustfmt::skip]
 pub const UNSEEN: &[&str] = &[
     "ams-header.error.swap", "axis-handle-by-name.first-channel", "cnc.adr.place-keeps-axis",

@@ -9,8 +9,8 @@ use ads_cnc::operation::Function;
 
 use crate::client::{Client, Target};
 use crate::exchange::{ExchangeError, meaning};
+use crate::exit::Exit;
 use crate::gate::Refusal;
-use crate::judge::Exit;
 
 /// The error that ends a command. The text includes advice.
 #[derive(Debug)]

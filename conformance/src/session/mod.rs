@@ -2,14 +2,12 @@
 
 mod error;
 
-use std::fmt;
 use std::io::{self, Write as _};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use std::time::Duration;
 
 use ads_cnc::ads::{DeviceInfoReply, DeviceStateReply};
-use ads_cnc::layout::Stream;
 use ads_cnc::operation::{
     Call, CountObjects, CountVariables, Function, ObjectList, Operation, Request, Task,
 };
@@ -21,9 +19,7 @@ use crate::exchange::{Exchange, ExchangeError, is_of_ads, other_invoke_id};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
-use crate::report::lines;
 use crate::simulator::{LocalCnc, NET_ID, Responder, Server};
-use crate::text::plural;
 
 pub use error::ToolError;
 
@@ -53,6 +49,8 @@ pub struct Session {
     reply: Vec<u8>,
     answered: bool,
     deadline: Option<Deadline>,
+    /// Prints a request in a dry run.
+    print: fn(&Exchange),
 }
 
 impl Session {
@@ -67,14 +65,15 @@ impl Session {
         }
     }
 
-    /// A session that prints requests to stdout instead of sending them. Writes seem to succeed;
-    /// calls that need a reply fail with [`ToolError::NotSent`].
+    /// A session that prints requests instead of sending them. Writes seem to succeed; calls that need
+    /// a reply fail with [`ToolError::NotSent`].
     ///
     /// # Errors
     /// If the gate allows malformed requests and the target is another machine.
-    pub fn dry(target: Target, gate: Gate) -> Result<Self, ToolError> {
+    pub fn dry(target: Target, gate: Gate, print: fn(&Exchange)) -> Result<Self, ToolError> {
         let client = Client::dry(target, gate);
-        Ok(Self::over(client.map_err(|error| ToolError::Usage(error.to_string()))?, None))
+        let client = client.map_err(|error| ToolError::Usage(error.to_string()))?;
+        Ok(Self { print, ..Self::over(client, None) })
     }
 
     /// Starts a simulated CNC in this process, on loopback, and connects to it.
@@ -131,8 +130,8 @@ impl Session {
     ///
     /// # Errors
     /// Those of [`dry`](Self::dry).
-    pub fn dry_simulated(gate: Gate) -> Result<Self, ToolError> {
-        Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
+    pub fn dry_simulated(gate: Gate, print: fn(&Exchange)) -> Result<Self, ToolError> {
+        Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate, print)
     }
 
     /// Connects to the same simulated CNC with another gate. For a device, only the file of
@@ -158,7 +157,14 @@ impl Session {
     }
 
     fn over(client: Client, simulated: Option<Server>) -> Self {
-        Self { client, simulated, reply: Vec::new(), answered: false, deadline: None }
+        Self {
+            client,
+            simulated,
+            reply: Vec::new(),
+            answered: false,
+            deadline: None,
+            print: |_| {},
+        }
     }
 
     /// Captures all frames sent and received from now on.
@@ -210,7 +216,7 @@ impl Session {
         }
         let exchange = self.client.call(call);
         if self.client.is_dry() {
-            show(&exchange);
+            (self.print)(&exchange);
         }
         Ok(exchange)
     }
@@ -372,36 +378,6 @@ fn encode<'d>(
 ) -> Result<Call<'d>, ToolError> {
     let call = request.encode(data).map_err(ToolError::Unsendable)?;
     Ok(Call { port: task.port(), ..call })
-}
-
-/// Prints a request that was not sent.
-fn show(exchange: &Exchange) {
-    // A closed stdout is not an error.
-    let _unread = write!(io::stdout().lock(), "{}", Shown(exchange));
-}
-
-/// A request in a dry run: function, address, bytes, and whether the gate would allow it.
-#[derive(Debug)]
-pub struct Shown<'e>(pub &'e Exchange);
-
-impl fmt::Display for Shown<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let call = self.0.call();
-        let spec = call.dispatch().ok().map(|request| request.function().spec());
-        let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
-        let verdict = match &self.0.outcome {
-            // The error of the command contains the reason.
-            Err(ExchangeError::Refused(_)) => "would be rejected".to_owned(),
-            Err(ExchangeError::Unsendable(error)) => format!("cannot be encoded: {error}"),
-            _ => "would be sent".to_owned(),
-        };
-        writeln!(f, "{verdict}\n  {name} ({clause}): {}", self.0)?;
-        if call.read_length > 0 {
-            writeln!(f, "  reply of at most {}", plural(call.read_length, "byte"))?;
-        }
-        let stream = spec.and_then(|spec| spec.request).map(|stream: Stream| stream.layout().name);
-        lines::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
-    }
 }
 
 /// The address of a simulated CNC without a socket.

@@ -11,10 +11,9 @@ use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{ChannelItems, Probe, RawCall, Steady, content_reads, in_channel, rules_by_index};
 use super::row::{CaseRow, case};
+use crate::evidence::Evidence;
 use crate::exchange::Exchange;
-use crate::judge::{
-    Checks as _, Evidence, Needs, OrStop as _, Record, Rule, Step, Stop, assumed, online,
-};
+use crate::judge::{Checks as _, Needs, OrStop as _, Record, Rule, Step, Stop, assumed, online};
 use crate::objects::KINDS;
 use crate::profile::Claim;
 use crate::text::hex::spaced;

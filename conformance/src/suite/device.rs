@@ -7,7 +7,8 @@ use ads_cnc_vectors::ids::*;
 use super::kit::Probe;
 use super::row::{CaseRow, case};
 use crate::client::{Inquired, Inquiry, InquiryReply};
-use crate::judge::{Checks as _, Evidence, Needs, Step};
+use crate::evidence::Evidence;
+use crate::judge::{Checks as _, Needs, Step};
 use crate::values::until_nul;
 
 #[rustfmt::skip]

@@ -7,7 +7,8 @@ use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
 use super::kit::{Probe, RawCall};
-use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
+use crate::evidence::Evidence;
+use crate::judge::{Body, Case, Needs, Rule, Step, Stop, case_of, typed};
 use crate::text::hex::spaced;
 
 /// An example that contradicts another example of the same variable (E-27): no CNC can satisfy both.

@@ -11,11 +11,12 @@ use super::kit::{
     order, part, places_tried, same,
 };
 use super::row::{CaseRow, case};
-use crate::explain::{ValueFormat, type_by_name};
-use crate::judge::{Checks as _, Evidence, Needs, Rule, Step};
+use crate::evidence::Evidence;
+use crate::judge::{Checks as _, Needs, Rule, Step};
 use crate::rules::element_count;
 use crate::text::hex::spaced;
 use crate::text::plural;
+use crate::value_format::{ValueFormat, type_by_name};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[

@@ -8,7 +8,8 @@ use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, axis_address, is_of_service};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, Evidence, Needs, Rule, Step, Stop};
+use crate::evidence::Evidence;
+use crate::judge::{Checks as _, Needs, Rule, Step, Stop};
 use crate::objects::ValueAddress;
 use crate::rules::element_count;
 

@@ -1,8 +1,8 @@
 //! Attributes a failed vector to the requirements of its wrong fields.
 //!
-//! A vector cites the requirements of all its fields, and those about bytes and texts in general.
-//! If one field is wrong, only some of these requirements are violated; the others fail as a
-//! consequence.
+//! A vector cites the requirements of all its fields, and general requirements about bytes and texts.
+//! If one field is wrong, the answer violates only some of these requirements; the others fail as a
+//! consequence of the violated ones.
 
 use std::collections::BTreeSet;
 
@@ -13,12 +13,12 @@ use serde_json::Value as Json;
 
 use super::compare;
 
-/// The fields of a stream that are wrong in an answer.
+/// Says which fields of a stream are wrong in an answer.
 pub(super) struct WrongFields {
     stream: Stream,
-    /// One entry for each field in the stream's table.
+    /// One entry for each field in the table of the stream's fields.
     is_wrong: Vec<bool>,
-    /// Whether any number has the expected bytes in reverse order.
+    /// Whether the bytes of at least one wrong number are the expected bytes in reverse order.
     is_reversed: bool,
 }
 
@@ -27,8 +27,8 @@ impl WrongFields {
         Self { stream, is_wrong: vec![false; stream.layout().fields.len()], is_reversed: false }
     }
 
-    /// The wrong fields of a decoded value; `None` if it has other fields than expected. Unless
-    /// `strict`, the bytes after a text may be omitted.
+    /// The wrong fields of a decoded value; `None` if the value has other fields than expected. Unless
+    /// `strict`, the testee may omit the bytes after a text.
     pub(super) fn of_value(
         stream: Stream,
         expected: &Fields,
@@ -45,7 +45,8 @@ impl WrongFields {
         self.wrong().map(|row| row.clause)
     }
 
-    /// The wrong fields of encoded bytes; `None` if their number differs from the expected one.
+    /// The wrong fields of encoded bytes; `None` if the number of bytes differs from the expected
+    /// number.
     pub(super) fn of_bytes(stream: Stream, expected: &[u8], found: &[u8]) -> Option<Self> {
         let mut wrong = Self::none(stream);
         if expected.len() != found.len() {
@@ -87,7 +88,7 @@ impl WrongFields {
                 self.add(name, is_reversed(expected, found))?;
                 continue;
             }
-            // The records of a list.
+            // The value is not a field of the table, but a record or a list of records with such fields.
             match (expected, found.as_array()) {
                 (Value::Record(fields), _) => self.add_record(fields, found, strict)?,
                 (Value::List(items), Some(given)) if items.len() == given.len() => {
@@ -110,22 +111,21 @@ impl WrongFields {
         self.rows().zip(&self.is_wrong).filter(|(_, is_wrong)| **is_wrong).map(|(row, _)| row)
     }
 
-    /// Whether fields are wrong, and all of them are such fields.
+    /// Whether at least one field is wrong, and `are` returns true for all wrong fields.
     pub(super) fn are_all(&self, are: impl Fn(&FieldSpec) -> bool) -> bool {
         self.wrong().next().is_some() && self.wrong().all(are)
     }
 
-    /// Whether all fields after the first wrong one are also wrong, as if bytes were missing or
-    /// inserted.
+    /// Whether all fields from the first wrong field on are wrong, as if bytes were missing or inserted.
     fn is_shifted(&self) -> bool {
         let first = self.is_wrong.iter().position(|is_wrong| *is_wrong).unwrap_or_default();
         let from_first = self.is_wrong.get(first..).unwrap_or_default();
         from_first.len() > 1 && from_first.iter().all(|is_wrong| *is_wrong)
     }
 
-    /// The violated clause that makes a requirement fail, if the requirement itself is not
-    /// violated. `cited` are the requirements of the vector, `broken` those of fields by which
-    /// other vectors fail.
+    /// The violated clause, as a consequence of which a requirement fails; `None` if the answer violates
+    /// the requirement itself. `cited` are the requirements of the vector, `broken` the clauses of the
+    /// wrong fields of all vectors.
     pub(super) fn cause_of(
         &self,
         requirement: &str,
@@ -150,7 +150,8 @@ impl WrongFields {
         } else {
             let layout = self.stream.layout();
             let is_assumed = clause(requirement).is_some_and(|one| one.level() == Level::Info);
-            // In a stream of records, the clause of the stream is about the order of its fields.
+            // If a stream repeats its record, a wrong field may also violate the clause of the stream,
+            // which specifies the order of the fields.
             is_assumed
                 || layout.clause == requirement && !layout.repeats
                 || self.rows().any(|row| row.clause == requirement)
@@ -159,7 +160,7 @@ impl WrongFields {
     }
 }
 
-/// Whether a number has the bytes of the expected one in reverse order.
+/// Whether the bytes of a number are those of the expected number in reverse order.
 fn is_reversed(expected: &Value, found: &Json) -> bool {
     let Value::One(expected) = expected else { return false };
     let bits = |text: Option<&str>| u64::from_str_radix(text?.strip_prefix("0x")?, 16).ok();
@@ -180,7 +181,8 @@ fn is_reversed(expected: &Value, found: &Json) -> bool {
 mod tests {
     use super::*;
 
-    /// A description: handle at 0, type at 4, access at 8, size at 12, no dimension, "V.E.a".
+    /// A description: handle at offset 0, type at 4, access at 8, size at 12, no dimensions, and the
+    /// name "V.E.a".
     const BYTES: &[u8] = b"\x01\0\0\0\x06\0\0\0\x02\0\0\0\x04\0\0\0\0\0\0\0V.E.a\0";
     const CITED: &[&str] =
         &["VAR-4", "VAR-5", "VAR-6", "VAR-8", "GEN-1", "GEN-2", "GEN-3", "GEN-5", "VAR-24"];

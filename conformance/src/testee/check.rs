@@ -1,4 +1,4 @@
-//! Tries each step of the protocol, for the author of an adapter.
+//! Tries each step of the testee protocol and explains what fails, for the author of an adapter.
 
 use ads_cnc_vectors::{Expect, Vector, vector};
 
@@ -18,7 +18,7 @@ pub struct ProtocolFinding {
     pub fault: Option<String>,
 }
 
-/// Vectors for the test, one for each kind of field. The first one that the testee claims is used.
+/// The vectors to try, one for each kind of field. Those whose stream the testee claims are used.
 const SAMPLES: [&str; 8] = [
     "handle-printed",
     "object-count",
@@ -30,7 +30,7 @@ const SAMPLES: [&str; 8] = [
     "descriptor-printed",
 ];
 
-/// Either edition is suitable, because the samples are the same in both.
+/// The edition in the questions. The samples are the same in both editions.
 const EDITION: &str = "en-1.05";
 
 /// Tries every step of the protocol with a testee.
@@ -139,7 +139,7 @@ impl Steps<'_> {
         self.note(format!("{} is encoded", vector.stream), fault);
     }
 
-    /// Sends a stream that is one byte too short.
+    /// Checks that the testee rejects a stream that is one byte too short.
     fn cut(&mut self, vector: &Vector, capabilities: &Capabilities) {
         if !capabilities.claim("decode", &vector.stream) {
             return;
@@ -172,7 +172,7 @@ impl Steps<'_> {
     }
 }
 
-/// The question with this op for a vector.
+/// The question for a vector with this op (`decode` or `encode`); `None` if the vector has none.
 fn question_of(op: &str, vector: &Vector) -> Option<Question> {
     of_vector(vector, EDITION).into_iter().find(|question| question.op == op)
 }

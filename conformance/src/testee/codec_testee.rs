@@ -1,4 +1,4 @@
-//! This project's codec as a testee.
+//! Uses this project's codec as a testee.
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::{CheckEvent, Checker, LineErrorKind, NcText};
@@ -17,7 +17,7 @@ pub struct CodecTestee {
 }
 
 impl CodecTestee {
-    /// The capabilities: all streams and ops of the vectors.
+    /// The answer to hello, which claims all streams and ops of the vectors, and both editions.
     pub fn hello(&self) -> TesteeHello {
         let mut streams: Vec<String> = vectors().iter().map(|one| one.stream.clone()).collect();
         streams.sort();
@@ -114,7 +114,7 @@ fn refusal(refused: Refused) -> Answer {
     }
 }
 
-/// Splits NC text into packets, as they are written to a CNC.
+/// Splits NC text into the packets that a client writes to the program stream.
 fn split(text: &[u8]) -> Result<Output, Answer> {
     let text = NcText::new(text).map_err(|error| {
         let class = match error.kind() {
@@ -139,7 +139,8 @@ fn split(text: &[u8]) -> Result<Output, Answer> {
     Ok(Output { packets: Some(all), ..Output::default() })
 }
 
-/// Checks packets one after another by the rules of streaming, like a CNC.
+/// Checks packets one after another by the rules of streaming, like a CNC that receives them. Rejects
+/// the packets with the first finding.
 fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
     let mut checker = Checker::new();
     let mut found = None;

@@ -1,4 +1,4 @@
-//! Compares the significant fields of a value with the expected ones.
+//! Compares the significant fields of a value in an answer with the expected fields.
 
 use std::str::FromStr as _;
 
@@ -10,17 +10,18 @@ use crate::text::hex::compact;
 use crate::text::plural;
 use crate::values::until_nul;
 
-/// A difference between two values.
+/// A difference between the expected value and the value in an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Difference {
     Other(String),
-    /// A text has the expected characters, but another end.
+    /// A text has the expected characters, but differs in its NUL or in the bytes after the NUL.
     End(String),
-    /// The testee omits the bytes after a text.
+    /// The answer does not say how a text ends: the fields `open` and `tail` are omitted.
     Omitted(String),
 }
 
-/// The first difference between the expected and the actual value.
+/// The most severe difference between the expected value and the value in the answer; the first of
+/// several.
 pub(super) fn compare(reference: &Fields, found: &Json) -> Option<Difference> {
     record("", reference, found)
 }
@@ -56,7 +57,7 @@ fn record(place: &str, reference: &Fields, found: &Json) -> Option<Difference> {
     slight
 }
 
-/// The more severe of two differences; the first if they are equal.
+/// The more severe of two differences; the first if they are equally severe.
 fn worse(one: Option<Difference>, other: Option<Difference>) -> Option<Difference> {
     let weight = |difference: &Option<Difference>| match difference {
         None => 0,
@@ -176,8 +177,8 @@ fn hex(place: &str, reference: &[u8], given: Option<&str>) -> Option<Difference>
     }
 }
 
-/// Whether a text has the expected characters, but another end: characters up to its first NUL, or
-/// all but the last one of a text without NUL.
+/// Whether a text differs from the expected text only in its end: it is equal up to the first NUL or, if
+/// the expected text has no NUL, lacks only the last character.
 fn has_other_end(reference: &Tagged, given: Option<&str>) -> bool {
     let reference_text = reference.hex.as_deref().unwrap_or_default();
     let Some(Ok(given)) = given.map(compact::parse) else { return false };
@@ -185,7 +186,8 @@ fn has_other_end(reference: &Tagged, given: Option<&str>) -> bool {
         || reference.open && reference_text.split_last().is_some_and(|(_, most)| most == given)
 }
 
-/// Compares the bytes after a text, which a testee may omit.
+/// Compares the ends of two texts with equal characters: `open` (no NUL) and `tail` (the bytes after
+/// the NUL), which a testee may omit.
 fn end(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
     let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);

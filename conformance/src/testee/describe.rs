@@ -2,11 +2,12 @@
 
 use super::TesteeReaction;
 use crate::codec::message::{Answer, Output, Question};
-use crate::judge::{Evidence, TEXT_MAX};
+use crate::evidence::Evidence;
+use crate::judge::TEXT_MAX;
 use crate::show::show;
 use crate::text::{hex::compact, plural, shorten};
 
-/// The start of the description of a line that is not an answer of the protocol.
+/// The beginning of the description of a line that is not a valid answer of the protocol.
 pub(super) const NO_ANSWER: &str = "invalid answer: ";
 
 pub(super) fn describe(reaction: &TesteeReaction) -> String {

@@ -12,16 +12,16 @@ use crate::codec::message::{Answer, TesteeHello};
 use crate::judge::{Case, CaseOutcome, CaseSubject, HELLO, Stop, Verdict, caught};
 use crate::process::{interrupt, progress};
 
-/// Maximum number of consecutive invalid or missing answers; after them no more questions are asked.
+/// After this many consecutive invalid or missing answers, no more questions are asked.
 const UNANSWERED_MAX: usize = 12;
 
-/// Maximum memory for all answers in bytes; those to vectors may use only a part of it.
+/// Maximum memory in bytes for all answers; if it is exceeded, no more questions are asked.
 const ANSWERS_MAX: usize = 32 << 20;
 
 #[derive(Debug)]
 pub struct JudgedTestee {
     pub hello: Option<TesteeHello>,
-    /// The outcomes of the cases, and of the protocol.
+    /// The outcomes of the cases, and of the case about the testee protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
     /// How often the process was restarted.
@@ -34,7 +34,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let hello = match testee.hello() {
         Ok(hello) => hello,
         Err(_) if interrupt::is_requested() => return untried(cases, CaseOutcome::interrupted),
-        // A missing answer after an interrupt proves nothing.
+        // After the deadline the suite no longer waits, so a missing answer is not a failure.
         Err(reaction) => {
             return match testee.over() {
                 Some(why) => untried(cases, |case| {
@@ -59,8 +59,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         let outcomes = cases.into_iter().map(untried).collect();
         return JudgedTestee { hello: Some(hello), outcomes, asked: 0, restarts: 0 };
     }
-    // Rejections are judged together with their accepted siblings, so the siblings are asked even if
-    // they are not selected.
+    // A rejection is judged together with the accepted sibling of its vector or sequence, so the
+    // questions of the siblings are asked even if the user did not select these cases.
     let wanted = cases.len();
     let missing = crate::judge::siblings_of(&cases);
     cases.extend(missing);
@@ -86,7 +86,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             (Err(_), Purpose::MadeUp) => continue,
         };
         if interrupt::is_requested() {
-            // A missing answer after an interrupt proves nothing.
+            // After an interrupt the suite no longer waits, so a missing answer is not a failure.
             gone = Some(Stop::Interrupted);
             break;
         }
@@ -99,7 +99,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             let time = times.entry(*case).or_default();
             *time = time.saturating_add(begin.elapsed());
         }
-        // The answers are judged together, after the last question.
+        // The answers are judged only after the last question, because rejections depend on siblings.
         let is_lost = matches!(
             reaction,
             TesteeReaction::Died(_) | TesteeReaction::Silent(_) | TesteeReaction::Broken(_)
@@ -162,7 +162,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         judged.map(|judged| CaseOutcome { time: times.get(&place).copied(), ..judged })
     };
     let mut outcomes: Vec<CaseOutcome> = (0..wanted).filter_map(outcome).collect();
-    // This project's codec is called without the protocol.
+    // This project's codec is called as a function, so it has no outcome for the protocol.
     if terms.subject != CaseSubject::Codec {
         let is_open = interrupt::is_requested() && !protocol.has_failed();
         let protocol = protocol.outcome(terms.subject);
@@ -194,7 +194,7 @@ mod tests {
     use super::super::{CodecTestee, Question};
     use super::*;
 
-    /// The codec, which panics at the op check.
+    /// This project's codec, which panics at each question with the op `check`.
     struct PanickingTestee(CodecTestee);
 
     impl Testee for PanickingTestee {

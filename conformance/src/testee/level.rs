@@ -1,5 +1,5 @@
-//! The level at which a wrong answer of a testee is judged: it depends on what the assumptions of a vector are
-//! about.
+//! The level at which a wrong answer of a testee is judged. A wrong answer that only contradicts an
+//! assumption of a vector is judged at level *info*.
 
 use ads_cnc::layout::{FieldSpec, Stream, Type};
 use ads_cnc_vectors::{About, Assumption, Expect, Level, Sequence, Vector, sequence, vector};
@@ -11,7 +11,8 @@ use crate::codec::message::{Answer, Output};
 use crate::judge::{Body, Verdict};
 use crate::values::until_nul;
 
-/// The level of a case's expectation; if the sibling failed, its level counts too.
+/// The level at which a wrong answer to a case is judged. If a rejection proves nothing because the
+/// accepted sibling failed (`Vacuous`), the weaker of the levels of the case and of the sibling.
 pub(super) fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeReaction) -> Level {
     let (own, sibling) = match body {
         Body::Vector(one) if one.is_accepted() => (accepted_level(one, op, reaction), None),
@@ -29,7 +30,8 @@ pub(super) fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeRe
     }
 }
 
-/// The wrong fields of an answer to an accepted vector; `None` if it has other fields than expected.
+/// The wrong fields of an answer to an accepted vector; `None` if the answer has other fields than
+/// expected.
 pub(super) fn wrong_fields(vector: &Vector, output: &Output, strict: bool) -> Option<WrongFields> {
     let Expect::Accept(accept) = &vector.expect else { return None };
     let stream = Stream::by_name(&vector.stream)?;
@@ -54,14 +56,14 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
         }
         (None, None) => false,
     };
-    // A number of another width also changes the number of bytes.
+    // For example, a number of another width changes the number of bytes.
     let has_other_length = || {
         let same =
             |bytes: &Vec<u8>| forms(vector, accept).iter().any(|one| one.len() == bytes.len());
         output.hex.as_ref().is_some_and(|bytes| !same(bytes))
     };
     let deciding: Vec<&Assumption> = vector.assumed.iter().filter(decides).collect();
-    // If the answer has other fields than expected, any of them may be wrong.
+    // `None` if the answer has other fields than expected: then every field may be wrong.
     let wrong = wrong_fields(vector, output, false);
     let rests_whole = |one: &&Assumption| match one.about {
         Some(About::End) => has_other_end(),
@@ -85,8 +87,8 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
     }
 }
 
-/// Whether bytes differ from the expected ones only in the ends of texts: the bytes after the first
-/// NUL of a field, and NULs at the end of the stream.
+/// Whether bytes differ from the expected bytes only in the ends of texts: in the bytes after the first
+/// NUL of a text field, or in the number of NULs at the end of the stream.
 fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
     let trimmed = |bytes: &[u8]| {
         let len =
@@ -111,7 +113,7 @@ fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    /// The level for the encoded vector with these bytes changed.
+    /// The level of an answer to `encode` in which the bytes at these offsets are wrong.
     fn level_with(changed: &[usize]) -> Level {
         let vector = vector("description-cp1252-name").unwrap();
         let mut bytes = vector.bytes();
@@ -120,7 +122,8 @@ mod tests {
         accepted_level(vector, "encode", &TesteeReaction::Answer(Answer::Ok(output)))
     }
 
-    /// An assumption about the name does not excuse a wrong size beside it.
+    /// A size that is wrong together with the name is judged at level *must*, although the vector only
+    /// assumes the name.
     #[test]
     fn an_assumption_excuses_only_the_fields_that_it_is_about() {
         const SIZE: usize = 12;

@@ -1,4 +1,4 @@
-//! Small testees that misbehave, each of which the suite must detect, and a few correct ones.
+//! Miniatures: small testees that misbehave, each of which the suite must detect, and three correct ones.
 
 use super::CodecTestee;
 use crate::codec::message::{
@@ -8,35 +8,35 @@ use crate::text::named;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Miniature {
-    /// Accepts everything.
+    /// Accepts every input; input that must be rejected, with an empty value.
     AcceptsAll,
-    /// Rejects everything.
+    /// Rejects every input.
     RefusesAll,
-    /// Returns its input.
+    /// Returns the input of each question as the answer.
     Echoes,
-    /// Leaves every fortieth case unanswered.
+    /// Hangs at every fortieth case.
     Hangs,
     /// Crashes at every tenth case.
     Crashes,
-    /// Claims ops that it does not implement.
+    /// Claims streams that it does not implement.
     Boasts,
-    /// Answers ops that do not exist.
+    /// Accepts ops that do not exist, instead of answering that they are unsupported.
     KnowsAll,
-    /// Answers every faulty input with an error class of its own.
+    /// Reports an internal error instead of rejecting faulty input.
     Excuses,
-    /// Answers with the number of another case.
+    /// Answers every tenth case with the number of the next case.
     Miscounts,
-    /// Answers with invalid JSON.
+    /// Answers every tenth case with a line that is not JSON.
     Mumbles,
-    /// Gives wrong answers after a hundred cases.
+    /// Rejects every input after a hundred cases.
     Tires,
-    /// Does not exit after bye.
+    /// Does not exit after `bye`.
     Stays,
-    /// Writes much to stderr. Otherwise correct.
+    /// Writes much text to stderr. Correct.
     Noisy,
-    /// Implements only decode, and claims only that. Correct.
+    /// Implements and claims only `decode`. Correct.
     DecodesOnly,
-    /// Omits all fields that are not significant. Correct.
+    /// Omits the parts of values that are not significant. Correct.
     Terse,
 }
 
@@ -74,7 +74,7 @@ impl Miniature {
         hello
     }
 
-    /// The reaction to a line, which is case `seq`.
+    /// The reaction of the miniature to a line, which contains the case with the number `seq`.
     pub fn act(self, own: &CodecTestee, line: &str, seq: u64) -> MiniatureAction {
         let Ok(TesteeCommand::Case { question, .. }) = serde_json::from_str(line) else {
             return MiniatureAction::Say(
@@ -134,7 +134,8 @@ pub enum MiniatureAction {
     Crash,
 }
 
-/// Keeps only the significant fields: the hex of texts and bytes, the bits of floats.
+/// Removes the parts of values that are not significant: the `value` of texts and bytes, whose `hex` is
+/// significant, and of floats, whose `bits` are.
 fn strip(value: &mut serde_json::Value) {
     match value {
         serde_json::Value::Array(items) => items.iter_mut().for_each(strip),

@@ -1,7 +1,7 @@
 //! Tests other codecs: a command answers questions over stdin and stdout, each a line of JSON.
 //!
 //! `adapters/README.md` specifies the protocol. [`CodecTestee`] answers with this project's codec;
-//! [`TesteeProcess`] runs another one. [`judge`] asks a testee all questions of the golden vectors.
+//! [`TesteeProcess`] runs another codec. [`judge`] asks a testee all questions of the golden vectors.
 
 mod blame;
 mod check;
@@ -37,15 +37,15 @@ pub trait Testee {
     /// Asks a question. A process that has ended is restarted.
     fn ask(&mut self, question: &Question) -> TesteeReaction;
 
-    /// Tells the codec to end.
+    /// Tells the codec to exit, and checks its exit code.
     fn bye(&mut self) -> Result<(), String>;
 
-    /// Why no more questions may be asked; `None` if they may.
+    /// Why the suite may ask no more questions; `None` if it may.
     fn over(&self) -> Option<String> {
         None
     }
 
-    /// The output to stderr.
+    /// The output of the codec to stderr.
     fn stderr(&self) -> String {
         String::new()
     }

@@ -10,13 +10,14 @@ use crate::judge::{Body, Case, order};
 pub(super) enum Purpose {
     /// To judge the case with this index.
     Case(usize),
-    /// To detect a change: asked both at the start and at the end.
+    /// To detect that an answer changes during the run: the question is asked at the start and at the
+    /// end.
     Sanity {
         case: usize,
-        /// Whether it is asked at the start.
+        /// Whether the question is asked at the start; otherwise at the end.
         first: bool,
     },
-    /// To try an op that does not exist.
+    /// To check that the testee does not support an op that does not exist.
     MadeUp,
 }
 
@@ -27,11 +28,11 @@ pub(super) struct PlannedQuestion {
     pub(super) question: Question,
 }
 
-/// Number of cases that are asked at the start and again at the end.
+/// Number of questions that are asked at the start and again at the end.
 const SANITY: usize = 6;
 
-/// All questions of these cases that the testee claims to answer, shuffled, with sanity questions
-/// at both ends and nonexistent ops in between.
+/// All questions of these cases that the testee claims to answer, in random order, with sanity
+/// questions at the start and at the end, and two questions with nonexistent ops in between.
 pub(super) fn plan(
     cases: &[Case],
     capabilities: &Capabilities,
@@ -52,7 +53,7 @@ pub(super) fn plan(
         }
         _ => 0,
     });
-    // After one third, and after two thirds.
+    // Inserts a nonexistent op after two thirds of the questions, and another after one third.
     for part in [2, 1] {
         let place = asked.len().saturating_mul(part).checked_div(3).unwrap_or_default();
         asked.insert(place, made_up(order(seed, &part.to_string()), edition));
@@ -66,7 +67,8 @@ pub(super) fn plan(
     again(true).chain(asked).chain(again(false)).collect()
 }
 
-/// Cases of different streams, both accepted and rejected ones.
+/// The sanity questions, as case and question: for different streams or ops, and one third of them for
+/// rejected vectors.
 fn sanity(cases: &[Case], asked: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     let mut chosen: Vec<(usize, Question)> = Vec::new();
     for one in asked {
@@ -89,7 +91,7 @@ fn sanity(cases: &[Case], asked: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     chosen
 }
 
-/// A nonexistent op for a stream that the testee may have.
+/// A question with a nonexistent op, for a stream that the testee may claim.
 fn made_up(number: u64, edition: &str) -> PlannedQuestion {
     let blank = Question::new(format!("decode-{number:x}"), "object-count", edition);
     let question = Question { hex: Some(vec![1, 0, 0, 0]), ..blank };
@@ -116,7 +118,7 @@ pub fn questions(case: &Case, edition: &str) -> Vec<Question> {
     }
 }
 
-/// The questions for a vector: it is decoded and, if it is accepted, encoded from its value.
+/// The questions for a vector: `decode` with its bytes and, if it is accepted, `encode` with its value.
 pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     let of = |op: &str| Question {
         context: Known::from(&vector.context),
@@ -131,7 +133,8 @@ pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     }
 }
 
-/// The permitted encodings of a value: the bytes of the vector, or the canonical form.
+/// The permitted encodings of a vector's value: the bytes of the vector and, if it has one, the
+/// canonical form.
 pub(super) fn forms(vector: &Vector, accept: &Accept) -> Vec<Vec<u8>> {
     let canonical = accept.canonical.as_ref().map(|hex| hex.to_vec());
     std::iter::once(vector.bytes()).chain(canonical).collect()

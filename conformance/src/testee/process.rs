@@ -8,7 +8,7 @@ use crate::deadline::Deadline;
 use crate::process::{START, Subprocess, not_json};
 use crate::text::shorten;
 
-/// Maximum number of characters of a line in a message.
+/// Maximum number of characters of a line that are shown in a message.
 const SHOWN: usize = 400;
 
 /// A testee that is started by a command.
@@ -40,12 +40,12 @@ impl TesteeProcess {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// The last part of the output to stderr.
+    /// The end of the testee's output to stderr.
     pub fn stderr(&self) -> String {
         self.process.stderr()
     }
 
-    /// The last lines sent and received, each truncated.
+    /// The last line sent to the testee, and the last line received from it, each truncated.
     pub fn last(&self) -> (Option<String>, Option<String>) {
         (self.sent.clone(), self.received.clone())
     }
@@ -128,9 +128,9 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
     }
 }
 
-/// Parses the line received for the case `seq`. Returns the reaction, and whether the next line can
-/// be trusted to answer the next case: after an answer to another case, the next one may be late
-/// too.
+/// Parses the line received for the case `seq`. Returns the reaction, and whether the next line can be
+/// attributed to the next case. It cannot after an answer to another case, because the next answer
+/// may be late too.
 ///
 /// ```
 /// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};

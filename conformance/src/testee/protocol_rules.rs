@@ -1,4 +1,4 @@
-//! The rules of the testee protocol.
+//! Checks that a testee follows the rules of the testee protocol.
 
 use ads_cnc_vectors::Level;
 
@@ -6,11 +6,10 @@ use super::TesteeReaction;
 use super::describe::{NO_ANSWER, describe, evidence};
 use super::verdicts::Reactions;
 use crate::codec::message::{Answer, Question};
-use crate::judge::{
-    Body, Case, CaseOutcome, CaseSubject, Describe, Needs, Record, Rule, TESTEE, Verdict,
-};
+use crate::evidence::Describe;
+use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, Record, Rule, TESTEE, Verdict};
 
-/// Checks the rules of the testee protocol.
+/// The checks of the rules of the testee protocol so far.
 #[derive(Default)]
 pub(super) struct ProtocolRules {
     record: Record,
@@ -44,7 +43,7 @@ impl ProtocolRules {
         self.check(passed, question, reaction, expected);
     }
 
-    /// Records an invalid answer line.
+    /// Records a line that is not a valid answer.
     pub(super) fn garbled(&mut self, question: &Question, reaction: &TesteeReaction) {
         let found = describe(reaction);
         let found = found.strip_prefix(NO_ANSWER).unwrap_or(&found);

@@ -10,43 +10,43 @@ use super::level::{level, wrong_fields};
 use super::plan::{forms, questions};
 use super::{TesteeReaction, compare};
 use crate::codec::message::{Answer, Output, Question, TesteeHello};
+use crate::evidence::Describe;
 use crate::judge::{
-    Body, Case, CaseOutcome, CaseSubject, Describe, NOT_CLAIMED, Record, Rule, Stop, TESTEE,
-    Verdict,
+    Body, Case, CaseOutcome, CaseSubject, NOT_CLAIMED, Record, Rule, Stop, TESTEE, Verdict,
 };
 use crate::show::show;
 use crate::text::hex::compact;
 use crate::text::plural;
 
-/// The conditions of the judgement.
+/// The terms by which a testee is judged.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'t> {
     pub seed: u32,
     /// The subject: this project's codec or a testee.
     pub subject: CaseSubject,
-    /// The edition to judge by, if selected.
+    /// The edition that the user selected; `None` for the first edition that the testee claims.
     pub edition: Option<&'t str>,
-    /// Whether an assumed requirement can fail too, as for this project's codec.
+    /// Whether an answer that only contradicts an assumption fails too, as for this project's codec.
     pub strict: bool,
 }
 
-/// The answers to the questions of a case, by op.
+/// The reactions to the questions, by index of the case and op.
 pub(super) type Reactions = HashMap<(usize, String), TesteeReaction>;
 
-/// All questions and answers.
+/// All cases and reactions, from which the verdicts follow.
 pub(super) struct Verdicts<'v> {
     pub(super) cases: &'v [Case],
     pub(super) reactions: &'v Reactions,
     pub(super) hello: &'v TesteeHello,
     pub(super) edition: String,
     pub(super) terms: Terms<'v>,
-    /// Why not all questions were asked.
+    /// Why not all questions were asked; `None` if all were asked.
     pub(super) gone: Option<Stop>,
-    /// The clauses of wrong fields by which a vector fails.
+    /// The clauses of the wrong fields by which at least one vector fails.
     pub(super) broken: BTreeSet<&'static str>,
 }
 
-/// How an answer differs from the expected one.
+/// How an answer differs from the expected answer.
 struct Deviation {
     verdict: Verdict,
     expected: String,
@@ -90,7 +90,7 @@ impl Verdicts<'_> {
             let deviation = self.deviation(case, question, reaction);
             let is_vacuous = |one: &Deviation| one.verdict == Verdict::Vacuous;
             if deviation.as_ref().is_some_and(is_vacuous) && self.gone.is_some() {
-                // The sibling may not have been asked.
+                // The question of the sibling may not have been asked, because the run ended early.
                 stop.clone_from(&self.gone);
                 continue;
             }
@@ -99,7 +99,7 @@ impl Verdicts<'_> {
         Some(CaseOutcome::tried(case.clone(), record.judgements, claimed.len(), stop))
     }
 
-    /// The clauses of wrong fields by which a case fails.
+    /// The clauses of the wrong fields by which a case fails.
     pub(super) fn causes(&self, place: usize) -> Vec<&'static str> {
         let Some(case) = self.cases.get(place) else { return Vec::new() };
         let mut causes = Vec::new();
@@ -130,13 +130,13 @@ impl Verdicts<'_> {
             Verdict::Fail | Verdict::Vacuous if level != Level::Must => {
                 (Verdict::missed(level), level)
             }
-            // Some differences count at a lower level than the case.
+            // `Differs` is always judged at level *info*, whatever the level of the case is.
             Verdict::Differs => (verdict, Level::Info),
             verdict => (verdict, level),
         }
     }
 
-    /// The wrong fields of an answer to an accepted vector.
+    /// The wrong fields of an answer to an accepted vector; `None` for other cases.
     fn wrong_fields(&self, case: &Case, reaction: &TesteeReaction) -> Option<WrongFields> {
         match (&case.body, reaction) {
             (Body::Vector(vector), TesteeReaction::Answer(Answer::Ok(output))) => {
@@ -205,7 +205,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// The highest level at which an answer with this verdict can be judged.
+    /// The level at which an answer with this verdict is judged.
     fn level(
         &self,
         case: &Case,
@@ -213,7 +213,8 @@ impl Verdicts<'_> {
         reaction: &TesteeReaction,
         verdict: Verdict,
     ) -> Level {
-        // Only an answer can be a mere difference; a crash is always a fault.
+        // Only an answer can be judged below level *must*; a crash or a missing answer is always a
+        // fault.
         let answered =
             matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;
@@ -226,7 +227,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether the selected edition states the behaviour that a case expects.
+    /// Whether the edition by which the testee is judged states the behaviour that a case expects.
     fn is_of_edition(&self, body: &Body) -> bool {
         let documents = match body {
             Body::Vector(one) => &one.editions,
@@ -286,7 +287,7 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Checks that something was rejected and its sibling accepted.
+    /// Checks that the testee rejected a vector or sequence, and accepted its valid sibling.
     fn rejected(
         &self,
         reaction: &TesteeReaction,
@@ -296,7 +297,7 @@ impl Verdicts<'_> {
     ) -> Option<Deviation> {
         match reaction {
             TesteeReaction::Answer(Answer::Reject(_)) => {
-                // Without an accepted sibling, the rejection may have any reason.
+                // If the testee does not accept the valid sibling, the rejection proves nothing.
                 let why = match self.sibling(sibling, op) {
                     Some(TesteeReaction::Answer(Answer::Ok(_))) => return None,
                     Some(other) => describe(other),
@@ -310,8 +311,8 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether a failure only shows a fault of the protocol: the answer, or that to the accepted
-    /// sibling of a rejection, is not defined by the protocol.
+    /// Whether a failure is only a violation of the testee protocol: the answer, or the answer to the
+    /// valid sibling, is a line that the protocol does not define.
     fn is_of_protocol(
         &self,
         case: &Case,
@@ -331,7 +332,7 @@ impl Verdicts<'_> {
             .any(|one| matches!(one, TesteeReaction::Garbled(_)))
     }
 
-    /// The reaction to the accepted sibling of a rejected vector or sequence.
+    /// The reaction to the valid sibling of a vector or sequence that must be rejected.
     fn sibling(&self, sibling: &Option<String>, op: &str) -> Option<&TesteeReaction> {
         let wanted = sibling.as_deref()?;
         let is_wanted = |case: &Case| match &case.body {
@@ -375,7 +376,7 @@ impl Verdicts<'_> {
     }
 }
 
-/// A fault in the packets of this text.
+/// Describes the first fault in the packets into which the testee split this text.
 fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
     let max = ads_cnc::limits::STREAM_PACKET_MAX;
     for (place, packet) in packets.iter().enumerate() {

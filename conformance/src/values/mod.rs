@@ -1,11 +1,9 @@
 //! Typed values: parsed and formatted by a description, a descriptor or the attributes of an element.
 
-mod format;
 mod json;
 mod parse;
 mod show;
 
-pub use format::{UnknownType, ValueFormat, type_by_name};
 pub use json::value_of;
 pub use parse::{InvalidValue, parse};
 pub(crate) use show::number;

@@ -14,8 +14,8 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Descriptors, U32List};
 use ads_cnc_conformance::client::Target;
+use ads_cnc_conformance::exit::Exit;
 use ads_cnc_conformance::gate::{Allowed, Gate};
-use ads_cnc_conformance::judge::Exit;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::session::{Session, ToolError};
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
@@ -101,7 +101,7 @@ fn an_error_of_the_cnc_contains_its_meaning() {
 fn a_dry_run_continues_after_writes_and_stops_at_queries() {
     let gate = allowing(&variable(WRITABLE));
     let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
-    let mut session = Session::dry(nobody, gate).unwrap();
+    let mut session = Session::dry(nobody, gate, |_| {}).unwrap();
     let write = |name| WriteByName::new(channel(), name, &[1][..]).unwrap();
     for _ in 0..3 {
         session.call(&write(WRITABLE)).unwrap();
@@ -261,6 +261,6 @@ fn missing_device_information_is_an_error() {
     }
     // A dry run sends nothing.
     let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
-    let mut session = Session::dry(nobody, Gate::queries()).unwrap();
+    let mut session = Session::dry(nobody, Gate::queries(), |_| {}).unwrap();
     assert!(matches!(session.device_info(Task::Com), Err(ToolError::NotSent)));
 }

@@ -6,8 +6,11 @@ use std::net::TcpStream;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use ads_cnc_conformance::exit::Exit;
 use ads_cnc_conformance::faults;
-use ads_cnc_conformance::judge::{Case, CaseOutcome, CaseSubject, Exit, Needs, TESTEE, Verdict};
+use ads_cnc_conformance::judge::{
+    Case, CaseOutcome, CaseSubject, Needs, TESTEE, Verdict, VerdictTally,
+};
 use ads_cnc_conformance::process::{RunningCommand, shell};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
@@ -55,7 +58,8 @@ fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
 }
 
 fn exit(judged: &JudgedTestee) -> Exit {
-    Exit::of(judged.outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict))
+    VerdictTally::of(judged.outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict))
+        .exit()
 }
 
 #[test]

@@ -1,10 +1,12 @@
-//! Checks that the explanation of any bytes must pass. The fuzz targets use them too.
+//! Checks that every explanation must pass, whatever the explained bytes are. The fuzz targets use these
+//! checks too.
 
 use ads_cnc_conformance::explain::{
     ExplainedStream, Explanation, ExplanationOutcome, Paint, parse_hex, print,
 };
 
-/// The rows and the unread bytes of a part contain all of its bytes, in order and without gaps.
+/// Checks that the rows and the unread bytes of a part cover all bytes of the part, in order and without
+/// gaps.
 fn check_part(part: &ExplainedStream, bytes: &[u8]) {
     let given = &bytes[part.at..part.at + part.length];
     let mut end = 0;
@@ -25,11 +27,11 @@ fn check_part(part: &ExplainedStream, bytes: &[u8]) {
     }
 }
 
-/// The parts contain every byte, and only once if the bytes are valid.
+/// Checks that the parts cover every byte, and only once if the bytes are valid.
 fn check_whole(explanation: &Explanation, bytes: &[u8]) {
     let mut shown = vec![0; bytes.len()];
     for part in &explanation.parts {
-        // Bytes that are explained as a separate part are shown in that part.
+        // The bytes of a row that is explained by a separate part are counted only in that part.
         let rows = part.rows.iter().filter(|row| !row.below).map(|row| (row.offset, row.length));
         let unread = part.unread.iter().map(|unread| (unread.offset, unread.length));
         for (offset, length) in rows.chain(unread) {
@@ -44,7 +46,7 @@ fn check_whole(explanation: &Explanation, bytes: &[u8]) {
     assert!(shown.iter().all(right), "{shown:?} of {explanation:#?}");
 }
 
-/// The printed text contains no control characters for a terminal.
+/// Checks that the printed text contains no control characters, which a terminal would interpret.
 pub(crate) fn check_printed(printed: &[u8]) {
     let controls = |byte: &&u8| byte.is_ascii_control() && **byte != b'\n';
     assert_eq!(printed.iter().find(controls), None);

@@ -26,8 +26,8 @@ pub(crate) enum Reaction {
     Close,
 }
 
-/// Serves connections one after the other; a request other than a write to the stream ends the
-/// connection.
+/// Starts a fake CNC that replies to writes to the program stream as `answer` decides. It serves one
+/// connection after the other; any other request closes the connection. Returns its address.
 pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static) -> SocketAddr {
     reacting(move |frame| {
         let request = Call::from_frame(frame).unwrap().unwrap();
@@ -44,7 +44,8 @@ pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static)
     })
 }
 
-/// Serves connections one after the other with the given reaction to each frame.
+/// Starts a fake CNC that reacts to each frame as `react` decides. It serves one connection after the
+/// other. Returns its address.
 pub(crate) fn reacting(
     mut react: impl FnMut(&FrameRef<'_>) -> Reaction + Send + 'static,
 ) -> SocketAddr {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A file that is removed when dropped.
+/// A temporary file that is removed when this value is dropped.
 pub(crate) struct TestFile(pub(crate) PathBuf);
 
 impl TestFile {

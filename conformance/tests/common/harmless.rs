@@ -4,22 +4,23 @@ pub(crate) fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
 }
 
-/// Whether a frame neither writes nor moves anything, nor uses resources of the device.
+/// Whether a frame is a query that writes nothing, moves nothing and occupies no resources of the device.
 pub(crate) fn is_harmless(frame: &[u8]) -> bool {
     let (port, command) = (frame[12..14].try_into().unwrap(), frame[22]);
     if !(551..=553).contains(&u16::from_le_bytes(port)) || frame[23..26] != [0, 4, 0] {
         return false;
     }
     match command {
-        // ReadDeviceInfo, ReadState
+        // ReadDeviceInfo and ReadState
         1 | 4 => frame.len() == 38,
-        // Read: anything except the program stream
+        // Read: any address except that of the program stream
         2 => {
             let (group, offset) = (number(frame, 38), number(frame, 42));
             frame.len() == 50
                 && (group & 0xFF00 != 0x0100 || group >> 16 & 0xF != 2 || offset != 0x90)
         }
-        // ReadWrite: the queries of sections 5 and 6, and the address of an object
+        // ReadWrite: the queries of variables and dynamic parameters, and of the address of an
+        // instance
         9 => {
             let (group, offset) = (number(frame, 38), number(frame, 42));
             let of_decoder = group & !0x10_00FF == 0x2_2300 && group & 0xFF > 0;

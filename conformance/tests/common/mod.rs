@@ -1,4 +1,4 @@
-//! `ads-cnc serve` in a separate process, and a connection to it without a gate.
+//! Helpers of the tests: `ads-cnc serve` in a separate process, and a connection to it without a gate.
 
 #![allow(dead_code, reason = "not every test uses every item")]
 
@@ -13,7 +13,7 @@ use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// A simulated CNC that is ended when dropped.
+/// A simulated CNC in a separate process, which is ended when this value is dropped.
 pub(crate) struct Serve {
     pub(crate) process: Child,
     pub(crate) addr: String,
@@ -54,12 +54,12 @@ impl Serve {
 
 impl Drop for Serve {
     fn drop(&mut self) {
-        // This fails if the process has already ended.
+        // `kill` fails if the process has already ended.
         let _ended = self.process.kill().and_then(|()| self.process.wait());
     }
 }
 
-/// A bare connection, for bytes that the tool itself never sends.
+/// A TCP connection without a gate, for bytes that the tool itself never sends.
 #[allow(clippy::disallowed_methods, reason = "to a listener of the test")]
 pub(crate) fn connect(addr: std::net::SocketAddr) -> TcpStream {
     let stream = TcpStream::connect_timeout(&addr, Duration::from_secs(5)).unwrap();

@@ -1,4 +1,4 @@
-//! A proxy between a tool and a CNC that examines each frame.
+//! A proxy between a tool and a CNC. A test decides for each frame what the proxy does with it.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{SocketAddr, TcpStream};
@@ -10,16 +10,16 @@ use ads_cnc_conformance::net;
 
 use super::connect;
 
-/// The handling of a frame.
+/// What the proxy does with a frame of the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Deed {
-    /// The CNC receives the frame, and the tool the reply.
+    /// The CNC receives the frame, and the tool receives the reply.
     Pass,
-    /// The frame is lost, without a reply.
+    /// The CNC does not receive the frame, and the tool receives no reply.
     Lose,
-    /// The CNC receives the frame, but the reply is lost.
+    /// The CNC receives the frame, but the tool does not receive the reply.
     LoseAnswer,
-    /// The connection ends before the CNC receives the frame.
+    /// The CNC does not receive the frame, and the connection is closed.
     Close,
     /// The proxy replies with success, but the CNC does not receive the frame.
     Pretend,
@@ -27,7 +27,8 @@ pub(crate) enum Deed {
     Reject,
 }
 
-/// Passes on connections to a CNC one after the other, with the given handling of each frame.
+/// Starts a proxy that forwards connections to a CNC one after the other and calls `deed` for each frame.
+/// Returns the address of the proxy.
 pub(crate) fn proxy(
     cnc: SocketAddr,
     mut deed: impl FnMut(&FrameRef<'_>) -> Deed + Send + 'static,

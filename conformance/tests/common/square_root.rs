@@ -1,6 +1,7 @@
 //! The service of the manual's example.
 
-/// In the manual, this is C code with `atof`, `sqrt` and `%f`.
+/// Returns the response and the response state for a request. The manual's example is C code with
+/// `atof`, `sqrt` and `%f`.
 pub(crate) fn square_root(request: &str) -> (String, u32) {
     let digits = request.trim_start();
     let x = (0..=digits.len()).rev().find_map(|len| digits.get(..len)?.parse().ok());

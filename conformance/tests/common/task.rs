@@ -2,7 +2,7 @@
 
 use ads::{Device, Error};
 
-/// ReadWrite with a read length for the longest reply.
+/// Sends a ReadWrite with a read length that is sufficient for the longest reply.
 pub(crate) fn ask(
     device: Device<'_>,
     group: u32,
@@ -37,7 +37,7 @@ pub(crate) fn read(
     Ok(reply)
 }
 
-/// The ADS error number; any other error fails the test.
+/// Converts an ADS error to its number; any other error fails the test.
 pub(crate) fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
     result.map_err(|error| match error {
         Error::Ads(_, _, number) => number,

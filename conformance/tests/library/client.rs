@@ -1,5 +1,5 @@
-//! Clients under test: this project's own client passes everything, and each of its defects fails
-//! the requirement that it breaks.
+//! Clients under test: this project's own client passes all scenarios, and with each of its defects, the
+//! requirement that the defect breaks fails.
 
 use std::net::SocketAddr;
 use std::thread;
@@ -21,7 +21,7 @@ fn the_own_client_passes_everything() {
     assert!(judged.requests > 200, "{}", judged.requests);
 }
 
-/// Correct variants of the client fail nothing.
+/// With the valid variants of the client, no requirement fails.
 #[test]
 fn valid_variants_pass() {
     thread::scope(|scope| {
@@ -47,7 +47,7 @@ fn judge_without_findings(fault: Option<ClientFault>) -> JudgedClient {
 
 #[test]
 fn every_defect_fails_its_requirement() {
-    // Use threads, because the defects mostly wait.
+    // Uses threads, because a client with a defect waits for most of the time.
     let missed: Vec<&str> = thread::scope(|scope| {
         let part = |part| {
             move || defects().iter().skip(part).step_by(PARTS).filter(missed).map(id).collect()
@@ -69,7 +69,7 @@ fn missed(defect: &&ClientDefect) -> bool {
     !verdicts.any(|one| one.requirement == whole(defect) && told(one.verdict))
 }
 
-/// The requirement that the defect breaks, entirely or in part.
+/// The ID of the requirement that the defect breaks, without the part of the requirement.
 fn whole(defect: &ClientDefect) -> &'static str {
     clause(defect.requirement).map_or(defect.requirement, |clause| &clause.requirement.id)
 }
@@ -78,7 +78,7 @@ fn id(defect: &ClientDefect) -> &'static str {
     defect.id
 }
 
-/// Every defect breaks a requirement that a scenario judges, and is found by its ID.
+/// Every defect breaks a requirement that a scenario judges, and `find_defect` finds it by its ID.
 #[test]
 fn every_defect_breaks_a_judged_requirement() {
     for defect in defects() {
@@ -104,7 +104,7 @@ fn scenarios_are_distinct() {
     }
 }
 
-/// The description for authors of adapters contains every action.
+/// The description of the client protocol for authors of adapters contains every action.
 #[test]
 fn the_vocabulary_is_documented() {
     let text = include_str!("../../adapters/CLIENTS.md");

@@ -1,4 +1,4 @@
-//! The suite detects a wrong field anywhere, both by vectors and by cases.
+//! The suite detects a wrong field in any stream, both by vectors and by cases against a CNC.
 
 use std::sync::Arc;
 
@@ -12,7 +12,8 @@ use ads_cnc_conformance::session::Session;
 use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use ads_cnc_conformance::suite::{self, TargetState};
 
-/// Runs the suite against a simulated CNC with this defect, or its vectors against the codec.
+/// Runs the wanted cases with this defect: vectors against the codec, other cases against a simulated
+/// CNC.
 fn run(defect: Option<&FieldDefect>, wanted: impl Fn(&Case) -> bool) -> Vec<CaseOutcome> {
     run_against(Cnc::with_default_model().unwrap(), profile(), defect, wanted)
 }
@@ -36,7 +37,7 @@ fn run_against(
     suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
 
-/// The cases that fail, warn about a should, or follow from another case.
+/// The IDs of the cases that fail, have a warning, or have a failure that follows from another clause.
 fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
     let follows = |outcome: &CaseOutcome| {
         let mut judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
@@ -48,7 +49,7 @@ fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
     failed.map(|outcome| outcome.case.id.as_str()).collect()
 }
 
-/// The tried defects of a field; both changes alter any bytes.
+/// The two defects of a field that change the bytes of the field whatever they are.
 fn defects(field: Field) -> impl Iterator<Item = FieldDefect> {
     let all = field
         .stream()
@@ -58,18 +59,18 @@ fn defects(field: Field) -> impl Iterator<Item = FieldDefect> {
     all.filter(|defect| matches!(defect.change, FieldChange::FlipLow | FieldChange::Invert))
 }
 
-/// Checks that every defect of every field of `stream` fails a vector, and a case of the target that is
-/// not made of a vector. For the fields in `only_printed`, a printed example or a test of the simulated
-/// CNC must fail instead.
+/// Checks that with every defect of every field of `stream`, a vector fails and a case of the target that
+/// is not a printed example fails. For the fields in `only_printed`, a printed example suffices; for the
+/// defects in `UNSEEN`, a test of the simulated CNC.
 fn every_field_is_seen(stream: Stream, only_printed: &[&str]) {
     for defect in stream.fields().flat_map(defects) {
-        // Run the cases of the field's area; fields of frames are in every area.
+        // Runs only the cases of the field's area, such as VAR. Fields of frames (ADS) concern all areas.
         let spec = defect.field.spec().map_or("", |spec| spec.clause);
         let area = spec.split('-').next().unwrap().to_owned();
         let near =
             |case: &Case| area == "ADS" || case.requirements.iter().any(|id| id.starts_with(&area));
         let vectors = run(Some(&defect), |case| case.needs == Needs::Codec && near(case));
-        // Only decoding detects the defect, because encoding returns the same bytes.
+        // A vector must fail when its bytes are decoded; that it fails when encoded does not suffice.
         let by_vectors = vectors.iter().filter(|outcome| outcome.verdict() == Verdict::Fail);
         let misread = by_vectors.flat_map(|outcome| &outcome.verdicts).any(|judged| {
             let failed = |one: &Judgement| {
@@ -97,7 +98,8 @@ fn every_field_of_the_description_is_seen() {
 
 #[test]
 fn every_field_of_the_descriptor_is_seen() {
-    // Only the printed example determines number, name, type and the unassigned bytes.
+    // Only the printed example fixes the values of the number, the name, the type and the
+    // unassigned bytes of a descriptor.
     let printed = ["id", "not_assigned", "name", "type"];
     every_field_is_seen(Stream::ObjectDescriptor, &printed);
 }
@@ -118,7 +120,7 @@ fn every_attribute_of_elements_is_seen() {
     every_field_is_seen(Stream::ElementCount, &[]);
     every_field_is_seen(Stream::ElementLength, &[]);
     every_field_is_seen(Stream::ElementWriteFlag, &[]);
-    // Only a printed example determines the texts of name, type and unit.
+    // Only printed examples fix the texts of a name, a type or a unit.
     every_field_is_seen(Stream::ElementText, &["text"]);
 }
 
@@ -128,7 +130,8 @@ fn every_field_of_dynamic_parameters_is_seen() {
     every_field_is_seen(Stream::DynamicIndex, &[]);
     every_field_is_seen(Stream::DynamicName, &[]);
     every_field_is_seen(Stream::DynamicNameRequest, &[]);
-    // The values by name and by index are equally wrong: only a printed example differs.
+    // The value by name and the value by index are equally wrong, so only a printed example
+    // detects the defect.
     every_field_is_seen(Stream::DynamicValue, &["value"]);
 }
 
@@ -159,7 +162,7 @@ fn every_field_of_the_program_stream_is_seen() {
     every_field_is_seen(Stream::ProgramStream, &[]);
 }
 
-/// The level is should, so a deviation is a warning.
+/// The description by name (VAR-28) has level *should*, so a wrong field is a warning.
 #[test]
 fn every_field_of_the_description_by_name_is_seen() {
     for defect in Stream::VariableDescriptionByName.fields().flat_map(defects) {
@@ -175,7 +178,8 @@ fn every_field_of_the_description_by_name_is_seen() {
 fn the_simulated_cnc_passes() {
     for outcome in run(None, |_| true) {
         let verdict = outcome.verdict();
-        // One example contradicts another, and only the German edition documents V.P, V.L and V.S.
+        // One printed example contradicts another, and only the German edition documents V.P, V.L and
+        // V.S.
         let other =
             ["printed-value-printed-name-element", "var-dynamic-by-name", "write-dynamic-by-name"];
         let other = other.contains(&outcome.case.id.as_str());

@@ -1,4 +1,5 @@
-//! The queries of a run without a profile, and the judgement of what they find.
+//! The queries with which a run without a profile discovers what a CNC has, and the cases that judge
+//! what was found.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -44,7 +45,7 @@ fn the_default_model_is_found_without_a_profile() {
     assert_eq!(found.sampled(), None);
 }
 
-/// Every port is claimed, even if it was not found.
+/// A port that does not reply fails its case, although discovery did not find the port.
 #[test]
 fn a_missing_port_fails() {
     let (mut target, _) = discovered(faults::by_id("cnc.gen.geo-missing"));
@@ -54,7 +55,7 @@ fn a_missing_port_fails() {
     assert_eq!(ports.verdict(), Verdict::Fail);
 }
 
-/// Valid variants of a CNC pass without a profile, too. `selftest --only different` tries the others.
+/// Some valid variants of a CNC pass without a profile; `selftest --only different` tries all.
 #[test]
 fn a_sample_of_valid_variants_passes() {
     let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);

@@ -130,8 +130,8 @@ fn versions_are_ordered_by_their_numbers() {
     assert!(ascending.map(version).is_sorted_by(|one, next| one < next));
 }
 
-/// VAR-19 and SVC-11 for the versions below, at and above each printed one, and for branches that are
-/// not printed.
+/// The features of VAR-19 and SVC-11 for versions below, at and above each printed version, and for
+/// branches of versions that are not printed.
 #[test]
 fn versions_have_their_printed_features() {
     let cases: [(Feature, &str, &[_]); 3] = [
@@ -142,7 +142,8 @@ fn versions_have_their_printed_features() {
                 ("V2.11.2076.99", NO),
                 ("V2.11.2077", YES),
                 ("V2.11.2077.01", YES),
-                // A later version is printed for this branch, so this one need not have the feature.
+                // A later version is printed for this branch, so this version is only assumed not to
+                // have the feature.
                 ("V2.11.2078", NO_ASSUMED),
                 ("V2.11.2846.99", NO_ASSUMED),
                 ("V2.11.2847", YES),
@@ -215,7 +216,8 @@ fn versions_have_their_printed_features() {
     }
 }
 
-/// Section 4.2.1 of either edition: the kinds for which 0x46, 0x47 and 0x49 are not available.
+/// Section 4.2.1 of each edition: the kinds for which the functions by handle (0x46, 0x47 and 0x49) are
+/// not available.
 #[test]
 fn handles_by_edition() {
     let newest = Some(version("V4.18.0"));
@@ -241,8 +243,8 @@ fn handles_by_edition() {
     assert_eq!(Edition::German.by_name_only(), german);
 }
 
-/// Section 4.1 of either edition: V.CYC by name in both; V.P, V.L and V.S in `ads-de` from certain
-/// versions on.
+/// Section 4.1: V.CYC is accessible by name in both editions; V.P, V.L and V.S only in `ads-de`, from
+/// certain CNC versions on.
 #[test]
 fn names_by_edition_and_version() {
     let with = [Some(version("V3.1.3115")), Some(version("V2.11.2077"))];
@@ -269,7 +271,7 @@ fn names_by_edition_and_version() {
     }
 }
 
-/// Sections 4.3.1, 4.3.2 and 4.3.8: V.G, V.E and V.A; E-39.
+/// Sections 4.3.1, 4.3.2 and 4.3.8: requests by index accept the kinds V.G, V.E and V.A (E-39).
 #[test]
 fn requests_by_index_accept_three_kinds() {
     for edition in Edition::ALL {
@@ -302,7 +304,7 @@ fn the_axis_interface_has_only_axis_variables() {
     }
 }
 
-/// A server passes the kind as received, with any number of NULs.
+/// `permits` ignores any number of NULs after a kind, as a server receives it, and the rest of a name.
 #[test]
 fn the_nuls_of_a_kind_are_ignored() {
     let request = VariableKindRef::decode(b"V.CYC\0\0\0").unwrap();
@@ -324,7 +326,7 @@ fn editions_versions_and_support_are_as_printed() {
     assert_eq!(not.to_string(), "no (VAR-1, assumed)");
 }
 
-/// Editions and vectors use the same names of documents.
+/// The IDs of editions are IDs of documents in the data of the vectors.
 #[test]
 fn editions_are_documents_of_the_vectors() {
     for edition in Edition::ALL {
@@ -356,7 +358,7 @@ proptest! {
         prop_assert_eq!(version(one).cmp(&version(other)), one.cmp(&other));
     }
 
-    /// Accepted texts have one of the forms, and no text causes a panic.
+    /// Texts that are accepted as a version have three or four numbers, and no text causes a panic.
     #[test]
     fn any_text_is_a_version_or_rejected(text in "[V.0-9\u{e4} ]{0,14}") {
         if let Ok(version) = CncVersion::new(&text) {
@@ -368,7 +370,7 @@ proptest! {
         }
     }
 
-    /// A later patch of a version has the same features.
+    /// A later patch of a version has all features of the earlier patches.
     #[test]
     fn later_patches_keep_features(
         feature in proptest::sample::select(Feature::ALL.to_vec()),
@@ -384,7 +386,7 @@ proptest! {
     }
 }
 
-/// The description by name (0x4C): the versions, and the kinds that are accessible by name.
+/// The description by name (0x4C): the versions that have it, and the kinds for which it is available.
 #[test]
 fn descriptions_by_name() {
     let may =
@@ -422,7 +424,8 @@ fn other_functions_ignore_kinds() {
     }
 }
 
-/// No printed edition has these functions, so `Feature::of` must contain their versions.
+/// Functions that are only documented online are in no printed edition, so `Feature::of` must contain
+/// the versions that have them.
 #[test]
 fn functions_documented_online_have_a_feature() {
     for &function in Function::ALL {

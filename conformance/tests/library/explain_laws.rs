@@ -1,4 +1,4 @@
-//! Properties of the explanation of any bytes.
+//! Properties that the explanation of any bytes must have.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -29,7 +29,7 @@ fn schema() -> Validator {
 /// Explains bytes and checks the properties of the explanation.
 fn check(question: &ExplainQuery, bytes: &[u8], schema: &Validator) -> Explanation {
     let explanation = explain(question, bytes);
-    // An address without data has no bytes.
+    // The explanation of an address does not include the bytes.
     let bytes = if matches!(question.subject, ExplainSubject::Address(_)) { &[] } else { bytes };
     check_explanation(&Explanation { length: bytes.len(), ..explanation.clone() }, bytes);
     check_printed(&printed(&explanation));
@@ -54,7 +54,7 @@ fn services() -> impl Strategy<Value = Option<Service>> {
     proptest::option::of(select(vec![Service::Read, Service::Write, Service::ReadWrite]))
 }
 
-/// Addresses of functions, and any others.
+/// Addresses of functions, and any other addresses.
 fn places() -> impl Strategy<Value = ServiceAddress> {
     let examples: Vec<(u32, u32)> = Function::ALL
         .iter()
@@ -92,7 +92,7 @@ fn subjects() -> impl Strategy<Value = ExplainSubject> {
     ]
 }
 
-/// Typical numbers of streams, and any bytes.
+/// Sequences of numbers that are typical in streams, and any bytes.
 fn bytes() -> impl Strategy<Value = Vec<u8>> {
     let word = prop_oneof![
         4 => (0..12_u32).prop_map(|number| number.to_le_bytes().to_vec()),
@@ -104,7 +104,7 @@ fn bytes() -> impl Strategy<Value = Vec<u8>> {
     proptest::collection::vec(word, 0..24).prop_map(|words| words.concat())
 }
 
-/// One to three complete frames, then truncated or changed at one offset.
+/// One to three complete frames, which are then truncated or changed at one offset.
 fn frames() -> impl Strategy<Value = Vec<u8>> {
     let command = prop_oneof![4 => select(vec![2_u16, 3, 9]), 1 => any::<u16>()];
     let flags = prop_oneof![4 => 4..6_u16, 1 => any::<u16>()];
@@ -173,7 +173,7 @@ proptest! {
         for named in Stream::all() {
             let explanation = SCHEMA.with(|schema| check(&stream(named), &bytes, schema));
             let walked = named.walk(&bytes, |_| ());
-            // NC text has findings beyond its table.
+            // The explanation also checks NC text, which the walk over the field table does not.
             if named != Stream::ProgramStream {
                 prop_assert_eq!(walked.is_err(), explanation.outcome == ExplanationOutcome::Faulty);
             }
@@ -188,7 +188,7 @@ proptest! {
     }
 }
 
-/// Each golden vector of a stream is explained or shown with an error, as the vector expects.
+/// Each golden vector is explained without an error or with an error, as the vector expects.
 #[test]
 fn explanations_agree_with_the_vectors() {
     let schema = schema();
@@ -210,7 +210,8 @@ fn explanations_agree_with_the_vectors() {
         match (&vector.expect, fault) {
             (Expect::Accept(_), None) => {}
             (Expect::Reject(reject), Some(fault)) => {
-                // Class and offset in vectors are only advice, but most are those of the codec.
+                // The error class and the offset in a vector are advisory, but most equal those of the
+                // codec.
                 refused += 1;
                 same += usize::from((fault.class, fault.offset) == (&reject.class, reject.offset));
             }
@@ -221,7 +222,7 @@ fn explanations_agree_with_the_vectors() {
     assert!(seen > 100 && same * 10 > refused * 8, "{seen} {refused} {same}");
 }
 
-/// The data of a reply without its request is shown, although its stream is unknown.
+/// The data of a reply without its request is shown, although the stream of the data is unknown.
 #[test]
 fn the_data_of_a_reply_without_request_is_shown() {
     let mut frame = vec![0, 0, 44, 0, 0, 0];

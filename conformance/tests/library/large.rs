@@ -1,4 +1,4 @@
-//! CNCs with very many objects and variables.
+//! Runs against CNCs with very many variables: sampling, and the number of requests.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -42,7 +42,7 @@ fn outcomes(target: &mut TargetState, only: &[&str]) -> Vec<CaseOutcome> {
     suite::run(plan.cases, Some(target), None, 1)
 }
 
-/// The requests that these cases send.
+/// The number of requests that these cases send.
 fn requests(cnc: Cnc, sample: Sample, only: &[&str]) -> usize {
     let (mut target, _) = connected(cnc, sample);
     let before = target.frames;
@@ -52,13 +52,14 @@ fn requests(cnc: Cnc, sample: Sample, only: &[&str]) -> usize {
     target.frames - before
 }
 
-/// The index after the last item is that after all variables, not after the sample.
+/// In a sample, too, the cases request the index after the last of all variables, not after the last of
+/// the sample.
 #[test]
 fn a_sample_keeps_the_index_after_the_last() {
     let cnc = || with_variables(10_100);
     requests(cnc(), Sample::BySeed(1), &["var-extended-beyond-last"]);
     requests(cnc(), Sample::All, &["var-extended-beyond-last"]);
-    // Without all names, no case can know that a name does not exist.
+    // Unless all names are read, no case can know that a name does not exist.
     let (mut target, _) = connected(cnc(), Sample::BySeed(1));
     for outcome in outcomes(&mut target, &["var-descriptions", "var-similar-name"]) {
         assert_eq!(outcome.verdict(), Verdict::Pass, "{outcome:?}");
@@ -83,12 +84,13 @@ fn a_long_list_is_sampled() {
 
     let asked = |sample| requests(with_variables(1000), sample, &["var-extended-descriptions"]);
     assert_eq!(asked(Sample::All) - asked(Sample::BySeed(1)), 1123 - 256);
-    // The check for unique names needs all variables, even in a sample.
+    // The check that names are unique reads all variables, even with a sample.
     let described = requests(with_variables(1000), Sample::BySeed(1), &["var-descriptions"]);
     assert!(described > 1123, "{described}");
 }
 
-/// The forecast before the cases differs by at most a tenth from the number of requests.
+/// The number of requests that is forecast before the cases differs by less than a tenth from the number
+/// of requests that are sent.
 #[test]
 fn the_forecast_is_about_right() {
     for more in [0, 3000] {
@@ -97,7 +99,7 @@ fn the_forecast_is_about_right() {
         outcomes(&mut target, &[]);
         let (sent, expected) = ((target.frames - before) as u64, discovery.found.expected);
         assert!(sent.abs_diff(expected) < expected / 10, "{sent}, {expected} expected");
-        // Ten minutes with 10 ms for each.
+        // This number of requests takes ten minutes at 10 ms each.
         assert!(sent < 60_000, "{sent}");
     }
 }

@@ -1,7 +1,8 @@
-//! Codecs that differ from this project where the manuals state nothing: each is correct, and fails
-//! nothing.
+//! Codecs that differ from this project's codec where the manuals state nothing: each is correct, and no
+//! case fails.
 
-use ads_cnc_conformance::judge::{Body, Case, CaseSubject, Exit, Needs, Verdict};
+use ads_cnc_conformance::exit::Exit;
+use ads_cnc_conformance::judge::{Body, Case, CaseSubject, Needs, Verdict, VerdictTally};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
     Answer, CodecTestee, Output, Question, Rejection, Terms, Testee, TesteeHello, TesteeReaction,
@@ -30,14 +31,14 @@ fn cases() -> Vec<Case> {
     suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
 }
 
-/// The exit code for such a codec, and the cases in which it differs.
+/// The exit code for this codec, and the cases with a warning or a difference.
 fn judged(codec: impl Fn(&CodecTestee, &Question) -> Answer) -> (Exit, Vec<String>) {
     let terms = Terms { seed: 3, subject: CaseSubject::Testee, edition: None, strict: false };
     let outcomes = judge(&mut StepError(codec), cases(), terms).outcomes;
     let verdicts = outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict);
     let noticed = |verdict| matches!(verdict, Verdict::Warning | Verdict::Differs);
     let other = outcomes.iter().filter(|one| noticed(one.verdict()));
-    (Exit::of(verdicts), other.map(|one| one.case.id.clone()).collect())
+    (VerdictTally::of(verdicts).exit(), other.map(|one| one.case.id.clone()).collect())
 }
 
 fn rejected() -> Answer {
@@ -103,7 +104,8 @@ fn bytes_after_the_nul_of_a_request_may_be_ignored() {
         let Some(bytes) = &question.hex else { return own.answer(question) };
         let nul = bytes.iter().skip(from).position(|byte| *byte == 0);
         let end = nul.map_or(bytes.len(), |at| from + at + 1);
-        // A request beyond its limit is still too long.
+        // A request that exceeds its maximum length is rejected even if the bytes after its NUL are
+        // ignored.
         match bytes.len() > most {
             true => own.answer(question),
             false => of_bytes(own, question, bytes[..end].to_vec()),
@@ -132,7 +134,7 @@ fn an_extended_description_may_be_longer() {
     assert_differs(codec, &["vec-extended-trailing"]);
 }
 
-/// Both editions print two lengths; the vendors' help pages have only one.
+/// Both editions print two length fields for a Write; the vendors' help pages have only one.
 #[test]
 fn a_write_may_have_both_printed_lengths() {
     let codec = |own: &CodecTestee, question: &Question| {
@@ -235,7 +237,8 @@ fn level(case: &Case) -> Level {
     }
 }
 
-/// The opposite of every assumed answer fails nothing, and the opposite of every other answer fails.
+/// If a codec gives the opposite answer wherever the expected answer is only assumed or recommended, no
+/// case fails; if it gives the opposite answer to all questions, cases fail.
 #[test]
 fn the_opposite_of_assumptions_fails_nothing() {
     let of = |levels: &[Level]| -> Vec<Question> {
@@ -249,7 +252,8 @@ fn the_opposite_of_assumptions_fails_nothing() {
         true => opposite(own.answer(question)),
         false => own.answer(question),
     });
-    // A rejected vector may be vacuous because its sibling is rejected; all others differ.
+    // Most of these cases differ. The others are inconclusive, because the codec also rejects the
+    // valid sibling of a rejected vector.
     assert_eq!(exit, Exit::Success);
     assert!(other.len() > 350, "{}", other.len());
     let (exit, _) = judged(|own, question| opposite(own.answer(question)));
@@ -274,7 +278,7 @@ fn names_of_another_edition_fail_nothing() {
     assert_eq!(judged("de-1.051"), Verdict::Differs);
 }
 
-/// The levels of documented and undocumented requirements.
+/// The levels of vectors and sequences of documented, recommended and assumed behaviour.
 #[test]
 fn levels_are_in_the_data() {
     for (id, expected) in [

@@ -1,4 +1,5 @@
-//! Tests of the library alone. They are one program, because linking takes longer than most of them.
+//! Tests of the library alone. They are one program, because linking a program takes longer than most
+//! of the tests.
 
 #[path = "../kept/mod.rs"]
 mod kept;

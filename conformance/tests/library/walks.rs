@@ -1,4 +1,5 @@
-//! The number of requests that find the items of a CNC is small, and limited for any replies.
+//! The number of requests that list the objects, elements and variables of a CNC is small, and limited
+//! whatever the CNC replies.
 
 use ads_cnc_conformance::faults::{Faulty, FieldDefect};
 use ads_cnc_conformance::gate::Gate;
@@ -15,16 +16,17 @@ fn default_cnc() -> Cnc {
     Cnc::with_default_model().unwrap()
 }
 
-/// The numbers of requests that the rules need for the default model.
+/// The numbers of requests for the default model.
 #[test]
 fn few_requests_find_everything() {
     let all = found(default_cnc(), &Options::default());
-    // COM 29, position controller 38, interpolator 74, decoder 95, HLD 49, path preparation 47,
-    // spindles 17
+    // Requests: COM 29, position controller 38, interpolator 74, decoder 95, HLD 49, path
+    // preparation 47, spindles 17.
     assert_eq!((all.objects.len(), all.lists, all.requests), (179, 60, 350));
     let exact = found(default_cnc(), &Options { exact: true, ..Options::default() });
     assert_eq!((exact.objects.len(), exact.requests), (179, 694));
-    // Eleven requests for the channels, seven numbers for each channel, and one for each variable.
+    // Eleven requests for the channels, seven counts for each channel, and one request for each
+    // variable.
     let variables = found(default_cnc(), &Options { variables: true, ..Options::default() });
     assert_eq!((variables.objects.len(), variables.requests), (168, 200));
     assert!(all.notes.is_empty() && exact.notes.is_empty() && variables.notes.is_empty());
@@ -34,7 +36,7 @@ fn few_requests_find_everything() {
     assert_eq!((one.objects.len(), one.lists), (28, 1));
 }
 
-/// With any wrong field in replies, a walk needs few additional requests.
+/// With any defect of a field in replies, a walk over all items needs only few additional requests.
 #[test]
 fn walks_with_wrong_replies_end() {
     let streams = [

@@ -1,4 +1,4 @@
-//! The decoder of a streaming program: pace, ends and errors.
+//! The decoder that executes a streaming program: its pace, program ends and errors.
 
 use std::time::Duration;
 
@@ -39,7 +39,7 @@ fn the_default_program_is_started_once() {
     assert_eq!(program.state(), State::Dry);
     let line = [&[b'X'; 990][..], b"\r\n"].concat();
     let taken = (0..10).take_while(|_| program.write(&line, ZERO) == Ack::Accepted).count();
-    // One line is being executed, four wait.
+    // One line is being executed, and four lines wait in the interface.
     assert_eq!((taken, program.refusals(), program.buffered()), (5, 1, 4 * 992));
     program.advance(ms(1));
     assert_eq!(program.write(&line, ms(1)), Ack::Accepted);
@@ -70,7 +70,7 @@ fn pace() {
         program.advance(ms(at));
         assert_eq!(program.executed().line_count(), run, "{at} ms");
     }
-    // A time that goes backwards has no effect.
+    // A call of `advance` with an earlier time has no effect.
     program.advance(ms(5));
     assert_eq!(program.executed().line_count(), 180);
 
@@ -99,7 +99,8 @@ fn a_dry_stream_waits_for_the_next_write() {
     assert_eq!((program.state(), program.executed().line_count()), (State::Dry, 2));
 }
 
-/// Lines that were read with the end are discarded; later lines remain for the next start.
+/// Lines that the decoder read together with a program end are discarded; lines that were written later
+/// remain for the next start.
 #[test]
 fn program_ends_discard_read_lines() {
     for (word, end) in [
@@ -137,7 +138,7 @@ fn a_program_may_be_started_again() {
     let mut program = StreamingProgram::new(config);
     program.write(b"N1:\r\nM30\r\nN2\r\n", ZERO);
     assert_eq!(program.state(), State::Dry);
-    // The label belonged to the previous program.
+    // The label N1 belonged to the previous program, so the jump is not a backward jump.
     program.write(b"$GOTO N1\r\nM30\r\n", ZERO);
     assert!(program.executed().lines().eq([&b"N1:"[..], b"M30", b"$GOTO N1", b"M30"]));
     program.write(b"X1\r\n$FOR\r\n", ZERO);
@@ -158,7 +159,8 @@ fn errors_abort_before_their_line() {
         program.advance(ms(1000));
         assert_eq!(program.executed().line_count(), run);
         assert_eq!(aborted(&program), message);
-        // Execution has ended: writes fill the interface, and a start needs a reset.
+        // After an error, writes fill the interface, and the program can be started only after a
+        // reset.
         while program.write(b"N9 X1\r\n", ms(2000)) == Ack::Accepted {}
         assert_eq!((program.buffered(), program.refusals()), (STREAM_MAX / 7 * 7, 1));
         assert_eq!(program.start(ms(2000)), Err(StartError::Aborted));
@@ -186,7 +188,8 @@ fn a_missing_line_end_aborts_when_read() {
     assert_eq!((program.executed().line_count(), program.buffered()), (1, 0));
 }
 
-/// The boundaries of writes are lost: a line may be split into two writes if both are read together.
+/// The interface does not store the boundaries of writes: a line may be split into two writes if the
+/// decoder reads both writes together.
 #[test]
 fn a_line_may_be_split_into_two_writes() {
     let mut program = program(Pace::Hold);

@@ -1,4 +1,4 @@
-//! The CNC's side of data streaming and of the Service Interface, each tested separately.
+//! Tests of the CNC's side of data streaming and of the Service Interface, each separately.
 
 use std::time::Duration;
 
@@ -28,7 +28,7 @@ fn program() -> ServiceCall {
     ServiceCall::new(id(), CncStr::new("3").unwrap(), SysServiceWait::default()).unwrap()
 }
 
-/// SVC-3: any write of REQUEST_STATE resets RESPONSE_STATE, and nothing else does.
+/// SVC-3: any write of REQUEST_STATE resets RESPONSE_STATE; writes of other variables do not.
 #[test]
 fn a_request_state_resets_the_response_state() {
     for clears in [Clears::OnResponseState, Clears::Never] {
@@ -63,7 +63,8 @@ fn a_response_state_may_clear_the_request_state() {
     }
 }
 
-/// A response that is longer than its variable is an error, and is read again.
+/// For the program, a response that is longer than its variable is an error; the program then reads the
+/// response again.
 #[test]
 fn a_too_long_response_is_rejected() {
     let mut program = program();
@@ -76,8 +77,8 @@ fn a_too_long_response_is_rejected() {
     assert_eq!(program.step(), CallStep::Done { state: 1, response: CncStr::new("x").unwrap() });
 }
 
-/// The manual's driver (`stream-en` 5) sends lines that do not fit into its buffer without a line end,
-/// and a last line without a line end.
+/// The driver printed in the manual (`stream-en` 5) sends lines that do not fit into its buffer, and the
+/// last line, without a line end. The CNC detects this error when it reads.
 #[test]
 fn errors_of_the_printed_driver_are_detected_on_read() {
     let mut interface = StreamingInterface::new();
@@ -87,7 +88,8 @@ fn errors_of_the_printed_driver_are_detected_on_read() {
     assert_eq!(error.kind(), LineErrorKind::NoLineEnd);
     assert_eq!(error.to_string(), "line 2, column 8: CR LF expected, end of data found (STM-5)");
     assert_eq!((interface.len(), interface.read()), (0, Ok(&b""[..])));
-    // The boundaries of writes are lost: a line may be split into two writes if both are read together.
+    // The interface does not store the boundaries of writes: a line may be split into two writes if
+    // the decoder reads both writes together.
     interface.write(b"N10 \r");
     interface.write(b"\nN20");
     interface.write(b" M30\r\n");
@@ -118,7 +120,7 @@ fn the_interface_holds_4094_bytes() {
     assert_eq!((interface.write(&line), interface.len()), (Ack::Accepted, STREAM_PACKET_MAX));
 }
 
-/// The error messages have the form of the codec's.
+/// The error messages have the same form as those of the codec.
 #[test]
 fn invalid_calls_are_rejected() {
     let wait = SysServiceWait::default();
@@ -137,7 +139,7 @@ fn invalid_calls_are_rejected() {
 proptest! {
     #![proptest_config(kept::cases(500, file!()))]
 
-    /// Both sides together: a CNC that reads occasionally receives the whole text.
+    /// A CNC that reads its interface only occasionally receives the whole text of a sender.
     #[test]
     fn a_cnc_gets_the_text(
         lines in vec("[ -~]{0,90}", 0..60),

@@ -1,5 +1,5 @@
-//! The Service Interface in any order of steps: a program, one or two hosts, and failing writes and
-//! reads, compared with a model that counts requests.
+//! The steps of an NC program and of one or two hosts of services in any order, with failing writes and
+//! reads: each request is served once and receives its own response.
 
 use ads_cnc::service::ServiceId;
 use ads_cnc_conformance::simulator::program::service::Clears;
@@ -23,7 +23,7 @@ fn luck() -> impl Strategy<Value = Luck> {
 }
 
 fn orderly() -> impl Strategy<Value = Vec<Action>> {
-    // Repeat actions, so that one side makes progress while the other waits.
+    // Each action is repeated, so that one side makes progress while the other waits.
     let one = prop_oneof![
         1 => Just(Action::Program),
         2 => (0..2_usize, luck()).prop_map(|(place, luck)| Action::Host(place, luck)),
@@ -66,7 +66,7 @@ proptest! {
         world.finish(&mut next);
     }
 
-    /// The same with two independent hosts with one service each.
+    /// With two independent hosts that have one service each, too, every request is served once.
     #[test]
     fn two_hosts_answer_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();

@@ -1,6 +1,6 @@
-//! The CNC's side of data streaming and of the Service Interface with any input, compared with simple
-//! models: the queue of a stream, a program's request and the five variables. The fuzz targets include
-//! this file.
+//! Compares the CNC's side of data streaming and of the Service Interface, with any input, with simple
+//! models: of the queue of a stream, of a program's request, and of the five variables. The fuzz
+//! targets include this file.
 
 #![allow(dead_code, reason = "the fuzz targets use more than the tests")]
 
@@ -36,19 +36,19 @@ enum Phase {
     TimedOut,
 }
 
-/// A program's request, compared with its model.
+/// A program's request, which each call compares with a model.
 pub(crate) struct CheckedCall {
     call: ServiceCall,
     values: [(ServiceVariable, Vec<u8>); 3],
     keep_waiting: u32,
-    /// The maximum wait, and the start and end of the wait.
+    /// The maximum wait; the next field is the time at which the wait ends.
     longest: Option<Duration>,
     until: Option<Duration>,
     phase: Phase,
 }
 
 impl CheckedCall {
-    /// Creates a request with @P1, @P2 and @P3.
+    /// Creates a request with the parameters @P1, @P2 and @P3 of the cycle.
     pub(crate) fn new(
         id: ServiceId,
         request: &[u8],
@@ -103,7 +103,8 @@ impl CheckedCall {
         self.check();
     }
 
-    /// `told` is what the call is told: of another value, at another time.
+    /// Lets the program read a value. The model gets `value` and `now`; the call gets `told`, which a test
+    /// of this comparison makes different.
     pub(crate) fn read(&mut self, value: &[u8], now: Duration, told: (&[u8], Duration)) {
         let taken = self.call.read(told.0, told.1);
         let (phase, valid) = match (&self.phase, state(value)) {
@@ -134,7 +135,7 @@ impl CheckedCall {
     }
 }
 
-/// A Service Interface, compared with five vectors.
+/// A Service Interface, which each call compares with a model of five byte strings.
 pub(crate) struct CheckedVariables {
     interface: ServiceInterface,
     clears: Clears,
@@ -155,7 +156,8 @@ impl CheckedVariables {
         &mut self.values[place.expect("it is one")]
     }
 
-    /// `told` is what the interface is told.
+    /// Writes a variable. The model gets `value`; the interface gets `told`, which a test of this
+    /// comparison makes different.
     pub(crate) fn write(&mut self, variable: ServiceVariable, value: &[u8], told: &[u8]) {
         let taken = self.interface.write(variable, told);
         let valid = if is_text(variable) { text(value).len() < 128 } else { value.len() == 4 };
@@ -165,9 +167,9 @@ impl CheckedVariables {
             *self.value(variable) =
                 if is_text { [text(value), b"\0"].concat() } else { value.to_vec() };
             match variable {
-                // SVC-3.
+                // A request resets the response state (SVC-3).
                 ServiceVariable::RequestState => self.value(ServiceVariable::ResponseState).fill(0),
-                // SVC-4.
+                // A response ends the request (SVC-4).
                 ServiceVariable::ResponseState if self.clears == Clears::OnResponseState => {
                     self.value(ServiceVariable::RequestState).fill(0);
                 }
@@ -189,10 +191,10 @@ impl CheckedVariables {
     }
 }
 
-/// A bug that is injected around a streaming interface.
+/// A bug that is injected by replacing the calls of a streaming interface.
 #[derive(Clone, Copy)]
 pub(crate) struct InterfaceBend {
-    /// The call of the interface.
+    /// Called to write to the interface.
     pub(crate) write: fn(&mut StreamingInterface, &[u8]) -> Ack,
     pub(crate) reset: fn(&mut StreamingInterface),
 }
@@ -209,7 +211,7 @@ fn fault_of(error: LineError) -> TextFault {
     (error.line() as usize, error.column() as usize, error.kind())
 }
 
-/// A streaming interface, compared with a vector of bytes.
+/// A streaming interface, which each call compares with a vector of bytes.
 pub(crate) struct CheckedInterface {
     interface: StreamingInterface,
     held: Vec<u8>,
@@ -221,7 +223,7 @@ impl CheckedInterface {
         Self { interface: StreamingInterface::new(), held: Vec::new(), bend }
     }
 
-    /// Writes all bytes or none.
+    /// Checks that a write stores all bytes or none.
     pub(crate) fn write(&mut self, data: &[u8]) -> Ack {
         let wanted = match data.len() {
             0 | 993.. => Ack::Rejected,
@@ -236,7 +238,7 @@ impl CheckedInterface {
         wanted
     }
 
-    /// Reads all written bytes, or the first line with a wrong line end.
+    /// Checks that a read returns all written bytes, or an error for the first line with a wrong line end.
     pub(crate) fn read(&mut self) -> Result<Vec<u8>, TextFault> {
         let held = std::mem::take(&mut self.held);
         let wanted = match missing_end(&held) {
@@ -261,7 +263,7 @@ impl CheckedInterface {
     }
 }
 
-/// The first line that does not end in CR LF, searched byte by byte.
+/// The error for the first line that does not end in CR LF, found by a simple search byte by byte.
 fn missing_end(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 1);
     for (at, &byte) in bytes.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The programs of the simulated CNC: streamed ones, and those that send requests to services.
+//! The NC programs of the simulated CNC: streamed programs, and programs that send requests to services.
 
 mod decoder;
 mod interfaces;

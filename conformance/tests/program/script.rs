@@ -29,7 +29,7 @@ fn request(wait: Wait) -> ServiceRequest {
     }
 }
 
-/// The printed example of `service-en` 3: at most 5 s, timer 1.
+/// The wait of the example printed in `service-en` 3: at most 5 s, with timer 1.
 const PRINTED: Wait = Wait::Cycle { p1: None, p2: Some(5000), p3: Some(1) };
 
 fn config(wait: Wait, repeat: Repeat, pause: Duration) -> ScriptConfig {
@@ -40,7 +40,7 @@ fn script(wait: Wait, repeat: Repeat, pause: Duration) -> Script {
     Script::new(config(wait, repeat, pause)).unwrap()
 }
 
-/// The built-in script and the manual's service for a minute.
+/// Runs the built-in script and the manual's service for a minute.
 #[test]
 fn square_roots_are_requested_repeatedly() {
     let config = ScriptConfig::square_root().unwrap();
@@ -119,14 +119,15 @@ fn each_cycle_executes_one_step() {
     assert_eq!(script.state(), ScriptState::Asking(0));
 }
 
-/// Without a response, the cycle times out, and the loop does not.
+/// Without a response, a wait by the cycle times out, and a wait by a loop does not.
 #[test]
 fn only_the_cycle_times_out() {
     let mut interface = ServiceInterface::new();
     let mut by_cycle = script(PRINTED, Repeat::Times(3), ms(10));
     by_cycle.advance(ZERO, &mut interface);
     by_cycle.advance(ms(3_600_000), &mut interface);
-    // REQUEST_STATE is written in the third cycle; the next request comes 10 ms after the end.
+    // REQUEST_STATE is written in the third cycle of 1 ms, and the wait of 5 s begins there. The
+    // next request begins 10 ms after the end of the wait.
     let ends: Vec<_> = by_cycle.answers().map(|answer| (answer.at, &answer.outcome)).collect();
     let timed_out = &ServiceOutcome::TimedOut;
     assert_eq!(ends, [(ms(5002), timed_out), (ms(10_014), timed_out), (ms(15_026), timed_out)]);

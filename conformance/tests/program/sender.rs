@@ -1,4 +1,4 @@
-//! A sender and the receiving program: no bytes are lost or duplicated.
+//! A sender and the streaming program that receives its packets: no bytes are lost or duplicated.
 
 use std::time::Duration;
 
@@ -31,7 +31,7 @@ fn stream(
     now
 }
 
-/// 10 MB in simulated time through a decoder that executes 100 kB per second.
+/// Streams 10 MB in simulated time to a decoder that executes 100 kB per second.
 #[test]
 fn ten_megabytes_arrive() {
     let mut wire = Vec::new();
@@ -60,7 +60,7 @@ fn ten_megabytes_arrive() {
     assert_eq!(executed.line_count(), text.line_count() as u64);
     assert_eq!((executed.byte_count(), executed.digest()), (wire.len() as u64, digest(&wire)));
     assert!(wire.ends_with(executed.recent()) && executed.recent().len() <= 20_100);
-    // The decoder was never dry for long: 10 MB take 100 s.
+    // At this pace 10 MB take 100 s, so the decoder did not have to wait for data.
     let seconds = now.as_secs_f64();
     assert!((99.0..102.0).contains(&seconds), "{seconds}");
 }
@@ -93,7 +93,7 @@ fn what_is_run_is_the_text(
     let bytes = lines.join(end).into_bytes();
     let text = NcText::new(&bytes).unwrap();
     let mut program = StreamingProgram::new(ProgramConfig { pace, ..ProgramConfig::default() });
-    // At least some writes succeed.
+    // The additional entry makes some writes succeed.
     let mut waits = waits.iter().chain([&(100, false)]).cycle();
     let now = stream(text, &mut program, |_| {
         let &(wait, refused) = waits.next().unwrap();

@@ -1,5 +1,6 @@
-//! The Service Interface in any order of steps: a program, one or two hosts, and failing writes and
-//! reads, compared with a model that counts requests. The fuzz targets include this file.
+//! Executes the steps of an NC program and of one or two hosts of services in any order, with failing
+//! writes and reads, and compares the responses with a model that counts requests. The fuzz targets
+//! include this file.
 
 #![allow(dead_code, reason = "the fuzz targets use more than the tests")]
 
@@ -11,13 +12,13 @@ use ads_cnc_conformance::simulator::program::service::*;
 
 const NOW: Duration = Duration::ZERO;
 
-/// The outcome of a step.
+/// Whether a step of a host succeeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Luck {
     Fine,
-    /// Nothing arrives.
+    /// The read or write does not reach the CNC, and the host gets an error.
     Fails,
-    /// A write arrives, but the host gets an error.
+    /// A write reaches the CNC, but the host gets an error.
     FailsLate,
 }
 
@@ -25,24 +26,25 @@ pub(crate) enum Luck {
 pub(crate) enum Action {
     Program,
     Host(usize, Luck),
-    /// The program times out.
+    /// The program gives up waiting for a response.
     GiveUp,
     ResetCnc,
     Restart(usize),
 }
 
-/// A request: the index of the service and of one of a few texts, so that requests repeat.
+/// A request: the index of the service, and a number as text. There are only few texts, so that requests
+/// repeat.
 pub(crate) type Asked = (usize, u8);
 
-/// A bug that is injected around the hosts and the interface.
+/// A bug that is injected by replacing calls of the hosts and of the interface.
 #[derive(Clone, Copy)]
 pub(crate) struct ServiceBend {
-    /// Reports a failed step to a host.
+    /// Called to report a failed step to a host.
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) restart: fn(&mut Host<'_>),
     /// Writes a variable.
     pub(crate) write: fn(&mut ServiceInterface, ServiceVariable, &[u8]),
-    /// The service that the host reports for a request.
+    /// Returns the index of the service that the host reports for a request.
     pub(crate) asked: fn(usize, &str) -> usize,
 }
 
@@ -55,7 +57,8 @@ impl ServiceBend {
     };
 }
 
-/// All participants, and the model: the number of requests to each service, and of served ones.
+/// The NC program, the hosts and the interface, and the model: the number of requests to each service,
+/// and the number of requests that each service has served.
 pub(crate) struct World<'s> {
     interface: ServiceInterface,
     hosts: Vec<Host<'s>>,
@@ -63,13 +66,14 @@ pub(crate) struct World<'s> {
     call: Option<(Asked, ServiceCall)>,
     asked: Vec<usize>,
     served: Vec<usize>,
-    /// Whether each response must be right; chaos causes wrong ones.
+    /// Whether each response must be right; false while time-outs, resets and restarts may cause wrong
+    /// responses.
     strict: bool,
     bend: ServiceBend,
 }
 
 impl<'s> World<'s> {
-    /// Creates one host for all services, or one for each.
+    /// Creates one host for all services if `together`, otherwise one host for each service.
     pub(crate) fn new(
         ids: &'s [ServiceId],
         together: bool,
@@ -99,7 +103,8 @@ impl<'s> World<'s> {
         &self.served
     }
 
-    /// The response of a service: its index, the request, and the number of served requests.
+    /// The response of a service: the index of the service, the request, and the number of requests that the
+    /// service has served.
     fn answer(service: usize, request: &str, times: usize) -> String {
         format!("{service} {request} {times}")
     }
@@ -179,9 +184,9 @@ impl<'s> World<'s> {
         }
     }
 
-    /// With two independent hosts, a failed write of RESPONSE_STATE does not arrive: a host that checks
-    /// for this cannot distinguish its own request from a later one that the other host is about to
-    /// answer.
+    /// With two independent hosts, changes a write of RESPONSE_STATE that arrives although it fails into
+    /// a write that does not arrive. Otherwise, the host could not distinguish its own request from a
+    /// later request that the other host is about to answer.
     pub(crate) fn luck_of_two(&self, action: Action) -> Action {
         let Action::Host(place, Luck::FailsLate) = action else { return action };
         match self.hosts[place % self.hosts.len()].step() {
@@ -190,11 +195,11 @@ impl<'s> World<'s> {
         }
     }
 
-    /// The program times out, and all hosts execute steps in turn until they are idle. From then on,
+    /// Lets the program give up, and the hosts execute steps in turn until they are idle. From then on,
     /// each response must be right.
     pub(crate) fn settle(&mut self) {
         self.call = None;
-        // An idle host reads one state and waits; it has about twenty steps before that.
+        // After about twenty steps a host is idle: then it only reads REQUEST_STATE and waits.
         let mut calm = 0;
         for round in 0.. {
             assert!(round < 200, "the hosts do not come to rest");
@@ -204,7 +209,7 @@ impl<'s> World<'s> {
             }
             let same = before == (self.interface.clone(), self.served.clone());
             calm = if same { calm + 1 } else { 0 };
-            // No active host only reads for longer than this.
+            // A host that is not idle does not execute more reads than this without a write.
             if calm > 12 {
                 break;
             }
@@ -228,7 +233,8 @@ impl<'s> World<'s> {
         for _ in 0..2000 {
             self.program(next);
             (0..self.hosts.len()).for_each(|place| self.host(place, Luck::Fine));
-            // The program sends the next request at once; a host may still complete the last response.
+            // The program sends its next request at once, so it has no more requests if it stays
+            // without a request. A host may still complete the last response meanwhile.
             idle = if self.call.is_none() { idle + 1 } else { 0 };
             if idle > 12 {
                 break;

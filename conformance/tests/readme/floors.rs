@@ -7,6 +7,9 @@ use std::path::Path;
 
 use super::bench::root;
 
+/// Maximum number of imports in a chain: a reader who starts anywhere reaches the bottom in that number of steps.
+const IMPORTS_MAX: usize = 8;
+
 /// An import of a module by a line of another module.
 struct Arrow {
     from: String,
@@ -73,6 +76,17 @@ fn modules_import_only_modules_below_them() {
     files.iter().for_each(|(path, text)| arrows(path, text, &mut all));
     // A name that is not a module counts as above all modules.
     let floor = |module: &str| floors.iter().position(|floor| *floor == module);
+    let mut chains = BTreeMap::new();
+    for module in floors.iter().rev() {
+        let imported = all.iter().filter(|arrow| arrow.from == *module && arrow.to != *module);
+        let longest = imported.filter_map(|arrow| chains.get(arrow.to.as_str())).max();
+        let longest: Vec<&str> =
+            longest.into_iter().flat_map(|(_, chain)| chain).copied().collect();
+        let chain = [vec![*module], longest].concat();
+        chains.insert(*module, (chain.len(), chain));
+    }
+    let (len, chain) = chains.values().max().unwrap();
+    assert!(*len <= IMPORTS_MAX + 1, "a chain of {} imports: {}", len - 1, chain.join(" -> "));
     all.retain(|arrow| floor(&arrow.to) < floor(&arrow.from));
     let upward = all.iter().map(|Arrow { from, to, at }| format!("{at}: {from} -> {to}"));
     let upward: Vec<String> = upward.collect();

@@ -11,7 +11,8 @@ use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
 
 use crate::target::{Check, Target};
 
-/// Each address of a content: by the number of its channel first, then by its rank.
+/// All addresses of a content. For a content of a channel: by the number of the channel, and then by
+/// its rank.
 pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<ValueAddress>> {
     use Addressing::{Index, Logical};
     let length = u32::try_from(held.value.len())?;
@@ -31,7 +32,8 @@ pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<Valu
             None => Vec::new(),
         }
     };
-    // The target returns the address of the first element of an instance.
+    // The index offset of an element, calculated from the address of the instance, which the
+    // target returns.
     let of_first = |class, channel: u8, axis: u8| -> Check<IndexOffset> {
         let find = FindInstance::new(class, channel.into(), axis.into());
         let first = target.read::<ObjectAddress>(find)?.first_element()?;
@@ -40,7 +42,7 @@ pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<Valu
     };
     let own = at(AxisStride::X10000, 0)?;
     Ok(match held.holder {
-        // The addresses of channel 1 include the objects of the platform.
+        // The objects of the platform also have addresses of channel 1.
         ContentOwner::Platform => [(Logical, 0), (Index, 0), (Logical, 1)]
             .map(|(by, instance)| object(by, ComTable::Channel, instance, own))
             .to_vec(),

@@ -1,4 +1,4 @@
-//! Changes by an operator: exchange of axes, and deactivation of channels.
+//! Checks of changes by an operator: exchange of axes, and deactivation of channels.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class};
 use ads_cnc::operation::{
@@ -20,7 +20,8 @@ checks! {
     ranks_are_those_of_the_active_channels,
 }
 
-/// The place in channel 1 of the axis that owns a content; 0 for a platform axis.
+/// The place in channel 1 of the axis that owns a content; 0 for a platform axis; `None` for other
+/// owners.
 fn place_of(held: &StoredContent) -> Option<u8> {
     match held.holder {
         ContentOwner::ChannelAxis { channel: 1, place }
@@ -30,7 +31,7 @@ fn place_of(held: &StoredContent) -> Option<u8> {
     }
 }
 
-/// The contents of channel 1 by their addresses.
+/// The name and the value of each content of a place of channel 1, read at each of its addresses.
 fn contents(target: &Target, place: u8) -> Check<Vec<(String, Reply)>> {
     let mut all = Vec::new();
     for held in target.cnc().stored_contents() {
@@ -44,7 +45,8 @@ fn contents(target: &Target, place: u8) -> Check<Vec<(String, Reply)>> {
     Ok(all)
 }
 
-/// In the default model, the places 2 and 3 of channel 1 have the axes 2 and 3.
+/// Axis 3 moves from place 3 to place 2 of channel 1, where axis 2 was: its values move with it, and
+/// place 3 is blank.
 fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
     let cnc = target.cnc();
     same("the axes", (cnc.axis_at(1, 2), cnc.axis_at(1, 3)), (2, 3))?;
@@ -64,7 +66,8 @@ fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
     Ok(())
 }
 
-/// The elements of a class at a place.
+/// Reads of all elements of a class at a place of a channel, whose lengths are those of place 1 of
+/// channel 1.
 fn elements(target: &Target, class: Class, channel: u32, place: u32) -> Check<Vec<ReadElement>> {
     let at = |channel, place| -> Check<_> {
         let address = target.read::<ObjectAddress>(FindInstance::new(class, channel, place))?;
@@ -81,7 +84,8 @@ fn elements(target: &Target, class: Class, channel: u32, place: u32) -> Check<Ve
     Ok(all)
 }
 
-/// Tested in the initial state, and after axis 4 has left the first place of channel 2.
+/// The elements of a place without an axis are zero: in the initial state, and after axis 4 has left
+/// the first place of channel 2.
 fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
     let cnc = target.cnc();
     let is_blank = |read: &ReadElement| -> Check<bool> {
@@ -112,7 +116,7 @@ fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
 
 const NAME: &str = "V.A.WCS";
 
-/// The handle and the value of the variable at a place.
+/// The handle and the value of the variable `NAME` at a place of channel 1.
 fn by_place(target: &Target, place: u32) -> Check<(Handle, Reply)> {
     let (channel, axis) = (Channel::new(1)?, ChannelAxis::new(place)?);
     let handle = target.read(AxisHandleByName::new(channel, axis, NAME)?)?;
@@ -138,7 +142,7 @@ fn names_and_handles_of_a_place_are_of_its_axis(target: &Target) -> Check {
     same("by handle", (by_handle(second)?, by_handle(third)?), (of_z, of_y))
 }
 
-/// The replies that identify a channel.
+/// The replies by which a channel can be identified.
 fn known_by(target: &Target, channel: Channel) -> Check<Vec<Reply>> {
     let mut requests: Vec<Request<'_>> =
         vec![CountObjects::new(channel).into(), CountVariables::new(channel, Kind::V_E).into()];

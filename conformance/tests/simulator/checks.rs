@@ -1,11 +1,12 @@
-//! Checks of the simulated CNC, which are tests and also detect defects.
+//! Checks of the simulated CNC. Each check is a test of the CNC without a defect, and must also fail
+//! for certain defects.
 
 use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
 use ads_cnc_vectors::ClauseId;
 
 use crate::target::{Check, Target};
 
-/// A check of a CNC in its initial state.
+/// A check that starts with a CNC in its initial state.
 pub(crate) struct SimulatorCheck {
     pub(crate) name: &'static str,
     pub(crate) run: fn(&Target) -> Check,

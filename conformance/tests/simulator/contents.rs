@@ -1,5 +1,5 @@
-//! The contents of objects and elements. Each content has a different value, so that mixed-up contents
-//! are detected.
+//! Checks of the contents of objects and elements. Each content has a different value, so that the checks
+//! detect contents that are mixed up.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{
@@ -21,17 +21,18 @@ checks! {
     elements_have_the_attributes_of_their_contents,
 }
 
-/// Number of rounds of values, so that each content of one bit has a different sequence.
+/// Number of rounds with new values. Over this number of rounds, each BOOLEAN has another sequence of
+/// values.
 const ROUNDS: u32 = 6;
-/// Number of rounds for longer contents.
+/// Number of rounds in which contents other than BOOLEANs are read.
 const ROUNDS_OF_NUMBERS: u32 = 2;
 
 fn is_bit(held: &StoredContent) -> bool {
     matches!(held.type_name, "BOOL" | "BOOLEAN")
 }
 
-/// The value of the content with this number, different in each round. All bytes of a number differ,
-/// and REALs are finite.
+/// The value of the content with this number, which is different in each round. All bytes of a numeric
+/// value differ, and REALs are finite.
 fn value(held: &StoredContent, number: u32, round: u32) -> Vec<u8> {
     if is_bit(held) {
         return vec![u8::from(number >> round & 1 == 1)];
@@ -53,7 +54,7 @@ fn what(held: &StoredContent) -> String {
     format!("{} of {:?}", held.name, held.holder)
 }
 
-/// The relevant part of a value: a text ends at its NUL.
+/// The part of a value that is compared: a text up to its NUL, or the whole value.
 fn counting<'v>(held: &StoredContent, value: &'v [u8]) -> &'v [u8] {
     match held.type_name {
         "STRING" => value.split(|&byte| byte == 0).next().unwrap_or_default(),
@@ -74,7 +75,7 @@ fn contents_are_read_at_their_addresses(target: &Target) -> Check {
         let of_round = |held: &StoredContent| is_bit(held) || round < ROUNDS_OF_NUMBERS;
         for (held, value) in all.iter().zip(&values).filter(|(held, _)| of_round(held)) {
             for address in addresses(target, held)? {
-                // The program stream and the offsets of functions cannot be read.
+                // The program stream, and contents at the offsets of functions, cannot be read.
                 let Ok(request) = address.read() else { continue };
                 let found = target.ask(request)??;
                 let at = format!("{} at {address:?}", what(held));

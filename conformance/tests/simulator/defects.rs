@@ -1,4 +1,4 @@
-//! Defects that the checks and the golden sequences detect.
+//! The defects that no case of the suite detects, but the checks and the golden sequences do.
 
 use std::collections::BTreeSet;
 use std::thread;
@@ -26,8 +26,8 @@ fn checks() -> impl Iterator<Item = &'static SimulatorCheck> {
     all.into_iter().flatten()
 }
 
-/// The checks and sequences that a CNC with this defect fails, among those of these requirements, or
-/// among all if `requirements` is empty.
+/// The checks and sequences of these requirements that fail for a CNC with this defect or variant; if
+/// `requirements` is empty, of all requirements.
 fn failing(seed: &Seed, requirements: &[&str]) -> Vec<String> {
     let wanted = |id: &str| requirements.is_empty() || requirements.contains(&id);
     let fails = |failed: crate::target::Check, name: &str| {
@@ -48,7 +48,7 @@ fn the_matrix_lists_every_check() {
     assert_eq!(names, listed);
 }
 
-/// Each of these defects fails a requirement that it breaks.
+/// With each defect in `UNSEEN`, a check or sequence of a requirement that the defect breaks fails.
 #[test]
 fn defects_that_no_case_detects_are_detected() {
     let is_missed = |id: &&&str| {
@@ -59,7 +59,8 @@ fn defects_that_no_case_detects_are_detected() {
     assert!(missed.is_empty(), "not found: {missed:?}");
 }
 
-/// Valid variants for which the checks do not apply: another model, or allowed behaviour that differs.
+/// Valid variants with which checks fail, because the variants have another model, or behave in another
+/// permitted way than the checks expect.
 const OTHERWISE: [&str; 15] = [
     "different.axes-move",
     "different.axis-handles",
@@ -78,7 +79,8 @@ const OTHERWISE: [&str; 15] = [
     "different.request-over-early",
 ];
 
-/// A check of the replies of this CNC; a valid variant may reply differently.
+/// The check that compares replies with those of this simulated CNC; a valid variant may reply
+/// differently.
 const OF_THIS_CNC: &str = "each_query_has_its_own_answer";
 
 #[test]

@@ -1,4 +1,4 @@
-//! Device information and error numbers.
+//! Checks of device information and error numbers.
 
 use ads_cnc::Decode as _;
 use ads_cnc::Kind;
@@ -31,7 +31,7 @@ fn each_task_has_the_information_of_the_program(target: &Target) -> Check {
     Ok(())
 }
 
-/// The error numbers in the frames are those of [`Cnc::answer`].
+/// The error numbers in response frames are those that [`Cnc::answer`] returns.
 fn errors_have_their_numbers(target: &Target) -> Check {
     let channel = Channel::new(1)?;
     let requests: [Request<'_>; 3] = [
@@ -42,7 +42,7 @@ fn errors_have_their_numbers(target: &Target) -> Check {
     for request in requests {
         let mut data = vec![0; request.encoded_len()];
         let call = request.encode(&mut data)?;
-        // An object, a variable or a function that does not exist.
+        // Requests an object, a variable or a function that does not exist.
         let call = match request {
             Request::WriteByName(_) => call,
             _ => Call { index_offset: IndexOffset::new(0xFFFF), ..call },
@@ -80,8 +80,8 @@ const QUERIES: [(Service, u32, u32, &[u8]); 18] = [
     (Service::Read, 0x12_3306, 1, b""),
 ];
 
-/// Each query has the same reply by number and by rank, and an error for an unknown channel, axis,
-/// index or name, or a shorter length.
+/// The CNC replies to each query as [`Cnc::answer`] does without a defect: by number and by rank, for an
+/// unknown channel, axis, index and name, and with a short read length.
 fn each_query_has_its_own_answer(target: &Target) -> Check {
     let attributes =
         (0x12_3406..=0x12_3806).step_by(0x100).map(|group| (Service::Read, group, 1, &b""[..]));

@@ -1,5 +1,6 @@
-//! The simulated CNC, including its internal state: the executed lines of programs, the contents of
-//! variables, and changes by an operator. The checks also detect defects that no request shows.
+//! Tests of the simulated CNC, including its internal state: the executed lines of programs, the
+//! values of variables, and changes by an operator. The checks also detect defects that no request can
+//! detect.
 
 mod addresses;
 mod changes;

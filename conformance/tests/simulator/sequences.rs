@@ -5,7 +5,7 @@ use ads_cnc_vectors::{Given, Sequence, sequences};
 use crate::player::play;
 use crate::target::Target;
 
-/// The sequences with steps.
+/// The golden sequences that consist of steps.
 pub(crate) fn with_steps() -> impl Iterator<Item = &'static Sequence> {
     let all = sequences().iter();
     all.filter(|one| matches!(one.given, Given::Streaming(_) | Given::Service(_)))

@@ -1,4 +1,4 @@
-//! The Service Interface.
+//! Checks of the Service Interface.
 
 use std::time::Duration;
 
@@ -43,7 +43,7 @@ const ONE: [u8; 4] = [1, 0, 0, 0];
 
 const NONE: [u8; 4] = [0; 4];
 
-/// A state whose bytes all differ.
+/// A state whose four bytes all differ, to detect a wrong byte order.
 const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
@@ -58,7 +58,7 @@ fn value(target: &Target, channel: u8, variable: ServiceVariable) -> Check<Vec<u
     Ok(value)
 }
 
-/// Ends the NC program of the model, and writes to the interface without ADS.
+/// Ends the NC program of the model, resets the interface, and writes these values without ADS.
 fn alone(target: &Target, channel: u8, values: &[(ServiceVariable, &[u8])]) -> Check {
     target.cnc().set_script(channel, None)?;
     target.cnc().with_service(channel, |service| {
@@ -68,7 +68,8 @@ fn alone(target: &Target, channel: u8, values: &[(ServiceVariable, &[u8])]) -> C
     Ok(())
 }
 
-/// The program sends two requests.
+/// Two requests one after the other: the response state of one ends its request, and a new request
+/// resets the response state.
 fn a_request_is_over_when_it_is_answered(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Response, ResponseState};
     alone(target, 1, &[])?;
@@ -86,7 +87,7 @@ fn a_request_is_over_when_it_is_answered(target: &Target) -> Check {
     Ok(())
 }
 
-/// A shorter text replaces the whole previous text.
+/// A write changes only its own variable, and a shorter text replaces the whole previous text.
 fn each_variable_is_its_own(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     alone(target, 1, &[])?;
@@ -109,7 +110,8 @@ fn each_variable_is_its_own(target: &Target) -> Check {
     Ok(())
 }
 
-/// Programs in two channels have requests, and one is answered.
+/// NC programs in two channels have requests; a response in one channel does not change the variables
+/// of the other.
 fn an_answer_changes_no_other_channel(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let held: [(ServiceVariable, &[u8]); 4] = [
@@ -141,14 +143,14 @@ fn an_answer_changes_no_other_channel(target: &Target) -> Check {
     Ok(())
 }
 
-/// REQUEST_STATE is 0 until UUID and REQUEST are those of the program.
+/// REQUEST_STATE is 0 until UUID and REQUEST have the values of the program's request.
 fn a_program_writes_its_state_last(target: &Target) -> Check {
     use ServiceVariable::{Request, RequestState, Uuid};
     let config = ScriptConfig::square_root()?;
     let asked = config.requests.first().cloned();
     let asked = asked.ok_or_else(|| Failed("no request".to_owned()))?;
     let mut script = target.cnc().as_run(Script::new(config)?);
-    // Values of an earlier request.
+    // The variables contain the values of an earlier request.
     alone(target, 1, &[(Uuid, b"other\0"), (Request, b"other\0")])?;
     while script.state() == ScriptState::Asking(0) {
         target.cnc().with_service(1, |service| script.step(Duration::ZERO, service))?;

@@ -1,4 +1,5 @@
-//! Data streaming: the buffer of a channel's interface, and the executed lines of its program.
+//! Checks of data streaming: the streaming interface of a channel, and the lines of its program that
+//! are executed.
 
 use std::time::Duration;
 
@@ -31,10 +32,10 @@ checks! {
     four_words_end_the_program,
 }
 
-/// Maximum number of bytes in the interface.
+/// Maximum number of bytes in the streaming interface.
 pub(crate) const BUFFER_LEN: usize = 4094;
 
-/// Sends valid or invalid bytes to a stream.
+/// Writes any bytes to a program stream, including bytes that the codec would not encode.
 pub(crate) fn send(target: &Target, channel: Channel, data: &[u8]) -> Check<Result<(), AdsError>> {
     let request = Request::from(WriteProgramStream::new(channel, b"\r\n"));
     let mut buf = [0; 8];
@@ -42,8 +43,8 @@ pub(crate) fn send(target: &Target, channel: Channel, data: &[u8]) -> Check<Resu
     Ok(target.call(&call)?.map(drop))
 }
 
-/// Repeats a rejected write, because the manuals do not state when a CNC cannot accept data, even if the
-/// buffer has room.
+/// Writes to a program stream and repeats the write while it is rejected, because the manuals do not
+/// state when a CNC rejects data although the interface has room.
 pub(crate) fn send_until_taken(
     target: &Target,
     channel: Channel,
@@ -59,14 +60,14 @@ pub(crate) fn send_until_taken(
     Ok(sent)
 }
 
-/// The stream of a channel, from both sides.
+/// The program stream of a channel: the writes of the client, and the state inside the CNC.
 #[derive(Clone, Copy)]
 struct Stream<'t> {
     target: &'t Target,
     channel: u8,
 }
 
-/// The stream of the first channel with a new configuration.
+/// The program stream of channel 1, with this pace and start.
 fn first(target: &Target, pace: Pace, start: Start) -> Check<Stream<'_>> {
     stream(target, 1, pace, start)
 }
@@ -130,7 +131,7 @@ fn comment(len: usize) -> Vec<u8> {
     line
 }
 
-/// The channel is addressed by its number and by its rank.
+/// Each channel is addressed by its number and by its rank, and executes the lines sent to it.
 fn each_channel_executes_its_own_stream(target: &Target) -> Check {
     for (rank, channel) in (1..).zip(target.channels()) {
         let stream = stream(target, channel, Pace::Fast, Start::Once)?;
@@ -144,7 +145,7 @@ fn each_channel_executes_its_own_stream(target: &Target) -> Check {
     Ok(())
 }
 
-/// Tests every printable ASCII character and tabs, in comments, which do not end streaming.
+/// Tests all printable ASCII characters and tabs. They are in comments, so that no word ends streaming.
 fn lines_are_executed_as_written(target: &Target) -> Check {
     let graphic: String =
         (b' '..=b'~').map(char::from).filter(|c| !"()$#;%".contains(*c)).collect();
@@ -166,7 +167,7 @@ fn lines_are_executed_as_written(target: &Target) -> Check {
     same("the state", stream.state()?, State::Dry)
 }
 
-/// Tests lengths around multiples of 256.
+/// Tests packets whose lengths are around multiples of 256.
 fn packets_of_any_length_are_executed(target: &Target) -> Check {
     let stream = first(target, Pace::Fast, Start::Once)?;
     let mut all = Vec::new();
@@ -182,7 +183,7 @@ fn packets_of_any_length_are_executed(target: &Target) -> Check {
     Ok(())
 }
 
-/// Tested with an empty and a non-empty interface.
+/// Tests a packet that is too long with an empty and with a non-empty interface.
 fn a_packet_that_is_too_long_takes_no_room(target: &Target) -> Check {
     let stream = first(target, Pace::Hold, Start::Once)?;
     for held in [0, STREAM_PACKET_MAX] {
@@ -197,7 +198,7 @@ fn a_packet_that_is_too_long_takes_no_room(target: &Target) -> Check {
     Ok(())
 }
 
-/// Each packet contains one short line.
+/// Fills the interface with packets of one short line each.
 fn many_packets_fill_the_interface(target: &Target) -> Check {
     let stream = first(target, Pace::Hold, Start::Once)?;
     let line = |number: usize| format!("N{number:05} (of many)  \r\n").into_bytes();
@@ -241,7 +242,7 @@ fn each_channel_has_its_own_room(target: &Target) -> Check {
     Ok(())
 }
 
-/// The first line of the packet would fit, but the second would not.
+/// The first line of the packet would fit into the interface, but the second would not.
 fn a_packet_without_room_is_rejected_whole(target: &Target) -> Check {
     for room in [4, 40, 500, 988] {
         let stream = first(target, Pace::Hold, Start::Once)?;
@@ -288,7 +289,8 @@ fn a_packet_that_is_sent_twice_is_executed_twice(target: &Target) -> Check {
     stream.has_executed(b"X1\r\nX1\r\n")
 }
 
-/// The lines are written after the program end was read and before it is executed.
+/// Lines that are written after the decoder has read the program end, but before it is executed, remain
+/// in the interface.
 fn lines_written_after_a_program_end_stay(target: &Target) -> Check {
     let slow = Pace::lines_per_second(1).expect("a pace");
     for end in ["M30", "M2", "M17", "M29"] {
@@ -385,7 +387,7 @@ fn comments_hide_words(target: &Target) -> Check {
         ] {
             ends_streaming(&text, false)?;
         }
-        // The word is after the comment, or in the next line.
+        // The word is after a comment or in the line after it, so it is not in the comment.
         for text in [
             format!("(x) {word}\r\n"),
             format!("(x\r\n{word}\r\n"),

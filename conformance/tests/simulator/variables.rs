@@ -1,4 +1,5 @@
-//! Variables and dynamic parameters, compared with the model and the state.
+//! Checks of variables and dynamic parameters: replies are compared with the model and the internal
+//! state of the CNC.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName, DynamicValue};
@@ -19,7 +20,8 @@ checks! {
     parameters_come_and_go,
 }
 
-/// Compares V.E and V.G of every channel, including read-only variables.
+/// Compares the descriptions of all V.E and V.G variables of every channel with the model, and the
+/// values of read-only variables.
 fn variables_are_described_as_configured(target: &Target) -> Check {
     for number in target.channels() {
         let channel = Channel::new(number.into())?;
@@ -93,7 +95,7 @@ fn variables_without_a_handle_are_written_by_name(target: &Target) -> Check {
     ensure(written > 0, "no such variable")
 }
 
-/// Number of parameters; more than fit into a byte.
+/// Number of parameters, which is larger than fits into a byte.
 const MANY: u32 = 300;
 
 const fn prefix(kind: DynamicKind) -> &'static str {
@@ -105,7 +107,7 @@ const fn prefix(kind: DynamicKind) -> &'static str {
     }
 }
 
-/// Name and value of the parameter at an index of the list.
+/// The name and the value of the parameter at an index of the list.
 fn parameter(kind: DynamicKind, place: u32) -> (String, f64) {
     let mut name = format!("{}{place}", prefix(kind));
     // Each tenth name has the maximum length, including the NUL.
@@ -135,7 +137,7 @@ fn parameters_come_and_go(target: &Target) -> Check {
         };
         let mut all: Vec<(String, f64)> = (1..=MANY).map(|place| parameter(kind, place)).collect();
         set(&all)?;
-        // The first parameter is deleted, so the indices of the others decrease.
+        // After the first parameter is deleted, the indices of the others are one less.
         let (gone, _) = all.remove(0);
         set(&all)?;
         let by_name = target.ask(DynamicValueByName::new(channel, kind, &gone)?)?;
@@ -147,7 +149,8 @@ fn parameters_come_and_go(target: &Target) -> Check {
     Ok(())
 }
 
-/// Checks the ends of the list, and the indices around 255.
+/// Checks that the parameters at the ends of the list and around indices 128 and 255 have these names
+/// and values.
 fn are_listed(
     target: &Target,
     channel: Channel,
@@ -163,7 +166,7 @@ fn are_listed(
         let by_index = DynamicNameByIndex::new(channel, kind, index)?;
         let at_index = |read: DynamicName| read.name.text.to_string();
         same(format_args!("the name at {index}"), at_index(target.read(by_index)?), name.clone())?;
-        // A rejected request has no effect.
+        // A request that is rejected does not affect later replies.
         target.ask(DynamicNameByIndex::new(channel, kind, count + 1)?)?.err();
         same(format_args!("the name at {index}"), at_index(target.read(by_index)?), name.clone())?;
         let by_name = target.read::<DynamicValue>(DynamicValueByName::new(channel, kind, name)?)?;

@@ -14,7 +14,8 @@ use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
 use super::{CapturedFrame, ConnectionLoss, REPLY_TIMEOUT, TrafficJudge, location};
-use crate::judge::{Checks as _, Describe, Rule};
+use crate::evidence::Describe;
+use crate::judge::{Checks as _, Rule};
 use crate::rules::{Observation, Topic, service_clause};
 use crate::text::plural;
 

@@ -1,4 +1,4 @@
-//! Executes the actions of the vocabulary.
+//! Executes the actions of the client protocol.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, ElementAddress, Spindle};
 use ads_cnc::dynamic::DynamicKind;
@@ -286,8 +286,8 @@ fn content(object: &Descriptor) -> Type {
     Type::of_content(object.type_name(), object.size())
 }
 
-/// The address of an instance: calculated for channels, axis places and spindles, requested for other
-/// instances.
+/// Executes an action on an element. The client calculates the address of the element for channels, axis
+/// places and spindles; for other instances it requests the address from the CNC.
 fn element(
     wire: &mut Connection,
     action: &Action,

@@ -7,11 +7,11 @@ use ads_cnc::ads::AdsError;
 pub(super) enum ActionError {
     /// An ADS error of the CNC.
     Rejected(AdsError),
-    /// Another error, in the client or in a reply.
+    /// Another error, which the client itself found, for example in a reply.
     Error(String),
-    /// The client crashes.
+    /// The client must behave as if it crashed.
     Dies,
-    /// The client hangs.
+    /// The client must behave as if it hung.
     Hangs,
 }
 

@@ -29,7 +29,7 @@ impl OutgoingRequest {
         }
     }
 
-    /// Whether the request is that of the decoder's function with this offset.
+    /// Whether the request addresses the decoder's function with this index offset.
     const fn is(&self, offset: u32) -> bool {
         self.group & 0xFF00 == 0x2300 && self.offset == offset
     }
@@ -151,7 +151,7 @@ impl OutgoingRequest {
             }
             ClientFault::ValueSwapped if com_content => self.data.reverse(),
             ClientFault::StreamLong if !sda && self.offset == 0x90 => {
-                // Turns the end of the last line into a comment.
+                // Inserts blanks before the last CR LF, so that the packet has 1000 bytes.
                 let at = self.data.len().saturating_sub(2);
                 let filler = 1000_usize.saturating_sub(self.data.len());
                 self.data.splice(at..at, std::iter::repeat_n(b' ', filler));
@@ -167,7 +167,7 @@ impl OutgoingRequest {
     fn apply_variant(&mut self, variant: ClientFault) {
         let class = self.group & 0xF000;
         match variant {
-            // Channel 6 has a rank that differs from its number.
+            // Channels 1 and 2 have their number as rank; channel 6 has rank 3.
             ClientFault::ByIndex if self.group & 0xFF <= 2 => self.group &= !0x10_0000,
             ClientFault::ByIndex if self.group & 0xFF == 6 => {
                 self.group = (self.group & !0x10_00FF) | 3
@@ -181,7 +181,7 @@ impl OutgoingRequest {
     }
 }
 
-/// Applies a defect to an encoded frame.
+/// Applies a defect to the encoded frame of a request.
 pub(super) fn apply_to_frame(fault: ClientFault, bytes: &mut Vec<u8>) {
     let command = bytes.get(22).copied();
     let mut add = |at: usize, change: i8| {
@@ -209,7 +209,7 @@ pub(super) fn apply_to_frame(fault: ClientFault, bytes: &mut Vec<u8>) {
     }
 }
 
-/// Skips a check of a reply by correcting the field that the check reads.
+/// Makes the client skip a check of a reply, by correcting the field of the reply that the check reads.
 pub(super) fn skip_check(fault: ClientFault, received: &mut [u8]) -> Result<(), ActionError> {
     let word = |received: &[u8], at: usize| {
         let bytes = received.get(at..at.checked_add(4)?)?;
@@ -235,7 +235,7 @@ pub(super) fn skip_check(fault: ClientFault, received: &mut [u8]) -> Result<(), 
     Ok(())
 }
 
-/// Misinterprets reply data of a wrong length or type.
+/// Makes the client accept reply data that is wrong, by changing the data before it is decoded.
 pub(super) fn misread(fault: ClientFault, asked: &OutgoingRequest, reply: &mut Vec<u8>) {
     match fault {
         ClientFault::FillsUp if asked.is(0x44) => reply.resize(4, 0),

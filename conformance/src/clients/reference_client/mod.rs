@@ -1,5 +1,5 @@
-//! This project's client, optionally with a defect. It is an example of the client protocol, and
-//! tests the suite.
+//! This project's client, optionally with a defect. It is an example of the client protocol, and the
+//! self-test tests the suite with it.
 
 mod actions;
 mod defects;
@@ -54,7 +54,8 @@ impl ClientUnderTest for ReferenceClient {
     }
 }
 
-/// Executes an action. A crash or a hang is only returned, so that this process continues.
+/// Executes an action. A crash or a hang of the client is only a value that is returned, so that this
+/// process continues.
 pub fn answer(fault: Option<ClientFault>, place: &CncAddress, action: &Action) -> ClientReaction {
     if fault == Some(ClientFault::Garbles) {
         return ClientReaction::Garbled("done!".to_owned());

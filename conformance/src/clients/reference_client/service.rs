@@ -34,7 +34,8 @@ fn write(
     wire.call(&write, &mut Vec::new()).map(drop)
 }
 
-/// Answers each request with its own text.
+/// Acts as the service: responds to each request with the text of the request, until `requests` requests
+/// or `seconds` seconds are over. Returns the number of responses.
 pub(super) fn serve(
     wire: &mut Connection,
     channel: Channel,
@@ -79,7 +80,7 @@ pub(super) fn serve(
     Ok(answered.into())
 }
 
-/// Sends a request to a service, like an NC program.
+/// Acts as the NC program: sends a request to a service, and waits for the response.
 pub(super) fn ask(
     wire: &mut Connection,
     channel: Channel,

@@ -15,10 +15,11 @@ use super::error::ActionError;
 use super::wire::Connection;
 use crate::clients::message::DONE;
 
-/// Interval of polling.
+/// Pause before the client repeats a packet, or reads a state again.
 pub(super) const PAUSE: Duration = Duration::from_millis(10);
 
-/// How long to repeat a packet, and to wait for a response of a service.
+/// How long the client repeats a packet that the CNC rejects as busy, and waits for the response of a
+/// service.
 pub(super) const WAIT_MAX: Duration = Duration::from_secs(10);
 
 pub(super) fn stream(
@@ -47,7 +48,7 @@ pub(super) fn stream(
     Ok(DONE)
 }
 
-/// The packets of a program.
+/// Splits a program into packets; some defects split it wrongly.
 fn packets(fault: Option<ClientFault>, program: &[u8]) -> Result<Vec<Vec<u8>>, ActionError> {
     let is = |one: ClientFault| fault == Some(one);
     if is(ClientFault::StreamAny) || is(ClientFault::StreamLine) {

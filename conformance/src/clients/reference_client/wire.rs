@@ -1,4 +1,4 @@
-//! Requests and replies of this project's client, whose bytes a defect changes.
+//! Sends the requests of this project's client and receives the replies; a defect changes their bytes.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
@@ -119,12 +119,12 @@ impl Connection {
         }
     }
 
-    /// Removes the first frame from the received bytes and returns it.
+    /// The received data after the headers, result and length, although the frame is incomplete.
     fn cut(&mut self) -> Result<Vec<u8>, ActionError> {
         Ok(self.received.get(46..).unwrap_or_default().to_vec())
     }
 
-    /// The data of the reply, once it has arrived completely.
+    /// The data of the reply; `None` if the reply has not yet arrived completely.
     fn reply(&mut self, asked: &OutgoingRequest) -> Result<Option<Vec<u8>>, ActionError> {
         loop {
             if let Some(fault) = self.fault {

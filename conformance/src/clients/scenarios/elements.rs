@@ -1,4 +1,4 @@
-//! Instances of the classes of SDA and GEO, and their elements.
+//! Scenarios with the instances of the classes of SDA and GEO, and their elements.
 
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;

@@ -1,4 +1,4 @@
-//! Objects of the COM task.
+//! Scenarios with the objects of the COM task.
 
 use ads_cnc::operation::{ObjectList, ReadDescriptors};
 use ads_cnc::{Decode as _, DescriptorsRef};
@@ -9,8 +9,8 @@ use crate::clients::Scenario;
 use crate::clients::scenario::{ExpectedAnswer, ExpectedRequest, ReadLength, read, write};
 use crate::clients::script::ScenarioScript;
 
-/// Number of objects of channel 1 in the default model: its own with the program stream, the
-/// platform's, and three for each of three axes.
+/// Number of objects of channel 1 in the default model: the objects of the channel with the program
+/// stream, those of the platform, and three objects for each of three axes.
 const COUNT: u32 = 30;
 
 fn content(offset: u32, size: u32) -> ExpectedRequest {
@@ -97,7 +97,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     ]
 }
 
-/// The expected list of objects.
+/// The expected list of objects, according to the descriptors of the simulated CNC.
 pub(super) fn list(script: &ScenarioScript) -> Option<Value> {
     let channel = ads_cnc::address::Channel::new(1).ok()?;
     let read = ReadDescriptors::new(ObjectList::from(channel), 1, COUNT).ok()?;

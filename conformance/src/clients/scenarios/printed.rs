@@ -1,5 +1,5 @@
-//! Printed examples in both directions, from the raw bytes of the vectors. The codec is used
-//! neither to compare the client's request nor to build the reply.
+//! Scenarios with the examples printed in the manuals. The suite compares the client's request with the
+//! bytes of the vectors, and replies with such bytes, without the codec.
 
 use ads_cnc_vectors::{Direction, Service, Vector, vector};
 use serde_json::{Value, json};
@@ -9,7 +9,8 @@ use crate::clients::literal::Literal;
 use crate::clients::scenario::ExpectedRequest;
 use crate::judge::Rule;
 
-/// Action, expected result and vector of each example. The vector is the request or the reply.
+/// The action, the expected result and the vector of each example. The vector contains the request or
+/// the reply.
 fn examples() -> Vec<(&'static str, Value, &'static str)> {
     let array = json!([123, 234, 345, 456, 567]);
     vec![
@@ -132,13 +133,14 @@ fn literal(example: &Vector) -> Option<Literal> {
     })
 }
 
-/// Examples that no action of the vocabulary covers.
+/// Printed examples that no action of the client protocol covers.
 #[cfg(test)]
 const NOT_COVERED: &[&str] = &[
-    // The description with the name of the other edition, and the other value of a BOOLEAN.
+    // A name with a space, which one edition prints, and the content FALSE: the other printed name
+    // and the content TRUE have scenarios.
     "description-printed-table-name",
     "content-printed-feedhold-0",
-    // An object of COM inside a list.
+    // A descriptor, which a client only receives inside a list.
     "descriptor-printed",
 ];
 

@@ -1,5 +1,5 @@
-//! Replies that are split, delayed or invalid: the client must return the right value or an error,
-//! never another value, and must not crash.
+//! Scenarios with replies that are split, delayed or invalid: the client must return the right value or
+//! an error, never another value, and must not crash.
 
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ClauseId;
@@ -17,7 +17,7 @@ struct ReactionScenario {
     id: &'static str,
     action: &'static str,
     function: Function,
-    /// The requirements of the service, of the data, and of the result.
+    /// The requirement of the ADS service; the next field is the requirement of the data.
     service: ClauseId,
     data: ClauseId,
     result: fn() -> Value,
@@ -106,8 +106,8 @@ fn sent_otherwise(scenario: &ReactionScenario) -> Vec<Scenario> {
             "in two pieces, cut after the headers",
             Tamper::Pieces(39),
         ),
-        // A client must not accept a reply to another request; whether it continues after one is not
-        // specified.
+        // A client must not accept a reply to another request. Whether the client then continues to
+        // wait for its own reply is not specified.
         Scenario {
             expect: match (scenario.result)() {
                 Value::Null => ExpectedAnswer::DoneOrError,
@@ -173,8 +173,8 @@ fn wrong_lengths(scenario: &ReactionScenario) -> Vec<Scenario> {
 
 fn errors(scenario: &ReactionScenario) -> Vec<Scenario> {
     let mut all = vec![
-        // That an AMS error has no payload is documented online; how a client reports it is not
-        // specified.
+        // An AMS error without service data is documented online; how a client reports the error is
+        // not specified.
         scenario
             .invalid_reply("ams-error", "an AMS error without payload", Tamper::AmsError, ADS_5)
             .by(ADS_6),
@@ -217,7 +217,7 @@ fn closed(scenario: &ReactionScenario) -> Vec<Scenario> {
         ),
         scenario.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, ADS_5),
     ];
-    // Each of these scenarios takes the full timeout of the client.
+    // A scenario without a reply lasts as long as the timeout of the client, so it is run only once.
     if scenario.function == Function::ReadByName {
         all.push(scenario.invalid_reply(
             "silence",
@@ -240,7 +240,7 @@ fn wrong_amounts(scenario: &ReactionScenario) -> Vec<Scenario> {
     ]
 }
 
-/// Streams that are too short or too long, or have values of a later version.
+/// Scenarios with streams that are too short or too long, or with values that no edition defines.
 fn streams() -> Vec<Scenario> {
     let describe = |id: &str, what: &str, tamper| {
         let title = format!("describe 1 2 V.E: {what}");

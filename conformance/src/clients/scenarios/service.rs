@@ -1,4 +1,4 @@
-//! Both sides of the Service Interface.
+//! Scenarios with both sides of the Service Interface: a service and an NC program.
 
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ClauseId;
@@ -40,7 +40,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     .gives("done")
     .ordered(RequestOrder::Caller, &[SVC_12, SVC_6, ADS_3, ADS_2]);
     ask.response = Some("done");
-    // The response to an earlier request, which a client that does not wait would read.
+    // A client that does not wait would read this response to an earlier request.
     ask.prepare = Some(|script| script.write_variable(ServiceVariable::Response, b"stale"));
     vec![
         host("own", "The client answers a request to its service", 5.0, |script| {

@@ -1,4 +1,4 @@
-//! NC programs, written packet by packet.
+//! Scenarios with NC programs that the client writes packet by packet.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc_vectors::ClauseId;
@@ -30,7 +30,8 @@ fn refused(id: &str, title: &str, text: &[u8], rule: ClauseId) -> Scenario {
     scenario
 }
 
-/// Lines of various lengths, so that the end of a packet is not the end of a line by chance.
+/// A program with lines of various lengths, so that a packet cut after any fixed number of bytes does
+/// not end at the end of a line by chance.
 fn lines(count: usize, end: &str) -> Vec<u8> {
     let line = |number: usize| {
         let block = number * 10;

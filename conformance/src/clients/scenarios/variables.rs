@@ -1,4 +1,4 @@
-//! Variables and dynamic parameters.
+//! Scenarios with variables and dynamic parameters.
 
 use ads_cnc_vectors::ids::*;
 use serde_json::{Value, json};
@@ -11,13 +11,13 @@ const GROUP: u32 = 0x12_2301;
 
 fn named(offset: u32, name: &[u8], least: u32) -> ExpectedRequest {
     let ask = both(GROUP, offset, &[name, b"\0"].concat(), least).of(VAR_14, VAR_9);
-    // A name may be padded to 256 bytes.
+    // A client may pad a name with NULs to 256 bytes.
     let mut padded = name.to_vec();
     padded.resize(256, 0);
     ask.also(&padded)
 }
 
-/// A scenario that reads a value by its name.
+/// A scenario that reads the value of a variable by its name.
 fn value(id: &str, title: &str, name: &str, wire: &[u8], ty: &str, size: u32) -> Scenario {
     Scenario::new(format!("client-read-{id}"), title, format!("read-by-name 1 {name} {ty}"))
         .asks(named(0x48, wire, size))
@@ -247,8 +247,8 @@ fn by_name() -> Vec<Scenario> {
     ]
 }
 
-/// A scenario that writes a text with a NUL, padded, or without a NUL; the manuals do not specify
-/// which.
+/// A scenario that writes a text. The client may write the text with a NUL, padded with NULs, or
+/// without a NUL, because the manuals do not specify the end of the text.
 fn text(name: &str, text: &str, bytes: &[u8]) -> Scenario {
     let front = [name.as_bytes(), b"\0", bytes].concat();
     let with = |zeros: usize| {

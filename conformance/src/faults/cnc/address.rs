@@ -1,4 +1,4 @@
-//! Index groups and offsets (ADR).
+//! Defects in index groups and offsets (ADR).
 
 use ads_cnc::address::{Access, Class, ComTable};
 use ads_cnc::ads::AdsError;
@@ -7,7 +7,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::{CncSeed, LOGICAL, class, com_group, group, is, offset, row};
 
-/// Whether the low byte of the index group is a channel.
+/// Whether the low byte of the index group is a channel number or rank.
 fn of_channel(call: &Call<'_>) -> bool {
     match (class(call), com_group(call)) {
         (Some(class), _) => class.class != Class::Spindle && class.instance != 0,
@@ -178,7 +178,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
 ];
 
-/// Offsets of the decoder that are functions, not elements.
+/// Functions at index offsets of the decoder where other classes have elements.
 const FUNCTIONS: &[Function] = &[
     Function::AxisHandleByName,
     Function::AxisReadByName,

@@ -1,4 +1,4 @@
-//! Services (ADS).
+//! Defects of the ADS services (ADS).
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Service};

@@ -1,11 +1,11 @@
-//! The axis interface of variables (VAR).
+//! Defects of the axis interface of variables (VAR).
 
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{CncSeed, ReplyData, Upstream, function, group, of_decoder, offset, row};
 
-/// The function of the axis interface that a call addresses, and the axis; `None` for other calls.
+/// The axis that a call to the axis interface addresses, and the function; `None` for other calls.
 fn of_axis(call: &Call<'_>) -> Option<(u32, u32)> {
     let offset = of_decoder(call)?;
     let (axis, function) = (offset >> 16, offset & 0xFFFF);

@@ -1,4 +1,4 @@
-//! Limits: first and last index, maximum length, and one after the limit.
+//! Defects at limits: at the first and the last index, at the maximum length, and one after the limit.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

@@ -15,7 +15,7 @@ pub(in crate::faults) fn set_u32(bytes: &mut [u8], place: usize, number: u32) {
     }
 }
 
-/// The reply with the UNS32 at an offset changed.
+/// The reply with the UNS32 at an offset changed by `other`.
 pub(in crate::faults) fn number(
     answer: ReplyData,
     place: usize,
@@ -34,12 +34,12 @@ pub(in crate::faults) fn after_nul(bytes: &[u8]) -> &[u8] {
     bytes.get(text(bytes).len().saturating_add(1)..).unwrap_or_default()
 }
 
-/// The bytes as a sequence of UNS32.
+/// The bytes as a sequence of UNS32, without an incomplete last one.
 pub(in crate::faults) fn fours(bytes: &[u8]) -> Vec<u32> {
     bytes.chunks_exact(4).filter_map(|four| u32_at(four, 0)).collect()
 }
 
-/// The records of a list of descriptors.
+/// The records of 84 bytes in a list of descriptors.
 pub(in crate::faults) fn records(bytes: &[u8]) -> Vec<[u8; 84]> {
     bytes.chunks_exact(84).filter_map(|record| record.first_chunk::<84>()).copied().collect()
 }

@@ -1,4 +1,4 @@
-//! Types, access and sizes of variables (VAR).
+//! Defects in the types, access codes and sizes of variables (VAR).
 
 use ads_cnc_vectors::ids::*;
 

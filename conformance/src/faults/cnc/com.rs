@@ -1,4 +1,4 @@
-//! Object lists of COM (COM, OBJ).
+//! Defects in the object lists of COM (COM, OBJ).
 
 use ads_cnc::address::{Access, ComTable};
 use ads_cnc::ads::AdsError;

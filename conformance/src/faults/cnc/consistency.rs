@@ -1,4 +1,4 @@
-//! Replies that contradict each other (SDA, DYN).
+//! Defects whose replies contradict each other (SDA, DYN).
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{Call, Function};
@@ -15,7 +15,7 @@ const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// Changes a number in the request for an instance.
+/// The reply with the channel (offset 0) or the axis (offset 4) of a `FindInstance` request changed.
 fn with_number(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -32,7 +32,7 @@ fn with_number(
     }
 }
 
-/// Finds no instance of a class after an axis.
+/// Finds no instance of the class `of` for axes after `last`.
 fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
     if is(call, FIND) && group(call) & 0xF000 == of && u32_at(call.data, 4) > Some(last) {
         cnc.answer(call).map(|_| vec![0; 8])
@@ -56,7 +56,8 @@ fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     Ok(bytes)
 }
 
-/// Also writes to another address, if its content has the same length.
+/// Executes a write, and then the same write at another address, where it succeeds only if the content
+/// has the same length.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
     let done = cnc.answer(call);
     if done.is_ok() {

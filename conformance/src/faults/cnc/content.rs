@@ -1,4 +1,4 @@
-//! Contents of elements of SDA and GEO (SDA).
+//! Defects in the contents of elements of SDA and GEO (SDA).
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
@@ -17,7 +17,7 @@ const fn is_blank(offset: u32) -> bool {
     offset >= 0x2_0000
 }
 
-/// Whether the call addresses an axis place of channel 2 or 6 without an axis.
+/// Whether the call addresses an axis place of channel 2 or 6 that has no axis.
 fn empty_place(call: &Call<'_>) -> bool {
     class(call).is_some_and(|at| {
         matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)
@@ -96,7 +96,8 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
 ];
 
-/// Whether the call addresses this attribute of the printed element.
+/// Whether the call addresses this attribute of the element in the manual's example, element 1 of the
+/// HLD of channel 1.
 fn feedhold(call: &Call<'_>, attribute: u32) -> bool {
     group(call) & 0xEF_FFFF == 0x02_3001 | attribute && offset(call) == 1
 }

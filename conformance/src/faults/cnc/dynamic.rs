@@ -1,4 +1,4 @@
-//! Dynamic parameters (DYN).
+//! Defects of dynamic parameters (DYN).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

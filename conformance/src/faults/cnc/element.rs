@@ -1,4 +1,4 @@
-//! Attributes of elements of SDA and GEO (SDA).
+//! Defects in the attributes of elements of SDA and GEO (SDA).
 
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;

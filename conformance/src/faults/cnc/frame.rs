@@ -1,4 +1,4 @@
-//! Frames (ADS).
+//! Defects of frames (ADS).
 
 use ads_cnc::ads::{Command, FrameRef};
 use ads_cnc_vectors::ClauseId;
@@ -6,7 +6,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::{CncFault, CncSeed, Upstream, fault, set_u32, u32_at};
 
-/// Offsets in a frame.
+/// The offsets of fields in a frame, from the start of the AMS/TCP header.
 pub(super) const TCP_LENGTH: usize = 2;
 pub(super) const TARGET: usize = 6;
 pub(super) const SOURCE: usize = 14;
@@ -17,7 +17,7 @@ pub(super) const RESULT: usize = 38;
 pub(super) const LENGTH: usize = 42;
 pub(super) const DATA: usize = 46;
 
-/// A row about frames.
+/// A row whose defect changes frames.
 pub(super) const fn sent(
     id: &'static str,
     breaks: &'static [ClauseId],
@@ -35,7 +35,7 @@ pub(in crate::faults) fn measured(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// The frame with other bytes at an offset.
+/// The frame with the bytes at an offset replaced by `new`.
 pub(super) fn set(mut bytes: Vec<u8>, place: usize, new: &[u8]) -> Vec<u8> {
     bytes.iter_mut().skip(place).zip(new).for_each(|(old, new)| *old = *new);
     bytes

@@ -1,4 +1,4 @@
-//! Rules of all streams (GEN).
+//! Defects that violate the rules for all streams (GEN).
 
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::layout::{FieldSpec, Size, Type};
@@ -11,7 +11,7 @@ use super::{
     first, function, functions, number, on, records, row, set_u32, text, u32_at, within_length,
 };
 
-/// Functions whose reply is a number.
+/// Functions whose reply is a number of 4 bytes.
 const NUMBERS: &[Function] =
     functions!(|spec| matches!(reply(spec), [FieldSpec { size: Size::Fixed(4), .. }]));
 
@@ -26,7 +26,7 @@ const fn reply(spec: &FunctionSpec) -> &'static [FieldSpec] {
     }
 }
 
-/// Changes the texts in replies, and changes the names in requests back.
+/// Changes the texts in replies with `outwards`, and the names in requests with `inwards`.
 fn texts(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

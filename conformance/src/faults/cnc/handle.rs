@@ -1,4 +1,4 @@
-//! Handles of variables (VAR).
+//! Defects of handles of variables (VAR).
 
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};
@@ -114,7 +114,8 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.handle-of-axis", &[VAR_10],
         "the handle of an axis variable belongs to the axis, not to its place",
         |cnc, call| {
-            // The axis number shows the axis place; handles have the place in their third byte.
+            // The number of the axis at a place of channel 1. Handles of the simulated CNC contain the
+            // place in their third byte; this defect replaces it by the axis number.
             let axis = |place: u32| {
                 let number = cnc.read(AmsPort::COM, 0x12_0101, place << 16 | 3);
                 number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)

@@ -1,4 +1,4 @@
-//! Addresses of instances of SDA and GEO (SDA).
+//! Defects in the addresses of instances of SDA and GEO (SDA).
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
@@ -30,7 +30,8 @@ fn with_instance(
     cnc.with(call, &data)
 }
 
-/// Returns (0, 0) if the condition holds.
+/// Replies with the object address (0, 0) to requests for the instances for which `is_absent` returns
+/// true; its arguments are class, channel and axis.
 fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
     let numbers = (u32_at(call.data, 0), u32_at(call.data, 4));
     match (is(call, FIND), numbers) {

@@ -5,17 +5,17 @@ use ads_cnc::operation::{Call, Service};
 
 use super::{Key, Upstream, dimensions, group, offset, records, text, u32_at};
 
-/// The channel, axis or spindle number in the index group.
+/// The number in the low byte of the index group: a channel, axis or spindle.
 pub(super) const fn instance(call: &Call<'_>) -> u32 {
     group(call) & 0xFF
 }
 
-/// A key of the defect's memory that is independent of address and name.
+/// A key of the defect's memory that is the same for all addresses and names.
 pub(super) const fn one(number: u32) -> Key {
     (number, 0, Vec::new())
 }
 
-/// A text without NUL that overwrites the start of another one.
+/// The text `old` after `new`, without a NUL, has overwritten its start.
 pub(super) fn over(new: &[u8], old: &[u8]) -> Vec<u8> {
     [new, old.get(new.len()..).unwrap_or_default()].concat()
 }
@@ -45,7 +45,7 @@ pub(super) fn element_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bo
     cnc.read(call.port, at, offset(call)).is_ok_and(|bytes| text(&bytes) == name)
 }
 
-/// A name without the indices of an element, and the indices.
+/// Splits the name of an element into the name of the variable and the indices.
 pub(in crate::faults) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
     let (mut name, mut indices) = (name, Vec::new());
     while let Some(open) = name.strip_suffix(b"]") {
@@ -58,13 +58,13 @@ pub(in crate::faults) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
     (name, indices)
 }
 
-/// A name with indices and a NUL.
+/// A name, followed by the indices in brackets and a NUL.
 pub(in crate::faults) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
     let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
     [name, indices.as_bytes(), &[0]].concat()
 }
 
-/// The description of the variable with this name, which may include indices.
+/// The description of the variable with this name; indices in the name are ignored.
 pub(super) fn described(cnc: &Upstream<'_>, group: u32, name: &[u8]) -> Option<Vec<u8>> {
     cnc.ask(group, 0x4C, &[indexed(name).0, &[0]].concat()).ok()
 }
@@ -85,7 +85,7 @@ pub(super) fn handle_of(cnc: &Upstream<'_>, group: u32, name: &str) -> Option<u3
     u32_at(&cnc.ask(group, 0x46, &[name.as_bytes(), &[0]].concat()).ok()?, 0)
 }
 
-/// Whether the type in a description is STRING.
+/// Whether the type in a description is 9, STRING.
 pub(super) fn is_string(description: &[u8]) -> bool {
     u32_at(description, 4) == Some(9)
 }

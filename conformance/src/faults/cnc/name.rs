@@ -1,4 +1,4 @@
-//! Names of variables (VAR).
+//! Defects in the names of variables (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

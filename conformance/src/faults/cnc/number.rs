@@ -1,4 +1,4 @@
-//! Numbers, kinds and indices of variables (VAR).
+//! Defects in the number of variables, their kinds and their indices (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -8,7 +8,7 @@ use super::{CncSeed, INDEXED, ReplyData, Upstream, group, is, offset, row, set_u
 
 const COUNT: &[Function] = &[Function::CountVariables];
 
-/// Changes index and kind of a request.
+/// The reply to a request with its index and kind changed by `other`.
 fn indexed(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -1,4 +1,4 @@
-//! Contents of objects (COM).
+//! Defects in the contents of objects (COM).
 
 use ads_cnc::address::{Access, ComGroup, ComTable};
 use ads_cnc::ads::AdsError;
@@ -11,7 +11,7 @@ use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, records_mut, row
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
 
-/// A key of an address that is the same for logical addressing and addressing by rank.
+/// The key of an address in the defect's memory, with the bit of logical addressing always set.
 fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
     (group(call) | LOGICAL, offset(call), Vec::new())
 }

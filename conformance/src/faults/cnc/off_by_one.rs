@@ -1,4 +1,4 @@
-//! Uses the next channel, axis, kind or index instead of the requested one.
+//! Defects that use the next or another channel, axis, kind or index instead of the requested one.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -15,7 +15,8 @@ const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 const WRITE: &[Function] = &[Function::WriteElement];
 
-/// A text field of a descriptor that keeps the end of the previous, longer text.
+/// Overwrites a text field of 32 bytes in each record without clearing it first, so that the rest of
+/// the longer text of the previous record remains after a shorter text.
 fn run_on(records: &mut [[u8; 84]], field: usize) {
     let mut before: Vec<u8> = Vec::new();
     for record in records {

@@ -13,21 +13,22 @@ use super::{
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The REAL64 after a conversion to text with six decimal places.
+/// The REAL64 after a conversion to text with six decimal places, and back.
 fn six_digits(bytes: Vec<u8>) -> Vec<u8> {
     let Some(value) = bytes.first_chunk::<8>() else { return bytes };
     let digits = format!("{:.6}", f64::from_le_bytes(*value));
     digits.parse::<f64>().map_or(bytes, |value| value.to_le_bytes().to_vec())
 }
 
-/// The REAL64 rounded to a REAL32 by truncation.
+/// The REAL64 with its fraction truncated to the precision of a REAL32.
 fn rounded(value: [u8; 8]) -> [u8; 8] {
     let bits = u64::from_le_bytes(value);
-    // 52 bits of the fraction become 23.
+    // A REAL64 has 52 bits of fraction, a REAL32 has 23.
     (bits & !((1 << 29) - 1)).to_le_bytes()
 }
 
-/// Separates the values of platform axes in a channel's HLD from those in the HLD without a channel.
+/// Stores the values written to axes through the HLD of channel 1 separately, so that the HLD without
+/// a channel keeps the old values of the same platform axes.
 fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let key = (0x3301, offset(call), Vec::new());
     match (group(call) | LOGICAL == 0x12_3301 && offset(call) >= 0x1_0000, function(call)) {

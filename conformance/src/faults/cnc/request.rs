@@ -44,7 +44,7 @@ pub(in crate::faults) const WRITES: &[Function] =
 pub(in crate::faults) const VALUES: &[Function] =
     functions!(|spec| matches!(spec.reply, Some(Stream::VariableValue)));
 
-/// Functions whose reply describes a variable with its handle.
+/// Functions whose reply is a description of a variable that starts with its handle.
 pub(in crate::faults) const DESCRIPTIONS: &[Function] =
     functions!(|spec| matches!(first(spec.reply), b"handle")
         && !matches!(spec.reply, Some(Stream::VariableHandle)));
@@ -71,10 +71,10 @@ pub(in crate::faults) const fn offset(call: &Call<'_>) -> u32 {
     call.index_offset.get()
 }
 
-/// The bit of logical addressing.
+/// The bit of the index group that is set in logical addressing and clear in addressing by rank.
 pub(in crate::faults) const LOGICAL: u32 = 0x10_0000;
 
-/// The requested function, if any.
+/// The function that a call requests; `None` if the call is not a valid request for a function.
 pub(in crate::faults) fn function(call: &Call<'_>) -> Option<Function> {
     call.dispatch().ok().map(|request| request.function())
 }
@@ -83,7 +83,7 @@ pub(in crate::faults) fn is(call: &Call<'_>, functions: &[Function]) -> bool {
     function(call).is_some_and(|function| functions.contains(&function))
 }
 
-/// The class group; `None` if the group is not one of SDA and GEO.
+/// The parts of an index group of SDA or GEO; `None` for other groups.
 pub(in crate::faults) fn class(call: &Call<'_>) -> Option<ClassGroup> {
     match call.index_group.parts() {
         Some(Group::Class(class)) => Some(class),
@@ -91,7 +91,7 @@ pub(in crate::faults) fn class(call: &Call<'_>) -> Option<ClassGroup> {
     }
 }
 
-/// The group of COM; `None` if it is not one.
+/// The parts of an index group of COM; `None` for other groups.
 pub(in crate::faults) fn com_group(call: &Call<'_>) -> Option<ComGroup> {
     match call.index_group.parts() {
         Some(Group::Com(com)) => Some(com),
@@ -99,14 +99,14 @@ pub(in crate::faults) fn com_group(call: &Call<'_>) -> Option<ComGroup> {
     }
 }
 
-/// The index offset of a call to the decoder of any channel, in any addressing; `None` for another
-/// group.
+/// The index offset of a call to the decoder of any channel, in logical addressing or by rank; `None`
+/// for other groups.
 pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
     (group(call) & 0xFFEF_FF00 == 0x02_2300).then(|| offset(call))
 }
 
-/// Whether a call addresses the decoder of any channel, in any addressing, at the offset of one of
-/// these functions.
+/// Whether a call addresses the decoder of any channel, in logical addressing or by rank, at the offset
+/// of one of these functions.
 pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool {
     let mut offsets = functions.iter().map(|function| function.spec().offset);
     of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))

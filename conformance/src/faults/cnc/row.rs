@@ -12,17 +12,17 @@ use crate::simulator::program::Policy;
 /// How a defect or valid variant of a CNC works.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CncFault {
-    /// Handles every request.
+    /// Replies to every request.
     Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// Handles every request for one of these functions.
+    /// Replies to every request for one of these functions; the correct CNC replies to all others.
     Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
     /// Changes the frame of every reply.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
-    /// Sends frames in pieces of at most this size.
+    /// Sends frames in pieces of at most this many bytes.
     Pieces(usize),
     /// Changes the execution of NC programs.
     Program(Policy),
-    /// Uses this model.
+    /// Uses this data model, which is TOML text.
     Model(&'static str),
 }
 
@@ -34,11 +34,11 @@ pub(in crate::faults) struct CncSeed {
     pub(in crate::faults) fault: CncFault,
     /// The only edition in which the defect is detectable; `None` for both.
     pub(in crate::faults) edition: Option<Edition>,
-    /// Whether the printed examples that the defect concerns are still answered literally.
+    /// Whether the CNC still claims to reply literally as in the manuals' printed examples.
     pub(in crate::faults) printed: bool,
 }
 
-/// A row that handles requests.
+/// A row whose function replies to all requests.
 pub(in crate::faults) const fn row(
     id: &'static str,
     breaks: &'static [ClauseId],
@@ -48,7 +48,7 @@ pub(in crate::faults) const fn row(
     fault(id, breaks, what, CncFault::Answer(answer))
 }
 
-/// A row that handles requests for functions.
+/// A row whose function replies to the requests for these functions.
 pub(in crate::faults) const fn on(
     id: &'static str,
     breaks: &'static [ClauseId],
@@ -59,7 +59,7 @@ pub(in crate::faults) const fn on(
     fault(id, breaks, what, CncFault::Function(functions, answer))
 }
 
-/// A row with another fault.
+/// A row with any fault.
 pub(in crate::faults) const fn fault(
     id: &'static str,
     breaks: &'static [ClauseId],
@@ -69,7 +69,7 @@ pub(in crate::faults) const fn fault(
     CncSeed { id, breaks, what, fault, edition: None, printed: true }
 }
 
-/// A row about NC programs.
+/// A row that changes the execution of NC programs.
 pub(in crate::faults) const fn program(
     id: &'static str,
     breaks: &'static [ClauseId],

@@ -1,4 +1,4 @@
-//! The Service Interface (SVC).
+//! Defects of the Service Interface (SVC).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -27,7 +27,7 @@ pub(super) fn writes(call: &Call<'_>, name: &str) -> bool {
     is(call, &[Function::WriteByName]) && text(call.data) == name.as_bytes()
 }
 
-/// Whether the name is one of the five variables.
+/// Whether the data of a call starts with the name of a variable of the Service Interface.
 fn of_service(call: &Call<'_>) -> bool {
     text(call.data).starts_with(b"V.G.SERVICE.")
 }

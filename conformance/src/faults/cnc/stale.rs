@@ -1,4 +1,4 @@
-//! Defects that keep state from an earlier request.
+//! Defects whose replies depend on state that the CNC kept from an earlier request.
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Function};
@@ -18,10 +18,11 @@ const COUNT: &[Function] = &[Function::CountDynamic];
 const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 
-/// Size of the table of handles.
+/// Number of handles in the table of `slots`.
 const SLOTS: u32 = 16;
 
-/// Handles requested by name share a table that is too short; the oldest one is replaced.
+/// Stores handles requested by name in a table of `SLOTS` entries. A new handle replaces the oldest, and
+/// a request with the replaced handle then addresses the variable of the new handle.
 fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let gone = |handle: u32| (0x5106, handle, vec![u8::try_from(instance(call)).unwrap_or(0)]);
     match function(call) {
@@ -51,7 +52,7 @@ fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     }
 }
 
-/// Whether the axis place in the offset has an axis.
+/// Whether the axis place in the offset has an axis; `None` for calls that address no axis place.
 fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
     let channel = u8::try_from(instance(call)).ok()?;
     let place = u8::try_from(offset(call) >> 16).ok().filter(|place| *place > 0)?;

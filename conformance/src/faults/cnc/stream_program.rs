@@ -1,4 +1,4 @@
-//! Execution of streamed programs (STM).
+//! Defects in the execution of streamed programs (STM).
 
 use ads_cnc::limits::STREAM_MAX;
 use ads_cnc::streaming::{
@@ -14,10 +14,10 @@ use crate::simulator::program::{
 
 const RIGHT: Policy = Policy::DEFAULT;
 
-/// Size in bytes of the streaming interface that is too small.
+/// Capacity in bytes of `SmallBuffer`; the correct streaming interface holds 4094 bytes.
 const SMALL_BUFFER_LEN: usize = 2048;
 
-/// A streaming interface of half the size.
+/// A streaming interface with half of the correct capacity.
 #[derive(Debug, Default)]
 struct SmallBuffer(StreamingInterface);
 
@@ -48,7 +48,7 @@ impl Buffer for SmallBuffer {
 struct PacketBuffer {
     stored: Vec<Vec<u8>>,
     room: usize,
-    /// Takes lines from the packets.
+    /// Removes the bytes to execute from the stored packets and returns them.
     take: Take,
 }
 
@@ -113,7 +113,7 @@ impl Buffer for PacketBuffer {
     }
 }
 
-/// The lines, checked without the findings that the defect overlooks.
+/// The lines read, with the findings of the check except those for which `is_overlooked` returns true.
 fn overlooking(
     checker: &mut Checker,
     read: &[u8],
@@ -153,7 +153,7 @@ fn m30_only(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     )
 }
 
-/// Forgets labels after each read.
+/// Checks each read with a new checker, which does not know the labels of earlier reads.
 fn forgets(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     *checker = Checker::new();
     ProgramSegment::new(checker, read)
@@ -166,7 +166,7 @@ fn comments(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ProgramSegment::with_findings(read, number, checker.check(&seen))
 }
 
-/// Continues the program after its end.
+/// Executes the lines after the program end too, up to the end of the data that was read.
 fn past_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     let number = checker.lines().saturating_add(1);
     let mut found: Vec<CheckEvent> = checker.check(read).collect();
@@ -183,7 +183,7 @@ fn past_end(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
     ProgramSegment::with_findings(read, number, found)
 }
 
-/// Also ends the program at these lines.
+/// Adds the finding `found` for the first line for which `is_end` returns true.
 fn ended_by(
     checker: &mut Checker,
     read: &[u8],
@@ -196,7 +196,7 @@ fn ended_by(
     ProgramSegment::with_findings(read, number, own.into_iter().chain(checker.check(read)))
 }
 
-/// A finding about a loop word.
+/// A finding that rejects a line because of a loop word.
 const fn looped(line: u32) -> CheckEvent {
     CheckEvent::Diagnostic(Diagnostic {
         line,

@@ -1,4 +1,4 @@
-//! Writes of data streaming (STM).
+//! Defects in the writes of data streaming (STM).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -15,7 +15,7 @@ fn stream(call: &Call<'_>) -> bool {
         && call.service == ads_cnc::operation::Service::Write
 }
 
-/// Changes the data of a write.
+/// Changes the data of a write to a program stream with `other`.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> ReplyData {
     if stream(call) { cnc.with(call, &other(call.data)) } else { cnc.answer(call) }
 }

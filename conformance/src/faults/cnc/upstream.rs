@@ -25,11 +25,11 @@ pub(crate) struct Memory {
     /// A number that the defect keeps: a count of requests, or a handle or invoke ID of an earlier
     /// request.
     pub(in crate::faults) count: u32,
-    /// Bytes by address and name.
+    /// Bytes that the defect stored, by address and name.
     stored: Vec<(Key, Vec<u8>)>,
-    /// Delayed requests.
+    /// Requests whose execution the defect delays.
     pub(in crate::faults) later: Vec<DelayedRequest>,
-    /// A delayed frame.
+    /// A response frame that the defect delays.
     pub(in crate::faults) frame: Vec<u8>,
 }
 
@@ -64,17 +64,17 @@ impl Upstream<'_> {
         self.cnc.answer(call)
     }
 
-    /// The correct reply for another address.
+    /// The correct reply to the same request at another address.
     pub(in crate::faults) fn at(&self, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
         self.answer(&at(call, group, offset))
     }
 
-    /// The correct reply to other data.
+    /// The correct reply to the same request with other data.
     pub(in crate::faults) fn with(&self, call: &Call<'_>, data: &[u8]) -> ReplyData {
         self.answer(&Call { data, ..*call })
     }
 
-    /// The correct reply, not limited by the requested length.
+    /// The correct reply to the same request with the maximum requested length.
     pub(in crate::faults) fn whole(&self, call: &Call<'_>) -> ReplyData {
         self.answer(&Call { read_length: u32::MAX, ..*call })
     }
@@ -91,7 +91,7 @@ impl Upstream<'_> {
         })
     }
 
-    /// The correct reply of this task to a Read.
+    /// The correct reply of the task with this AMS port to a Read.
     pub(in crate::faults) fn read(&self, port: AmsPort, group: u32, offset: u32) -> ReplyData {
         self.answer(&Call {
             port,
@@ -137,14 +137,14 @@ pub(in crate::faults) fn later(call: &Call<'_>) -> DelayedRequest {
     }
 }
 
-/// Delays a write until the next one, and executes the write delayed before.
+/// Stores a write, and executes the write that the previous call stored.
 pub(in crate::faults) fn delay_write(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
     before.iter().for_each(|one| _ = cnc.late(one));
     Ok(Vec::new())
 }
 
-/// The reply, truncated to the requested length.
+/// The reply; the error `INVALID_SIZE` if the reply is longer than the requested length.
 pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> ReplyData {
     answer.and_then(|bytes| {
         if u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
@@ -155,7 +155,7 @@ pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> Re
     })
 }
 
-/// Changes the replies of these functions.
+/// The reply, changed by `other` if the call requests one of these functions.
 pub(in crate::faults) fn reply(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -165,7 +165,8 @@ pub(in crate::faults) fn reply(
     if is(call, of) { within_length(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
 }
 
-/// The unpadded reply if the padded one exceeds the requested length.
+/// The changed reply `answer`; the correct reply if `answer` is longer than the requested length or
+/// an error.
 pub(in crate::faults) fn or_short(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -1,4 +1,4 @@
-//! Values and extended descriptions of variables (VAR).
+//! Defects in the values and extended descriptions of variables (VAR).
 
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;

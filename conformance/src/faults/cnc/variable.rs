@@ -1,4 +1,4 @@
-//! Descriptions of variables (VAR).
+//! Defects in the descriptions of variables (VAR).
 
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
@@ -9,7 +9,7 @@ use super::{
     text, u32_at,
 };
 
-/// The description of the variable with the handle or name of the request.
+/// The description of the variable that a request to read or write a value addresses by handle or name.
 pub(super) fn described(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<Vec<u8>> {
     let handle = match function(call)? {
         Function::ReadByHandle | Function::WriteByHandle => u32_at(call.data, 0)?,
@@ -31,7 +31,7 @@ pub(super) fn described(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<Vec<u8>> 
     })
 }
 
-/// A name without the indices of an element.
+/// The name of an element without its indices: the name of the variable.
 pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
     while name.ends_with(b"]") {
         let Some(at) = name.iter().rposition(|byte| *byte == b'[') else { break };
@@ -49,7 +49,7 @@ pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     })
 }
 
-/// Size of one element in bytes.
+/// The size in bytes of one element of the variable with this description.
 pub(super) fn element(description: &[u8]) -> usize {
     let count = dimensions(description).0.iter().fold(1_u32, |all, one| all.saturating_mul(*one));
     let size = u32_at(description, 12).unwrap_or_default().checked_div(count);

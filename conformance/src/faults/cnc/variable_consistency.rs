@@ -1,4 +1,4 @@
-//! Functions that return contradictory data about one variable (VAR).
+//! Defects with which functions return contradictory data about the same variable (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
@@ -11,12 +11,12 @@ use super::{
     offset, on, reply, row, text, u32_at, within_length,
 };
 
-/// Whether a call requests information about a variable by name.
+/// Whether a call is a query that names a variable: its value, its handle or its description.
 fn is_query(call: &Call<'_>) -> bool {
     is(call, NAMED) && call.service == Service::ReadWrite
 }
 
-/// The names of V.E and V.G in the order of their indices.
+/// The names of all V.E variables and then all V.G variables, in the order of their indices.
 fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
     let kinds = [b"V.E".as_slice(), b"V.G"];
     let all = kinds.into_iter().flat_map(|kind| {
@@ -30,7 +30,7 @@ fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
     all.collect()
 }
 
-/// The offset of the value in a write.
+/// The offset of the value in the data of a write by handle or name.
 fn value_at(call: &Call<'_>) -> usize {
     match function(call) {
         Some(Function::WriteByHandle) => {
@@ -41,7 +41,7 @@ fn value_at(call: &Call<'_>) -> usize {
     }
 }
 
-/// The current value at the address of a write.
+/// The value that the address of a write has before the write.
 fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
     let head = call.data.get(..value_at(call)).unwrap_or_default();
     let read = match function(call) {

@@ -1,4 +1,4 @@
-//! Writes of variables (VAR).
+//! Defects in writes of variables (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

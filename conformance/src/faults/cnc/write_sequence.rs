@@ -18,7 +18,7 @@ const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
 const RESPONSE: &str = ServiceVariable::RESPONSE;
 const REQUEST: &str = ServiceVariable::REQUEST;
 
-/// Whether a call by handle has the handle of this variable.
+/// Whether a call requests the function `of` with the handle of this variable.
 fn by_handle(cnc: &Upstream<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {
     is(call, &[of]) && u32_at(call.data, 0) == handle_of(cnc, group(call), name)
 }
@@ -27,7 +27,8 @@ fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
     cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
-/// Keeps the RESPONSE_STATE that a write should reset.
+/// If `now`, executes a write that should reset RESPONSE_STATE; reads then return the old value until
+/// the next write of RESPONSE_STATE or REQUEST_STATE.
 fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     let key = (instance(call), 0x5C, Vec::new());
     if now {

@@ -1,4 +1,4 @@
-//! Addresses and names (ADR, VAR).
+//! Defects of addresses and names (ADR, VAR).
 
 use ads_cnc_vectors::ids::*;
 use serde_json::Value as Json;

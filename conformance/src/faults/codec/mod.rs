@@ -40,7 +40,7 @@ pub(super) fn seeds() -> Vec<Seed> {
     seeds
 }
 
-/// The requirements that these vectors cite, each once.
+/// The IDs of the requirements that these vectors cite, sorted and without duplicates.
 fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     let known = |id: &String| ads_cnc_vectors::clause(id).map(|clause| clause.id());
     let mut all: Vec<&'static str> =
@@ -50,14 +50,14 @@ fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     all
 }
 
-/// The vectors of the strongest level.
+/// The vectors whose requirement level is the strongest of all given vectors.
 fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
     let level = vectors.iter().map(|vector| vector.level()).min();
     vectors.retain(|vector| Some(vector.level()) == level);
     vectors
 }
 
-/// A missing check for each error class and stream that has a vector.
+/// The defects that lack one check: one for each error class and stream with a rejecting vector.
 fn forgotten_checks() -> Vec<Seed> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
@@ -67,8 +67,8 @@ fn forgotten_checks() -> Vec<Seed> {
     }
     let each = |((stream, class), those): ((&'static str, &'static str), Vec<&'static Vector>)| {
         let those = strongest(those);
-        // The classes of vectors are advisory: the defect ignores errors of the class that this
-        // codec returns.
+        // The error class in a vector is advisory, so it may differ from the class that this codec
+        // returns. The defect ignores errors of the class that this codec returns.
         let refusal = |vector: &&'static Vector| match codec::decode_stream(
             stream,
             &vector.context,
@@ -88,7 +88,7 @@ fn forgotten_checks() -> Vec<Seed> {
     pairs.into_iter().filter_map(each).collect()
 }
 
-/// Streams that have a vector of maximum length.
+/// The defects that reject a stream of maximum length: one for each stream that has such a vector.
 fn too_strict() -> Vec<Seed> {
     let longest = |stream: &Stream| -> Vec<&'static Vector> {
         let layout = stream.layout();
@@ -112,7 +112,7 @@ fn too_strict() -> Vec<Seed> {
     Stream::all().filter_map(each).collect()
 }
 
-/// Adjacent fields of the same type.
+/// The defects that exchange two fields: one for each pair of adjacent fields of the same type.
 fn swapped() -> Vec<Seed> {
     let fields = Stream::all().filter(|stream| !stream.layout().repeats).flat_map(|stream| {
         let layout = stream.layout();
@@ -121,7 +121,7 @@ fn swapped() -> Vec<Seed> {
             .filter(|(one, other)| one.ty == other.ty)
             .map(move |(one, other)| (layout, one, other))
     });
-    // Counters are not fields of a value.
+    // Counters are fields of a stream, but not of the decoded value, so they cannot be exchanged.
     let is_value = |stream: &str, field: &str| {
         let accepted = |vector: &&Vector| vector.stream == stream && vector.is_accepted();
         vectors().iter().filter(accepted).any(|vector| match &vector.expect {
@@ -147,7 +147,7 @@ fn swapped() -> Vec<Seed> {
         .collect()
 }
 
-/// Streams with numbers of several bytes.
+/// The big-endian defects: one for each stream with numbers of several bytes.
 fn turned() -> Vec<Seed> {
     let each = |stream: Stream| {
         let layout = stream.layout();

@@ -1,4 +1,4 @@
-//! Rules of streaming in NC text (STM).
+//! Defects in the check of NC text for streaming (STM).
 
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
@@ -11,8 +11,8 @@ pub(super) fn lines(text: &[u8], other: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
     text.split_inclusive(|byte| *byte == b'\n').flat_map(other).collect()
 }
 
-/// The text with every occurrence of a word, whatever its case, replaced by a word of the same
-/// length.
+/// The text with every occurrence of `word`, in upper or lower case, replaced by `other`, which has
+/// the same length.
 fn without(text: &[u8], word: &str, other: &str) -> Vec<u8> {
     let mut text = text.to_vec();
     let is_word = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_alphanumeric);
@@ -28,12 +28,12 @@ fn without(text: &[u8], word: &str, other: &str) -> Vec<u8> {
     text
 }
 
-/// The text with these bytes replaced.
+/// The text with each byte that `of` contains replaced by `other`.
 fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
     text.iter().map(|byte| if of.contains(byte) { other } else { *byte }).collect()
 }
 
-/// Rejects NC text that contains this word, whatever its case.
+/// Rejects NC text that contains this word, which is in upper case; lower case in the text matches too.
 fn refuses(right: RightAnswer<'_>, question: &Question, word: &[u8], clause: ClauseId) -> Answer {
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();
@@ -44,7 +44,7 @@ fn refuses(right: RightAnswer<'_>, question: &Question, word: &[u8], clause: Cla
     }
 }
 
-/// Accepts text that is rejected for this reason.
+/// Accepts the text if the correct answer rejects it with this error class.
 pub(super) fn accepts(
     right: RightAnswer<'_>,
     question: &Question,

@@ -1,11 +1,12 @@
-//! NC text in packets (STM).
+//! Defects in splitting NC text into packets, and in parsing packets (STM).
 
 use ads_cnc_vectors::ids::*;
 
 use super::nc::{accepts, lines};
 use super::row::{CodecFault, CodecSeed, refused, row};
 
-/// Packets of whole lines, each with at most this many bytes.
+/// The text of these packets, split into packets of whole lines with at most `most` bytes each. A
+/// longer line has its own packet.
 fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
     let mut all: Vec<Vec<u8>> = Vec::new();
     let text = packets.concat();

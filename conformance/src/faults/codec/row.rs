@@ -12,23 +12,23 @@ pub(super) type RightAnswer<'a> = &'a dyn Fn(&Question) -> Answer;
 /// How a defect of a codec works.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum CodecFault {
-    /// Accepts input that must be rejected with an error of this class in this stream.
+    /// Accepts input that the correct codec rejects; arguments are the error class and the stream.
     Accepts(&'static str, &'static str),
-    /// Rejects this stream at its maximum length.
+    /// Rejects this stream if it has its maximum length.
     Longest(&'static str),
-    /// Exchanges two fields of a stream.
+    /// Exchanges two fields of a stream; arguments are the stream and the names of the fields.
     Swaps(&'static str, &'static str, &'static str),
     /// Encodes and decodes the numbers of the stream in big-endian order.
     BigEndian(Stream),
     /// Changes values after decoding and before encoding; arguments are the stream and the value.
     Value(fn(&str, &mut Json)),
-    /// Changes encoded bytes.
+    /// Changes the bytes of a stream; arguments are the stream and its bytes.
     Bytes(fn(&str, Vec<u8>) -> Vec<u8>),
     /// Changes packets of NC text.
     Packets(fn(Vec<Vec<u8>>) -> Vec<Vec<u8>>),
     /// Changes NC text before it is processed.
     Text(fn(&[u8]) -> Vec<u8>),
-    /// Any other change.
+    /// Any other change; arguments are the correct codec and the question.
     Around(fn(RightAnswer<'_>, &Question) -> Answer),
 }
 
@@ -105,7 +105,7 @@ pub(super) fn refused(class: &str) -> Answer {
     Answer::Reject(Rejection { class: Some(class.to_owned()), ..Rejection::default() })
 }
 
-/// Changes the value after `decode` and before `encode`.
+/// The answer to a question, with the value changed after `decode` and before `encode`.
 fn around_value(right: RightAnswer<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
     let mut other = question.clone();
     if let Some(fields) = &question.value
@@ -126,7 +126,7 @@ fn around_value(right: RightAnswer<'_>, question: &Question, change: impl Fn(&mu
     }
 }
 
-/// Exchanges two fields, in each record.
+/// Exchanges two fields in a value, or in each record of a list.
 fn swap(value: &mut Json, one: &str, other: &str) {
     match value {
         Json::Array(items) => items.iter_mut().for_each(|item| swap(item, one, other)),

@@ -1,4 +1,4 @@
-//! Rejection of valid input.
+//! Defects that reject valid input.
 
 use ads_cnc_vectors::ids::*;
 
@@ -11,7 +11,7 @@ fn at(question: &Question, place: usize) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes))
 }
 
-/// Rejects the bytes of a stream that match a condition.
+/// Rejects the decoding of a stream if the question meets the condition `is`.
 fn strict(
     right: RightAnswer<'_>,
     question: &Question,

@@ -1,4 +1,4 @@
-//! Texts (GEN, COM, VAR).
+//! Defects of texts (GEN, COM, VAR).
 
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc_vectors::ids::*;
@@ -9,7 +9,7 @@ use super::row::{CodecFault, CodecSeed, row};
 const NAMES: [&str; 4] =
     ["variable-kind", "variable-index-kind", "variable-name", "dynamic-name-request"];
 
-/// The bytes of a stream of names, with the last byte changed if it is a NUL.
+/// The bytes of a stream, with the final NUL changed if the stream is `of`.
 fn nul(stream: &str, of: &str, mut bytes: Vec<u8>) -> Vec<u8> {
     if stream == of && bytes.len() > 1 && bytes.last() == Some(&0) {
         bytes.pop();

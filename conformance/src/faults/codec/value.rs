@@ -1,4 +1,4 @@
-//! Numbers and lists (GEN, COM, SDA, VAR).
+//! Defects of numbers and lists (GEN, COM, SDA, VAR).
 
 use ads_cnc_vectors::ids::*;
 use serde_json::Value as Json;
@@ -113,7 +113,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 let bits =
                     bits.filter(|bits| bits.len() == 16).map(|bits| u64::from_str_radix(bits, 16));
                 if let Some(Ok(bits)) = bits {
-                    // Half of the digits of the fraction.
+                    // Clears the low 29 of the 52 bits of the fraction, so that a REAL32 can represent it.
                     let bits = bits & !0x1FFF_FFFF;
                     one.insert("bits".to_owned(), Json::String(format!("{bits:#018x}")));
                     one.insert(

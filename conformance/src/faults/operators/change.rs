@@ -1,4 +1,4 @@
-//! Wrong replies: that to a request with another argument, or a changed one.
+//! Wrong replies: the reply to a request with another argument, or a changed reply.
 
 use ads_cnc::address::{Class, IndexOffset};
 use ads_cnc::operation::{Call, Function, OffsetRule, Service};
@@ -9,7 +9,7 @@ use super::super::cnc::{
     set_u32, text, u32_at, with_indices,
 };
 
-/// A number in a request.
+/// A number in a request that a defect can replace.
 #[derive(Clone, Copy)]
 pub(super) enum Argument {
     Channel,
@@ -17,8 +17,8 @@ pub(super) enum Argument {
     Index,
 }
 
-/// The reply to the request with another value of an argument; `None` without the argument or a
-/// change.
+/// The reply to the request with another value of an argument; `None` if the request does not have the
+/// argument, or if `other` does not change its value.
 pub(super) fn asked(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -70,8 +70,8 @@ pub(super) fn asked(
     }
 }
 
-/// The reply to the request with another value of an argument, if the CNC accepts both the request
-/// and the changed one.
+/// The reply to the request with another value of an argument, if the CNC accepts both the original
+/// and the changed request; otherwise the correct reply.
 pub(super) fn mistaken(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -84,7 +84,8 @@ pub(super) fn mistaken(
     asked(cnc, call, argument, other).filter(Result::is_ok).unwrap_or_else(|| cnc.answer(call))
 }
 
-/// The reply to the request with another value of an argument, if the CNC rejects the request itself.
+/// The correct reply; if the CNC rejects the request, the reply to the request with another value of
+/// an argument.
 pub(super) fn instead(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -94,13 +95,13 @@ pub(super) fn instead(
     cnc.answer(call).or_else(|error| asked(cnc, call, argument, other).unwrap_or(Err(error)))
 }
 
-/// The lowest index of the function.
+/// The lowest index in a request for the function: 0 or 1.
 pub(super) fn least(call: &Call<'_>) -> u32 {
     // Only the indices of variables are counted from 0 (VAR-2, VAR-20).
     u32::from(!function(call).is_some_and(|function| function.spec().clause.starts_with("VAR")))
 }
 
-/// The correct reply, changed.
+/// The correct reply, changed by `other`.
 pub(super) fn changed(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -111,7 +112,7 @@ pub(super) fn changed(
     Ok(bytes)
 }
 
-/// The offset of the value in a write.
+/// The offset of the value in the data of a write.
 pub(super) fn value_at(call: &Call<'_>) -> usize {
     let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
         b"name" => after_nul(call.data),
@@ -121,8 +122,8 @@ pub(super) fn value_at(call: &Call<'_>) -> usize {
     call.data.len().saturating_sub(value.len())
 }
 
-/// Executes a write, and then another one of the value that `other` returns for the new and the old
-/// value.
+/// Executes a write, and then a second write to the same address, whose value is the result of `other`
+/// for the new and the old value.
 pub(super) fn rewritten(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -141,12 +142,12 @@ pub(super) fn rewritten(
     Ok(done)
 }
 
-/// The key under which the defect stores a reply.
+/// The key under which an operator stores a reply in the memory of the defect.
 pub(super) fn kept() -> (u32, u32, Vec<u8>) {
     (0, 0, b"kept".to_vec())
 }
 
-/// The reply for the first kind.
+/// The reply to the request for the first kind of variables (V.E) or parameters.
 pub(super) fn of_first_kind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     match function(call).map(|function| (function.spec().offset, first(function.spec().request))) {
         Some((OffsetRule::OfKind([least, ..]), _)) => cnc.at(call, group(call), least),

@@ -1,4 +1,4 @@
-//! Which functions can have a certain defect.
+//! Conditions that decide which functions can have a generated defect.
 
 use ads_cnc::address::Attribute;
 use ads_cnc::layout::Type;
@@ -15,25 +15,27 @@ pub(super) fn has_fields(spec: &FunctionSpec) -> bool {
     spec.reply.is_some_and(|reply| reply.layout().fields.len() > 1)
 }
 
-/// Whether the reply does not end with a text, which may have a NUL or none.
+/// Whether the end of the reply is specified exactly: its last field is not a text, whose NUL is
+/// optional.
 pub(super) fn has_end(spec: &FunctionSpec) -> bool {
     let last = spec.reply.and_then(|reply| reply.layout().fields.last());
     last.is_some_and(|field| field.ty != Type::String)
 }
 
-/// Whether the request addresses a channel, which can also be addressed by its rank.
+/// Whether the function is a query that addresses a channel. A channel can also be addressed by its
+/// rank.
 pub(super) fn has_rank(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
 }
 
-/// Whether a channel whose rank differs from its number supports the function: no such channel of the
-/// default model has parameters.
+/// Whether the default model has a channel with a rank other than its number that supports the
+/// function: no such channel has dynamic parameters (DYN-2 to DYN-4).
 pub(super) fn differs_by_rank(spec: &FunctionSpec) -> bool {
     has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
 }
 
-/// Whether the reply depends on the channel: handles and extended descriptions are the same in all
-/// channels.
+/// Whether the reply depends on the channel. Replies to requests by handle and extended descriptions
+/// are the same in all channels.
 pub(super) fn differs_by_channel(spec: &FunctionSpec) -> bool {
     first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
 }

@@ -29,13 +29,13 @@ fn a_defect_shows_in_its_stream_only() {
         cnc.answer(&call(0x12_2301, offset, 2048, data))
     };
     let read = b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0";
-    // The request is changed: next element, other handle, one index less.
+    // The defect changes the request: the next element, another handle, no index instead of one.
     assert_eq!(with("variable-handle-read.indices.flip", 0x47, read), Ok(vec![15, 0, 0, 0]));
     let handle = with("variable-handle-read.handle.flip", 0x47, read);
     assert_eq!(handle, Err(AdsError::INVALID_DATA));
     let count = with("variable-handle-read.index_count.flip", 0x47, read);
     assert_eq!(count, Err(AdsError::INVALID_SIZE));
-    // The reply is changed.
+    // The defect changes the reply of its function, but not the reply of another function.
     assert_eq!(with("variable-count.count.flip", 0x44, b"V.E\0"), Ok(vec![122, 0, 0, 0]));
     assert_eq!(with("variable-count.count.flip", 0x46, b"V.E.vartest\0"), Ok(vec![4, 0, 0, 2]));
 }
@@ -47,7 +47,7 @@ fn a_defect_shows_in_elements_and_writes() {
     let length = faulty("element-length.length.flip").answer(&read(0x12_3601));
     assert_eq!(length, Ok(vec![0, 0, 0, 0]));
     assert_eq!(faulty("content.content.invert").answer(&read(0x12_3301)), Ok(vec![0xFE]));
-    // The value is changed: 0x7A instead of 0x7B.
+    // The defect changes the written value from 0x7B to 0x7A.
     let cnc = faulty("variable-name-write.value.flip");
     let write = call(0x12_2301, 0x4A, 0, b"V.E.test[4]\0\x7B\0\0\0");
     assert_eq!(cnc.answer(&Call { service: Service::Write, ..write }), Ok(vec![]));
@@ -71,7 +71,7 @@ fn a_defect_shows_in_headers() {
     };
     assert_eq!(ask("ams-header.invoke_id.flip")[34..38], 0x0102_0305_u32.to_le_bytes());
     assert_eq!(ask("read-write-reply.result.flip")[38], 1);
-    // Received as offset 0x45.
+    // The CNC receives offset 0x45 instead of 0x44, and rejects the request with error 0x705.
     assert_eq!(ask("read-write-request.index_offset.flip")[38..40], [5, 7]);
     assert_eq!(ask("ams-tcp-header.length.flip")[..6], [0, 0, 45, 0, 0, 0]);
 }

@@ -36,7 +36,7 @@ fn ids_are_unique_and_descriptions_not_empty() {
     }
 }
 
-/// A defect that changes no reply is not a defect.
+/// Each defect or variant of a CNC must change at least one reply of the transcript.
 #[test]
 fn every_defect_of_a_cnc_is_detectable() {
     let seeds: Vec<&Seed> = of_kind(&[SeedKind::Cnc, SeedKind::Different]).collect();
@@ -45,7 +45,7 @@ fn every_defect_of_a_cnc_is_detectable() {
         let parts: Vec<_> = parts.map(|part| scope.spawn(|| hidden(part))).collect();
         parts.into_iter().flat_map(|part| part.join().unwrap()).collect::<Vec<_>>()
     });
-    // Functions that the transcript does not request are not covered.
+    // If this fails for a new seed, the transcript may lack a request that the seed affects.
     assert_eq!(hidden, [""; 0], "no answer to what tests/transcript.rs asks is another");
 }
 
@@ -54,7 +54,7 @@ fn hidden(seeds: &[&'static Seed]) -> Vec<&'static str> {
     let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
     for &seed in seeds {
-        // Timing and splitting of frames are not in the transcript.
+        // The transcript does not record the timing and the splitting of frames.
         if matches!(seed.how, How::Cnc(CncFault::Pieces(_))) || seed.id == "different.slow" {
             continue;
         }
@@ -72,7 +72,7 @@ fn hidden(seeds: &[&'static Seed]) -> Vec<&'static str> {
     hidden
 }
 
-/// All requests of the vectors and sequences to a codec.
+/// All questions in the testee protocol that the cases of the suite send to a codec.
 fn questions() -> Vec<Question> {
     let cases = suite::cases();
     cases.iter().flat_map(|case| testee::questions(case, "en-1.05")).collect()
@@ -93,7 +93,7 @@ fn every_defect_of_a_codec_is_detectable() {
     assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
 }
 
-/// A requirement of level must has either a defect or a reason to have none.
+/// A requirement of level *must* has either a defect or a reason in `without` why no defect violates it.
 #[test]
 fn every_must_has_a_defect_or_a_reason() {
     let clients = clients::defects().iter().map(|defect| defect.requirement);

@@ -1,4 +1,4 @@
-//! A sequence of requests that distinguishes two CNCs.
+//! A sequence of requests whose replies distinguish a CNC with a defect from the correct CNC.
 
 mod sequences;
 mod writes;
@@ -301,7 +301,7 @@ impl<'t> Transcript<'t> {
         self.read(552, 0x12_2301, 0x44, 4);
     }
 
-    /// Reads by name, by handle, and the description.
+    /// Reads a variable by name and by handle, and its description, in channels 1 and 2.
     fn named(&mut self, name: &[u8]) {
         for group in [0x12_2301, 0x12_2302] {
             self.ask(group, 0x48, 4096, name);

@@ -18,13 +18,15 @@ const ATTRIBUTES: &[Function] = &[
     Function::ReadElementWriteFlag,
 ];
 
-/// Whether a call requests the number of elements; the offset alone is ambiguous.
+/// Whether a call requests the number of elements: a Read of offset 0 at the group of contents. The
+/// same offset has other meanings at other groups.
 fn is_number(call: &Call<'_>) -> bool {
     let of_content = class(call).is_some_and(|at| at.attribute == Attribute::Content);
     of_content && call.service == Service::Read && offset(call) & 0xFFF == 0
 }
 
-/// Hides instances of a class.
+/// Replies with the object address (0, 0) to requests for the instances for which `is_absent` returns
+/// true; its arguments are class, channel and axis.
 fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
     match (is(call, FIND), u32_at(call.data, 0), u32_at(call.data, 4)) {
         (true, Some(channel), Some(axis)) if is_absent(group(call) & 0xF000, channel, axis) => {
@@ -34,7 +36,7 @@ fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> 
     }
 }
 
-/// Whether a call addresses an axis place of channel 2 or 6 without an axis.
+/// Whether a call addresses an axis place of channel 2 or 6 that has no axis.
 fn empty_place(call: &Call<'_>) -> bool {
     class(call).is_some_and(|at| {
         matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)
@@ -43,7 +45,8 @@ fn empty_place(call: &Call<'_>) -> bool {
     })
 }
 
-/// Changes the stride of the classes for which none is printed.
+/// Changes the stride between the offsets of two axes, in the classes for which the manuals do not
+/// print a stride.
 fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let of = |at: Class| {
         matches!(at, Class::PositionController | Class::Interpolator | Class::PathPreparation)

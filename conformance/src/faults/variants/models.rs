@@ -12,7 +12,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         "the CNC has twelve channels, none with the number 4, and axes in another order", MANY),
 ];
 
-/// A row with another model.
+/// A variant that uses another data model.
 const fn model(id: &'static str, what: &'static str, model: &'static str) -> CncSeed {
     unprinted(fault(id, &[], what, CncFault::Model(model)))
 }
@@ -63,7 +63,7 @@ name = "IPO axis {}"
 "#
 );
 
-/// A CNC with more of everything than usual, in another order.
+/// A CNC with twelve channels, none of which has the number 4, and with the axes in another order.
 const MANY: &str = with_names!(
     r#"
 spindles = 3

@@ -1,4 +1,4 @@
-//! Valid variants of rejections, delays and the ends of replies.
+//! Valid variants that differ in rejections, delays and the ends of replies.
 
 use std::thread;
 use std::time::Duration;
@@ -67,7 +67,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
                 let remains = |bytes: Vec<u8>| {
-                    // Limited by the longest name.
+                    // Appends the bytes only to short names: the reply must not exceed its maximum length.
                     let room = if is(call, &[Function::DynamicNameByIndex]) { 90 } else { 240 };
                     let remains = if bytes.len() < room { &b"ns\0of"[..] } else { &[] };
                     [&bytes[..], remains].concat()
@@ -80,7 +80,8 @@ pub(super) const ROWS: &[CncSeed] = &[
             _ => cnc.answer(call),
         })),
     unprinted(row("different.texts-end", &[], "the value of a STRING ends after its NUL", |cnc, call| {
-        // Handles are known from the reply that returned them, in either addressing.
+        // The key of a handle of a STRING, which the variant stores when it replies with a description.
+        // The key omits the bit of logical addressing, because a handle is valid in both addressings.
         let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
         let is_text =
             |bytes: &[u8]| (u32_at(bytes, 4), u32_at(bytes, 16)) == (Some(9), Some(0));

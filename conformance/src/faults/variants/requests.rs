@@ -13,7 +13,8 @@ use crate::faults::cnc::{
 const COUNT: &[Function] = &[Function::CountVariables];
 const OF_AXES: &[Function] = functions!(|spec| matches!(spec.offset, OffsetRule::OfAxis(_)));
 
-/// A bit of the handles of the axis interface that distinguishes them.
+/// The bit that this variant sets in handles of the axis interface, to distinguish them from other
+/// handles.
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
 #[rustfmt::skip]
@@ -81,7 +82,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             Some(Function::ReadByHandle | Function::WriteByHandle) => {
                 let mut data = call.data.to_vec();
                 let handle = u32_at(&data, 0).unwrap_or_default();
-                // The top byte of an axis handle is 1.
+                // The top byte of an axis handle is 1 without this bit.
                 if handle >> 24 == (OF_AXIS_INTERFACE >> 24) | 1 {
                     set_u32(&mut data, 0, handle & !OF_AXIS_INTERFACE);
                 }

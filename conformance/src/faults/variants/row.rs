@@ -4,7 +4,7 @@ use ads_cnc::ads::FrameRef;
 
 use crate::faults::cnc::{CncFault, CncSeed, Upstream, fault};
 
-/// A row whose printed examples are answered differently.
+/// A variant that does not reply literally as in the manuals' printed examples.
 pub(super) const fn unprinted(mut row: CncSeed) -> CncSeed {
     row.printed = false;
     row
@@ -18,7 +18,8 @@ pub(super) const fn sent(
     fault(id, &[], what, CncFault::Frame(frame))
 }
 
-/// The text of a model that ends with the names of the instances of classes without elements.
+/// The TOML text of a model, followed by the names of the instances of the decoder, the HLD and the
+/// path preparation, which have no elements in these models.
 macro_rules! with_names {
     ($model:literal) => {
         concat!(

@@ -11,7 +11,8 @@ use crate::faults::cnc::{
 
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 
-/// Replaces the name in the request by the listed name that differs in case only.
+/// If the CNC does not find the name in the request, replaces it by the listed name that differs only
+/// in case.
 fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let answer = cnc.answer(call);
     if !is(call, NAMED) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
@@ -36,7 +37,8 @@ fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     }
 }
 
-/// The size of the value if a STRING other than those of the Service Interface is written.
+/// The size in bytes of the STRING that a call writes by name; `None` for other calls, and for the
+/// variables of the Service Interface.
 fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
     if !is(call, &[Function::WriteByName]) || call.data.starts_with(b"V.G.SERVICE.") {
         return None;
@@ -51,7 +53,7 @@ fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
     (u32_at(&described, 4) == Some(9)).then_some(size)
 }
 
-/// The position of an axis, which changes a little with each read.
+/// The reply with a REAL64 changed by a little more at each read, like the position of a moving axis.
 fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
     answer.map(|bytes| match bytes.first_chunk::<8>() {
         Some(value) if bytes.len() == 8 => {
@@ -130,7 +132,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                     let own = u32_at(record, 12).unwrap_or_default() & 0x0F_FF00;
                     let asked = group(call) & 0xFF;
                     let all = u32_at(record, 12).unwrap_or_default();
-                    // Elements of the platform keep their addresses.
+                    // Descriptors of the platform (instance 0) keep their group.
                     if all & 0xFF != 0 && own == group(call) & 0x0E_FF00 {
                         set_u32(record, 12, own | asked);
                     }

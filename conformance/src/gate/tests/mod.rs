@@ -15,7 +15,7 @@ mod observed;
 const TARGET: AmsNetId = AmsNetId([192, 0, 2, 7, 1, 1]);
 const SOURCE: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8000) };
 
-/// Half an hour before the files below expire.
+/// The time of all checks: half an hour before the files of these tests expire.
 fn now() -> Moment {
     Moment::from_rfc3339("2026-05-04T15:00:00Z").unwrap()
 }
@@ -71,7 +71,7 @@ fn element() -> ElementAddress {
     ElementAddress::for_channel(channel(1), Class::Hld, 1).unwrap()
 }
 
-/// A request for each function that is not a query, with the table that allows it.
+/// Requests for the functions that write, each with the table of the file that allows it.
 fn writes() -> Vec<(Vec<u8>, &'static str)> {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(1));
     let axis = ChannelAxis::new(2).unwrap();
@@ -100,7 +100,8 @@ fn only_queries_pass_by_default() {
         if spec.effect != Effect::Query {
             continue;
         }
-        // The address is allowed only at its own port, where it accepts one of these data.
+        // The gate must allow the address only at the documented port of its function, and there with
+        // at least one of these data.
         let offset = match spec.offset {
             ads_cnc::operation::OffsetRule::At(at) => at,
             ads_cnc::operation::OffsetRule::OfKind([first, ..]) => first,
@@ -126,7 +127,7 @@ fn only_queries_pass_by_default() {
         };
         assert!(passes(spec.task.port()), "{}", spec.name);
         for port in [1, 550, 551, 552, 553, 554, 851, 10000].map(AmsPort) {
-            // Section 2.2 documents its functions for SDA and GEO.
+            // Section 2.2 of the manual documents its functions for both SDA and GEO.
             let of_geo = port == AmsPort::GEO && spec.section.starts_with("2.2");
             let documented = port == spec.task.port() || of_geo;
             assert_eq!(passes(port), documented, "{} at {port}", spec.name);
@@ -148,7 +149,7 @@ fn some_requests_are_never_allowed() {
     let everything = "[[stream]]\nchannel = 1\n[[object]]\ngroup = 0x120101\noffset = 1";
     let sda = AmsPort::SDA;
     let never = [
-        // WriteControl to RUN, notifications, and sum commands
+        // WriteControl to the state RUN, notifications, and sum commands
         frame(Command::WRITE_CONTROL, AmsPort::COM, &[5, 0, 0, 0, 0, 0, 0, 0]),
         frame(Command::ADD_NOTIFICATION, AmsPort::COM, &[0; 40]),
         frame(Command::DELETE_NOTIFICATION, AmsPort::COM, &[0; 4]),
@@ -156,7 +157,7 @@ fn some_requests_are_never_allowed() {
         at(sda, Service::ReadWrite, 0xF080, 1, &[0; 12]),
         at(sda, Service::ReadWrite, 0xF081, 1, &[0; 13]),
         at(sda, Service::ReadWrite, 0xF082, 1, &[0; 17]),
-        // The program stream: read, and written as if the platform had one
+        // The program stream: a read, and a write to the platform, which has no such stream
         at(AmsPort::COM, Service::Read, 0x12_0101, 0x90, &[]),
         at(AmsPort::COM, Service::Read, 0x2_0101, 0x90, &[]),
         at(AmsPort::COM, Service::Read, 0x12_0100, 0x90, &[]),
@@ -203,7 +204,7 @@ fn a_file_applies_to_one_target_until_it_expires() {
         other[6] ^= 1;
         let refusal = gate.check(&other, now()).unwrap_err();
         assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
-        // Two frames are rejected for every target.
+        // The gate rejects two frames at once, whatever their target is.
         let two = [frame.clone(), frame].concat();
         assert!(gate.check(&two, now()).is_err());
     }
@@ -231,7 +232,7 @@ fn a_variable_includes_only_its_elements() {
     assert!(one.check(&by_name("V.E.list[3]"), now()).is_ok());
     assert!(one.check(&by_name("V.E.list"), now()).is_err());
     assert!(one.check(&by_name("V.E.list[31]"), now()).is_err());
-    // A channel by rank may be another channel.
+    // The channel with rank 1 may be another channel than channel 1.
     let by_rank = WriteByName::new(Channel::by_index(1).unwrap(), "V.E.list", &[1][..]).unwrap();
     assert!(list.check(&request(by_rank), now()).is_err());
     let other = WriteByName::new(channel(2), "V.E.list", &[1][..]).unwrap();
@@ -267,8 +268,8 @@ fn a_file_may_require_an_address() {
     }
 }
 
-/// Malformed requests pass for the target and time of a file that permits them; neither the option
-/// nor the file alone allows any.
+/// Malformed requests pass only with both the option `--malformed` and a file that permits them, to the
+/// target of the file and before its expiry.
 #[test]
 fn malformed_requests_need_a_file() {
     let bad = at(AmsPort::SDA, Service::ReadWrite, 0xF005, 0, b"x");
@@ -286,7 +287,7 @@ fn malformed_requests_need_a_file() {
         other[6] ^= 1;
         let refusal = malformed().check(&other, now()).unwrap_err();
         assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
-        // The target is unknown.
+        // An incomplete frame is rejected, because its target is unknown.
         assert!(malformed().check(&frame[..frame.len() - 1], now()).is_err());
     }
     let refusal = Gate::queries().and_malformed().check_malformed(TARGET, now()).unwrap_err();
@@ -351,7 +352,7 @@ fn an_invalid_file_is_rejected_with_its_line() {
     assert!(lost.to_string().starts_with("/no/such/file.toml: "));
 }
 
-/// The entry that a rejection suggests is accepted in a file.
+/// An entry as a rejection suggests it can be read from a file.
 #[test]
 fn entries_are_shown_as_they_are_read() {
     let entries = [

@@ -1,4 +1,4 @@
-//! Tests the observations of the gate: handles, descriptions and lists of objects.
+//! Tests what the gate records from replies: handles, descriptions and lists of objects.
 
 use ads_cnc::operation::{
     AxisHandleByName, CountObjects, DescribeByIndex, DescribeByName, HandleByName, ObjectList,
@@ -24,7 +24,7 @@ fn give_handle(gate: &mut Gate, name: &str, handle: u32) {
     observe(gate, HandleByName::new(channel(1), name).unwrap(), &handle.to_le_bytes());
 }
 
-/// A description by index.
+/// Lets the gate observe the reply to a description by index, with this name and handle.
 fn describe(gate: &mut Gate, name: &str, handle: u32) {
     let description = Description {
         handle: Handle(handle),
@@ -65,7 +65,8 @@ fn a_handle_allows_writes_to_its_variable() {
         describe(&mut gate, name, handle);
     }
     assert!(gate.check(&by_handle(7), now()).is_ok());
-    // Without an entry, and with one for an element, whose handle reaches the other elements too.
+    // `V.E.other` has no entry. `V.E.b` has only an entry for one element, but a handle gives access
+    // to all elements.
     assert!(matches!(gate.check(&by_handle(8), now()).unwrap_err().reason, Reason::NoEntry(_)));
     assert!(matches!(gate.check(&by_handle(9), now()).unwrap_err().reason, Reason::NoEntry(_)));
     gate.forget();
@@ -74,7 +75,7 @@ fn a_handle_allows_writes_to_its_variable() {
     assert_eq!(ambiguity(&gate, &by_handle(7)), unconfirmed());
 }
 
-/// A write by a handle is rejected if any reply contains the handle for another name.
+/// A write by a handle is rejected if any reply contained the handle for a name that is not in the file.
 #[test]
 fn a_handle_with_several_names_is_rejected() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
@@ -107,13 +108,13 @@ fn a_handle_with_several_names_is_rejected() {
     observe(&mut described, DescribeByName::new(channel(1), "V.E.b").unwrap(), &reply);
     assert_eq!(ambiguity(&described, &by_handle(7)), shared("V.E.b"));
 
-    // Handles of different channels are independent.
+    // Equal handles in different channels are different handles.
     let mut other = confirmed("V.E.a");
     let of_other = HandleByName::new(channel(2), "V.E.b").unwrap();
     observe(&mut other, of_other, &7_u32.to_le_bytes());
     assert!(other.check(&by_handle(7), now()).is_ok());
 
-    // Another name in the file may have the same handle; several handles for one name are rejected.
+    // Two names in the file may have the same handle, but one name must not have several handles.
     let mut both = confirmed("V.E.a");
     give_handle(&mut both, "V.A.p.X", 7);
     assert!(both.check(&by_handle(7), now()).is_ok());
@@ -121,7 +122,7 @@ fn a_handle_with_several_names_is_rejected() {
     assert_eq!(ambiguity(&both, &by_handle(7)), Some(Ambiguity::Several("V.E.a".parse().unwrap())));
     assert_eq!(ambiguity(&both, &by_handle(8)), Some(Ambiguity::Several("V.E.a".parse().unwrap())));
 
-    // On the axis interface the name does not contain the axis.
+    // In a request to the axis interface, the name does not contain the axis.
     let of_axis = |gate: &mut Gate, axis: u32, name: &str| {
         let axis = ChannelAxis::new(axis).unwrap();
         let ask = AxisHandleByName::new(channel(1), axis, name).unwrap();
@@ -137,7 +138,7 @@ fn a_handle_with_several_names_is_rejected() {
     assert_eq!(ambiguity(&axis, &by_handle(7)), shared("V.A.q"));
 }
 
-/// Beyond the limit, the gate rejects every write by handle, also after later observations.
+/// After the limit of stored names was exceeded, the gate rejects every write by handle.
 #[test]
 fn the_number_of_observations_is_limited() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
@@ -164,7 +165,8 @@ fn the_number_of_observations_is_limited() {
     assert!(gate.check(&by_handle(7), now()).is_err());
 }
 
-/// On a new connection, a handle must be confirmed again, but its foreign names remain known.
+/// On a new connection, replies must confirm a handle again, but the names that are not in the file
+/// remain known.
 #[test]
 fn a_new_connection_discards_permissions() {
     let confirm = |gate: &mut Gate, handle| {
@@ -205,7 +207,7 @@ fn a_named_object_needs_the_whole_list() {
     let mut known = gate(table);
     observe(&mut known, CountObjects::new(channel(1)), &three);
     observe(&mut known, ask(2, 1), &object("b_w", 2));
-    // Another object may have the same name.
+    // The list was not read completely: an unread object may have the same name.
     assert!(known.check(&write(2), now()).is_err());
     observe(&mut known, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("c_w", 3)]));
     assert!(known.check(&write(2), now()).is_ok());
@@ -236,7 +238,7 @@ fn a_named_object_needs_the_whole_list() {
     );
     assert_eq!(ambiguity(&other, &write(2)), shared);
 
-    // An address in another channel.
+    // The descriptor in the list of channel 2 contains an address of channel 1.
     let mut elsewhere = gate(&table.replace("channel = 1", "channel = 2"));
     observe(&mut elsewhere, CountObjects::new(channel(2)), &[1, 0, 0, 0]);
     let of_other = ReadDescriptors::new(channel(2), 1, 1).unwrap();

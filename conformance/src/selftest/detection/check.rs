@@ -14,31 +14,33 @@ use crate::text::plural;
 /// The defects that are measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Every changed defect, and [`SAMPLE`] others selected by this seed.
+    /// Every defect that changed since the table was written, and [`SAMPLE`] others, which this random
+    /// seed selects.
     Sample(u32),
-    /// Every changed defect.
+    /// Every defect that changed since the table was written.
     Changed,
     /// Every defect.
     All,
 }
 
-/// Number of defects in a sample.
+/// Number of unchanged defects in a sample.
 pub const SAMPLE: usize = 60;
 
-/// The table, and the result of the new measurements.
+/// The detection table, and the result of the new measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckedTable {
-    /// The figures of each mode.
+    /// The committed or renewed table; in JSON, the figures of each mode.
     #[serde(serialize_with = "figures")]
     pub table: DetectionTable,
-    /// Number of measured defects.
+    /// Number of defects that were measured again.
     pub measured: usize,
     /// Differences from the committed table.
     pub differences: Vec<String>,
 }
 
 impl CheckedTable {
-    /// Measures the defects in scope. `whole`: `seeds` are all defects.
+    /// Measures the defects of `seeds` that `scope` selects. `whole` says that `seeds` contains all
+    /// defects, so that the table can be renewed.
     pub(crate) fn new(
         seeds: Vec<&'static Seed>,
         scope: Scope,
@@ -102,7 +104,7 @@ impl CheckedTable {
     }
 }
 
-/// The defects that changed since the table was written, and a sample of the others.
+/// The defects that changed since the table was written, and `count` others, which `seed` selects.
 fn sample(
     mut seeds: Vec<&'static Seed>,
     (seed, count): (u32, usize),
@@ -122,7 +124,7 @@ fn sample(
     wanted
 }
 
-/// The columns of a row that differ.
+/// Describes the differences between the row of a defect in the table and its new measurement.
 fn differing(before: Option<&DetectionRow>, now: &DetectionRow) -> Vec<String> {
     let id = &now.id;
     let Some(before) = before else { return vec![format!("{id}: not in the table")] };
@@ -151,7 +153,7 @@ fn differing(before: Option<&DetectionRow>, now: &DetectionRow) -> Vec<String> {
     differences
 }
 
-/// JSON: the figures, and the missed defects.
+/// Serializes the figures and the IDs of the missed defects of each mode.
 fn figures<S: Serializer>(table: &DetectionTable, serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct OfMode<'t> {

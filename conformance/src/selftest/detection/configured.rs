@@ -1,5 +1,5 @@
-//! Correct CNCs with another configuration than the simulated CNC, whose replies equal those of a
-//! defect.
+//! Witnesses: correct CNCs with another configuration than the simulated CNC, whose replies equal those
+//! of the simulated CNC with a defect.
 
 use std::sync::Arc;
 
@@ -10,15 +10,15 @@ use crate::edition::Edition;
 use crate::faults::{self, Faulty};
 use crate::session::ToolError;
 
-/// A text, and the replacement of each line that contains it.
+/// A text, and the function that changes each line of the model that contains this text.
 type Change = (&'static str, fn(&str) -> String);
 
 /// A correct CNC with another configuration, optionally a valid variant.
 pub(super) struct Witness {
-    /// The IDs of the defects whose replies the witness gives.
+    /// The IDs of the defects whose replies equal those of the witness.
     defects: &'static [&'static str],
     pub(super) what: &'static str,
-    /// The changes of the default model.
+    /// The changes to the lines of the default model.
     changes: &'static [Change],
     edition: Option<Edition>,
     variant: Option<&'static str>,
@@ -147,8 +147,8 @@ fn read_only(line: &str) -> String {
     line.replace(WRITABLE, "")
 }
 
-/// Makes a value writable. A read-only axis number becomes an ordinary number, because the number of
-/// an axis stays read-only.
+/// Makes the value of a line writable. A read-only axis number also becomes an ordinary number, because
+/// the simulated CNC does not let a client write the number of a platform axis.
 fn writable(line: &str) -> String {
     let own = if line.contains(WRITABLE) { line } else { &line.replace(AXIS_NUMBER, NUMBERS) };
     read_only(own).replace(", type = ", &format!("{WRITABLE}, type = "))
@@ -158,7 +158,8 @@ fn toggled(line: &str) -> String {
     if line.contains(WRITABLE) { read_only(line) } else { writable(line) }
 }
 
-/// The bytes of the UTF-8 text as characters of CP1252.
+/// The line with each non-ASCII character replaced by the characters that CP1252 assigns to its UTF-8
+/// bytes.
 fn utf8(line: &str) -> String {
     line.replace('ä', "Ã¤").replace('°', "Â°")
 }
@@ -178,7 +179,8 @@ impl Witness {
         model.lines().map(|line| changed(line) + "\n").collect()
     }
 
-    /// The CNC to use instead of a device; `None` if the profile of the device does not apply to it.
+    /// The simulated CNC of the witness; `None` if the mode uses the profile of the device and the profile
+    /// does not apply to the witness.
     pub(super) fn cnc(
         &self,
         device: &Device,
@@ -189,7 +191,7 @@ impl Witness {
     }
 }
 
-/// The unnecessary witnesses: those whose replies equal the defect's in no mode.
+/// The unnecessary witnesses: those whose replies equal the replies of their defect in no mode.
 pub(super) fn stale(rows: &[DetectionRow]) -> Vec<String> {
     let is_needed = |defect: &str, what: &str| {
         let results = rows.iter().filter(|row| row.id == defect).flat_map(|row| row.modes.values());

@@ -1,4 +1,4 @@
-//! The CNCs against which the suite is run.
+//! The simulated CNCs that the suite tests in the way in which it tests a device.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -17,20 +17,21 @@ use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite::{self, ClaimsBy};
 
-/// Number of axis indices of a channel that the suite tries.
+/// Number of axis indices of each channel that the suite tries.
 const AXES_MAX: u32 = 64;
 
-/// A CNC without a defect, against which the suite is run.
+/// A simulated CNC that the suite tests like a device, with its correct replies.
 pub(super) struct Device {
-    /// The TOML of its model.
+    /// The TOML text of its data model.
     pub(super) model: &'static str,
     settings: Settings,
     profile: Profile,
-    /// Every writable value, except axis numbers.
+    /// An `--allow-write` file with every writable value, except axis numbers.
     allowed: Allowed,
-    /// The digests of the replies without a defect, by the requests that the gate allows.
+    /// The digests of the replies without a defect, for the requests that the gate allows: queries,
+    /// writes too, malformed requests too.
     right: [OnceLock<Vec<u64>>; 3],
-    /// The same, without values that may be configured.
+    /// Digests like those in `right`, but without the values that the configuration of a CNC determines.
     right_if_configured: [OnceLock<Vec<u64>>; 3],
 }
 
@@ -49,7 +50,7 @@ impl Device {
         })
     }
 
-    /// The CNC of the default model with an edition.
+    /// The device with the default model and this edition.
     pub(super) fn of_edition(edition: Edition) -> Result<&'static Self, ToolError> {
         static ENGLISH: OnceLock<Device> = OnceLock::new();
         static GERMAN: OnceLock<Device> = OnceLock::new();
@@ -59,24 +60,24 @@ impl Device {
         };
         if device.get().is_none() {
             let settings = Settings { edition: Some(edition), version: None };
-            // Another thread may already have set an equal device.
+            // `set` fails if another thread has already set the device, which is equal.
             let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
         }
         device.get().ok_or_else(|| ToolError::Internal("no device".to_owned()))
     }
 
-    /// A CNC of this device.
+    /// A new simulated CNC with the model of this device, without a defect.
     fn correct_cnc(&self) -> Result<Cnc, ToolError> {
         Ok(Cnc::new(built(self.model, self.settings)?).with_stopped_clock())
     }
 
-    /// A CNC of this device, optionally with a defect.
+    /// A new simulated CNC with the model of this device, optionally with a defect.
     pub(super) fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, ToolError> {
         Ok(Arc::new(Faulty::new(self.correct_cnc()?, seed)))
     }
 
-    /// A CNC with another model and edition, optionally a valid variant; `None` if the mode uses the
-    /// profile of this device and that does not apply to the CNC.
+    /// A simulated CNC with another model and edition, optionally a valid variant; `None` if the mode uses
+    /// the profile of this device and this profile does not apply to that CNC.
     pub(super) fn cnc_with_model(
         &self,
         model: &str,
@@ -86,7 +87,8 @@ impl Device {
     ) -> Result<Option<Arc<Faulty>>, ToolError> {
         let settings = Settings { edition: edition.or(self.settings.edition), ..self.settings };
         let model = built(model, settings)?;
-        // The profile claims nothing about these contents, so it still applies after writes.
+        // `unwritten` only lists what the suite does not write: it is no claim about the CNC, so it
+        // need not be equal.
         let unwritten = self.profile.unwritten.clone();
         let profile = Profile { unwritten, ..model.profile() };
         if mode.has_profile() && format!("{profile:?}") != format!("{:?}", self.profile) {
@@ -117,8 +119,8 @@ impl Device {
         Ok(right.get().map_or(&[], Vec::as_slice))
     }
 
-    /// The axis indices that the suite does not write to: those without an axis or, if unknown, all in
-    /// channels other than the first.
+    /// The axis indices to which the suite does not write, as channel and index: those that have no axis
+    /// according to the profile; without a profile, all in channels other than the first.
     fn unwritten_places(&self, mode: Mode) -> Vec<(u32, u32)> {
         if mode.has_profile() {
             return self.profile.empty_places.to_vec();
@@ -127,7 +129,7 @@ impl Device {
         others.flat_map(|&number| (1..=AXES_MAX).map(move |place| (number, place))).collect()
     }
 
-    /// The outcomes of the suite, run as a user runs it.
+    /// The outcomes of the suite against this device, optionally with a defect, in a mode.
     pub(super) fn outcomes(
         &self,
         seed: Option<&Seed>,
@@ -136,7 +138,7 @@ impl Device {
         self.outcomes_of(self.cnc(seed)?, mode)
     }
 
-    /// The outcomes with several defects of fields.
+    /// The outcomes of the suite against this device with several field defects, in a mode.
     pub(super) fn outcomes_with(
         &self,
         fields: Vec<FieldDefect>,
@@ -169,8 +171,8 @@ fn built(model: &str, settings: Settings) -> Result<Model, ToolError> {
     model.map_err(|error| ToolError::Internal(format!("the model: {error}")))
 }
 
-/// A file of `--allow-write` with every value that the CNC describes as writable, and every writable
-/// value that it does not list.
+/// The contents of an `--allow-write` file with every value that the CNC describes as writable, and the
+/// writable values that no list of the CNC contains.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError> {
     let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = Session::in_process(cnc, Gate::queries())?;
@@ -219,14 +221,14 @@ fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
     if let Some(device) = devices.get(model) {
         return Ok(device);
     }
-    // Only three devices are leaked.
+    // At most one device for each variant with its own model is leaked.
     let device: &Device = Box::leak(Box::new(Device::new(model, Settings::default())?));
     devices.insert(model, device);
     Ok(device)
 }
 
-/// The CNCs on which a defect is tried: with the edition in which it is detectable, or with both; or
-/// with the variant's own model.
+/// The devices on which a seed is tried: for a variant with its own model, the device with this model;
+/// otherwise one device for each edition in which the defect is detectable.
 pub(super) fn devices(seed: &Seed) -> Result<Vec<&'static Device>, ToolError> {
     if let Some(model) = seed.own_model() {
         return of_model(model).map(|device| vec![device]);

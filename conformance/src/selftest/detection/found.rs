@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::gate::{Allowed, Gate};
 use crate::text::named;
 
-/// A mode in which the suite is run against a device.
+/// A mode in which a user can run the suite against a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mode {
     /// Queries only, without a profile.
@@ -14,7 +14,7 @@ pub enum Mode {
     Profiled,
     /// Without a profile; the file of `--allow-write` names every writable value.
     Writes,
-    /// The file of `Writes`, the profile of `Profiled`, and malformed requests.
+    /// The `--allow-write` file of `Writes`, the profile of `Profiled`, and malformed requests.
     All,
 }
 

@@ -1,10 +1,11 @@
 //! The detection of every seeded defect of a CNC over the wire, in each mode in which a user can
 //! run the suite against a device.
 //!
-//! A CNC in this process is tested through the gate, as `ads-cnc run --target` tests a device: with
-//! the same cases, defaults and limits, and without access to the state of the simulator. Its clock
-//! advances only while the client waits for a missing reply, so that a run is short and repeatable.
-//! A real device does not have the values of the manuals' examples, so no profile claims them.
+//! The suite tests a simulated CNC in this process through the gate, as `ads-cnc run --target` tests a
+//! device: with the same cases, defaults and limits, and without access to the state of the simulator.
+//! The clock of the simulated CNC advances only while the client waits for a missing reply, so that a
+//! run is short and repeatable. A device has other values than the manuals' examples, so no profile
+//! here claims that the CNC replies as in these examples.
 
 mod check;
 mod configured;
@@ -40,8 +41,8 @@ pub fn measure(seed: &Seed) -> Result<DetectionRow, ToolError> {
     Ok(DetectionRow { id: seed.id.clone(), hash: hash(seed)?, modes })
 }
 
-/// A hash of the defect's row, and of the replies up to the first that differs from the CNC without
-/// the defect.
+/// A hash of the defect's row, and of the replies of the CNC with the defect, up to the first reply that
+/// differs from the reply without the defect.
 ///
 /// # Errors
 /// An error of the simulated CNC.
@@ -58,7 +59,8 @@ pub fn hash(seed: &Seed) -> Result<String, ToolError> {
     Ok(table::hash(&text))
 }
 
-/// The result of a defect in a mode: tried on the CNC of each edition until it is caught.
+/// The result of a defect in a mode. The suite is run against the device of each edition until the
+/// defect is caught.
 fn detect(seed: &Seed, mode: Mode) -> Result<Detection, ToolError> {
     let devices = devices(seed)?;
     let mut outcomes = Vec::new();
@@ -80,7 +82,8 @@ fn detect(seed: &Seed, mode: Mode) -> Result<Detection, ToolError> {
         _ if !failed.is_empty() => DetectionResult::Elsewhere,
         _ => witness::of(seed, &devices, mode)?,
     };
-    // For a requirement below the level must, a warning counts as caught.
+    // A warning or a difference counts as a failure only if it caught the defect (requirements below
+    // the level *must*).
     let counts = |id: &str, verdict: Verdict| match verdict {
         Verdict::Fail | Verdict::Vacuous => true,
         Verdict::Warning | Verdict::Differs => {

@@ -1,4 +1,4 @@
-//! Tests with pairs of defects that the failure of one clause does not hide another broken clause.
+//! Tests, with pairs of defects, that the failure of one clause does not hide the violation of another.
 
 use serde::Serialize;
 
@@ -15,34 +15,36 @@ use crate::selftest::parallel::{Tell, parallel};
 use crate::selftest::tried::{TrialResult, judge};
 use crate::session::ToolError;
 
-/// Number of tried pairs.
+/// Number of pairs that are tried.
 pub const PAIRS: usize = 200;
 
-/// The seed that selects the pairs; it is constant, so that the following list is complete.
+/// The random seed that selects the pairs. It is constant, because `MASKED` lists the hidden defects of
+/// just these pairs.
 const SEED: u32 = 24;
 
-/// Pairs in which a defect of the first field hides one of the second. Only a read of elements by handle
-/// shows a wrong dimension (VAR-4); the description alone shows a breach of VAR-8. The value
-/// of a parameter is compared with the value of the variable with its name.
+/// Pairs of ID prefixes: a defect whose ID starts with the first prefix can hide a defect whose ID starts
+/// with the second. Only a read of elements by handle detects a wrong dimension in a description (VAR-4).
+/// The value of a dynamic parameter is compared with the value of the variable of the same name.
 const MASKED: [(&str, &str); 3] = [
     ("variable-handle-read", "variable-description.dimensions"),
     ("variable-handle-read", "dynamic-value.value"),
     ("variable-description", "dynamic-value.value"),
 ];
 
-/// Pairs of defects in different fields, each detected alone without a profile.
+/// The results of pairs of defects in different fields. Each defect alone is caught by queries without
+/// a profile.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PairFigures {
-    /// Both are detected.
+    /// Number of pairs of which both defects are detected.
     pub both: usize,
-    /// The request or the expectation for one depends on the reply of the other, and only the clause of
-    /// the other fails.
+    /// Number of pairs of which only one defect is detected, and the request or the expected reply that
+    /// would detect the other depends on the field of the detected one.
     pub masked: usize,
-    /// One hides the other, although they do not depend on each other.
+    /// Pairs in which one defect hides the other, although the two fields do not depend on each other.
     pub hidden: Vec<String>,
 }
 
-/// Tries the pairs.
+/// Tries the pairs of defects that the table says are caught.
 pub(crate) fn pairs(table: &DetectionTable, tell: Tell<'_>) -> PairFigures {
     let mut figures = PairFigures::default();
     let tried = parallel(
@@ -75,7 +77,7 @@ pub(crate) fn pairs(table: &DetectionTable, tell: Tell<'_>) -> PairFigures {
     figures
 }
 
-/// Pairs of defects that are caught alone.
+/// The pairs of field defects to try, each of which is caught alone.
 fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
     let is_caught = |seed: &Seed| {
         let found = table.row(seed).and_then(|row| row.modes.get(&Mode::ReadOnly));
@@ -93,7 +95,7 @@ fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
     pairs.take(PAIRS).map(|(one, other)| (one.clone(), other.clone())).collect()
 }
 
-/// Whether each defect of a pair is detected by a clause that it breaks.
+/// Whether a clause that the first defect breaks fails, and the same for the second defect.
 fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), ToolError> {
     let device = Device::of_edition(Edition::English)?;
     let outcomes = device.outcomes_with(vec![one.clone(), other.clone()], Mode::ReadOnly)?;
@@ -104,14 +106,15 @@ fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), T
     Ok((detected(one), detected(other)))
 }
 
-/// Whether the field belongs to a frame or an ADS service, and not to a function.
+/// Whether the field belongs to a frame or an ADS service, and not to the stream of a function.
 fn is_of_frames(defect: &FieldDefect) -> bool {
     functions(defect.stream).is_empty()
 }
 
-/// Whether a wrong field can make another one undetectable, because it belongs to an earlier function
-/// or to the same function. A wrong frame may make everything undetectable; the clause of a service
-/// is the cause only if no function of another service fails.
+/// Whether the defect `masking` can make the defect `masked` undetectable: if it is in the stream of the
+/// same function or of a function on which that function depends, or if either is a defect of a frame.
+/// A wrong frame can make every other defect undetectable, and the suite names the clause of an ADS
+/// service as the cause only if no function of another service fails.
 fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     let listed = MASKED
         .iter()
@@ -122,8 +125,8 @@ fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     listed || is_of_frames(masking) || is_of_frames(masked) || depends
 }
 
-/// The functions whose request or reply is the stream or contains it as a record; none for a stream
-/// of frames.
+/// The functions whose request or reply is the stream, or contains the stream as a record; empty for a
+/// stream of frames.
 fn functions(stream: Stream) -> Vec<Function> {
     let stream = match stream {
         Stream::ObjectDescriptor => Stream::ObjectDescriptors,

@@ -1,5 +1,5 @@
-//! Sends every request that a mode may send, also malformed, and records the replies, to distinguish
-//! two CNCs.
+//! Sends every request that a mode may send, including malformed requests, and records the replies, to
+//! distinguish two CNCs.
 //!
 //! Requests that the suite never sends to a device are omitted: malformed writes, and writes to an
 //! axis or a channel that may not exist. The requests are derived from the function table, from the
@@ -33,15 +33,15 @@ use crate::simulator::Cnc;
 use crate::simulator::program::digest;
 use crate::text::hex::compact;
 
-/// The position of the result in the frame of a reply with data.
+/// The bytes of the result in the frame of a reply with data.
 const RESULT: Range<usize> = 38..42;
-/// The positions of the lengths in the AMS/TCP header and the AMS header.
+/// The bytes of the lengths in the AMS/TCP header and the AMS header of a frame.
 const LENGTHS: [Range<usize>; 2] = [2..6, 26..30];
 /// The requested channel numbers and ranks.
 const CHANNELS: [u32; 14] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 255];
 /// The requested axes, axis indices and spindles.
 const AXES: [u32; 7] = [1, 2, 3, 4, 5, 6, 255];
-/// Number of requests of a function that are also sent malformed.
+/// For each function, this many requests are also sent in malformed variants.
 const MALFORMED_EACH: usize = 6;
 
 #[derive(Clone)]
@@ -53,7 +53,7 @@ struct Variable {
     writable: bool,
 }
 
-/// The address of a content of an object or an element in a list.
+/// The address and size of the content of an object or element that a list contains.
 struct ContentAddress {
     group: IndexGroup,
     offset: IndexOffset,
@@ -61,7 +61,7 @@ struct ContentAddress {
     size: u32,
 }
 
-/// A CNC, and the digest of each reply.
+/// Sends the requests, and records the digest of each reply.
 pub(super) struct ReplyRecorder<'t> {
     client: Client,
     cnc: Arc<Cnc>,
@@ -71,21 +71,22 @@ pub(super) struct ReplyRecorder<'t> {
     malformed: BTreeMap<Function, usize>,
     variables: Vec<Variable>,
     contents: Vec<ContentAddress>,
-    /// Channel and axis index of each axis that is not written.
+    /// The axis indices to which nothing is written, as channel and index.
     unwritten_places: &'t [(u32, u32)],
-    /// The replies whose values are ignored; `None` to compare all.
+    /// The replies whose values are ignored, because the configuration determines them; `None` to
+    /// compare all values.
     configurable: Option<ConfigurableReplies>,
 }
 
-/// The recorded replies.
+/// The digests of the recorded replies.
 pub(super) struct RecordedAnswers {
     pub(super) answers: Vec<u64>,
     /// The first request whose reply differs from that of the other CNC.
     pub(super) difference: Option<String>,
 }
 
-/// Sends all requests that the client's gate allows; with the replies of another CNC to compare, only
-/// up to the first difference.
+/// Sends all requests that the client's gate allows. With `right`, the digests of the replies of another
+/// CNC, it stops at the first difference.
 pub(super) fn ask_everything<'t>(
     client: Client,
     cnc: Arc<Cnc>,
@@ -121,7 +122,7 @@ impl ReplyRecorder<'_> {
             self.streams();
             self.services();
         }
-        // Once more, because some replies differ only after others, after writes or after some time.
+        // Some defects change a reply only after other requests, after writes or after some time.
         self.queries();
         for _ in 0..12 {
             self.cnc.pass(Duration::from_secs(1));
@@ -145,7 +146,8 @@ impl ReplyRecorder<'_> {
         self.elements();
     }
 
-    /// Sends a request if the gate allows it; returns the data of a successful reply.
+    /// Sends a request if the gate allows it, and its malformed variants; returns the data of a successful
+    /// reply.
     fn ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];
@@ -153,7 +155,7 @@ impl ReplyRecorder<'_> {
         let data = self.call(&call);
         let sent = self.malformed.entry(request.function()).or_default();
         *sent += 1;
-        // Malformed writes are not sent in any of these modes.
+        // The suite sends no malformed writes to a device in any mode.
         let is_query = request.function().spec().effect == Effect::Query;
         if is_query && *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
             self.send_malformed(&call, data.as_ref().map_or(0, Vec::len));
@@ -161,7 +163,8 @@ impl ReplyRecorder<'_> {
         data
     }
 
-    /// Sends variants of a request, each with one error.
+    /// Sends variants of a request, each with one change: data, service, port, read length, or one bit of
+    /// the index group or offset. `answered` is the length of the reply to the correct request.
     fn send_malformed(&mut self, call: &Call<'_>, answered: usize) {
         let longer = [call.data, &[0]].concat();
         let shorter = |count: usize| call.data.get(..call.data.len().checked_sub(count)?);
@@ -238,7 +241,7 @@ impl ReplyRecorder<'_> {
         self.answers.push(answer);
     }
 
-    /// The channels that reply, by number and by rank.
+    /// The channels that reply to a query, addressed by number and by rank.
     fn channels(&mut self) -> Vec<Channel> {
         let numbers = CHANNELS.iter().filter_map(|&number| Channel::new(number).ok());
         let ranks = CHANNELS.iter().filter_map(|&rank| Channel::by_index(rank).ok());
@@ -253,9 +256,10 @@ impl ReplyRecorder<'_> {
     }
 }
 
-/// A received frame in which each error number, and each TRUE of a write flag or descriptor, is
-/// replaced by 1: no error number is documented, and every number except 0 is TRUE. Whether a stream
-/// packet is accepted or rejected as busy depends on the speed of the CNC, so both become an error.
+/// A received frame without the differences that do not count. Each error number, and each value TRUE of
+/// a write flag or descriptor, is replaced by 1: the manuals document no error numbers, and every
+/// number except 0 is TRUE. The result of a write to the program stream is removed, because whether the
+/// CNC accepts the packet or rejects it as busy depends on its speed.
 fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     const ERROR: Range<usize> = 30..34;
     const DATA: usize = RESULT.end + 4;
@@ -284,7 +288,7 @@ fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     received
 }
 
-/// Replaces every number except 0 by 1.
+/// Replaces a little-endian number by 1, unless it is 0.
 fn is_set(number: &mut [u8]) {
     if number.iter().any(|byte| *byte != 0) {
         number.fill(0);
@@ -292,8 +296,8 @@ fn is_set(number: &mut [u8]) {
     }
 }
 
-/// Index lists for an array: the first, the last and a middle element, one index beyond each
-/// dimension, and one index too many.
+/// Index lists for an array with these dimensions: the first, the second and the last element in all
+/// dimensions, an index after the last and index 1 in each dimension alone, and one index too many.
 fn parts(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let mut parts: Vec<Vec<u32>> = [0, 1, u32::MAX]
         .map(|at| dimensions.iter().map(|&count| at.min(count.saturating_sub(1))).collect())
@@ -310,7 +314,7 @@ fn parts(dimensions: &[u32]) -> Vec<Vec<u32>> {
     parts
 }
 
-/// Indices in the notation of names.
+/// Indices as they are written in names: `[1][2]`.
 fn brackets(indices: &[impl Display]) -> String {
     indices.iter().map(|index| format!("[{index}]")).collect()
 }

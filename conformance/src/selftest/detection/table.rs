@@ -23,9 +23,9 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionRow {
     pub id: String,
-    /// A hash of the defect's row, and of the CNC's replies with the defect.
+    /// The hash of the defect's row and of the CNC's replies with the defect ([`hash`](super::hash)).
     pub hash: String,
-    /// The result by mode.
+    /// The result in each mode.
     pub modes: BTreeMap<Mode, Detection>,
 }
 
@@ -103,8 +103,9 @@ impl DetectionTable {
         figures
     }
 
-    /// The number of requirements that fail for a defect of a single field in the mode without
-    /// writes and profile: median and 90th percentile of the defects that are caught.
+    /// The number of requirements that fail for one defect in the mode `ReadOnly`: median and 90th
+    /// percentile over the defects for which at least one requirement fails. With `of_fields`, the defects of a single field are
+    /// counted, otherwise all other defects of a CNC.
     pub fn blame(&self, of_fields: bool) -> (usize, usize) {
         let of_field = |row: &&DetectionRow| {
             let seed = faults::by_id(&row.id);
@@ -124,7 +125,7 @@ impl DetectionTable {
         (at(5), at(9))
     }
 
-    /// The text of the committed file.
+    /// The text of the committed file `detection.tsv`.
     pub fn to_text(&self) -> String {
         let mut text = format!("inputs\t{}\n", self.inputs);
         for DetectionRow { id, hash, modes } in &self.rows {
@@ -180,7 +181,7 @@ impl DetectionTable {
         Some(table)
     }
 
-    /// The document with the figures and the missed defects.
+    /// The text of the committed document `detection.md`: the figures and the missed defects.
     pub fn to_markdown(&self) -> String {
         let mut text = "# What the suite detects from outside\n\n\
             Written by `ads-cnc selftest --renew`, like the [table](detection.tsv) of every defect \

@@ -1,9 +1,9 @@
-//! Shows that a defect is undetectable in a mode: a correct CNC, the witness, gives the same replies
-//! to every request that the mode may send.
+//! Proves that a defect is undetectable in a mode: a correct CNC, the witness, sends the same replies as
+//! the CNC with the defect to every request that the mode may send.
 //!
 //! The witness is the CNC without the defect, or a CNC with [another
-//! configuration](super::configured). In a mode with a profile, the profile also applies to the
-//! witness.
+//! configuration](super::configured). In a mode with a profile, the witness must also match the
+//! profile.
 
 use super::configured;
 use super::device::{Device, answers};
@@ -12,8 +12,8 @@ use super::requests::Compare;
 use crate::faults::{FieldChange, FieldDefect, Seed};
 use crate::session::ToolError;
 
-/// Fields with arbitrary values: a one-to-one change of their values results in a correct CNC, too.
-/// Stream, field, changes and reason.
+/// Fields whose values are arbitrary, as stream, field, changes and reason: a CNC whose values are
+/// changed in one of these ways is correct, too.
 const FREE: &[(&str, &str, &[FieldChange], &str)] = &[
     ("device-info-reply", "major", ONE_TO_ONE, "a CNC may have any version"),
     ("device-info-reply", "minor", ANY, "a CNC may have any version"),
@@ -36,7 +36,7 @@ const ONE_TO_ONE: &[FieldChange] =
 const ANY: &[FieldChange] =
     &[FieldChange::FlipLow, FieldChange::Invert, FieldChange::SwapBytes, FieldChange::Zero];
 
-/// Defects with only undocumented or assumed effects, each with the reason.
+/// Prefixes of the IDs of defects whose effects are all undocumented or assumed, each with the reason.
 const UNDOCUMENTED: &[(&str, &str)] = &[
     ("cnc.var.axis-handle-own", "how handles of the axis interface are used is assumed (VAR-10)"),
     ("cnc.var.handle-changes", "a name may have several handles (VAR-10)"),
@@ -58,7 +58,7 @@ const UNDOCUMENTED: &[(&str, &str)] = &[
     ("cnc.sda.feedhold-2", "that TRUE is 1 is assumed (GEN-5)"),
 ];
 
-/// The reason why a CNC with this defect is correct.
+/// The reason why a CNC with this defect is correct; `None` if it is not.
 pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
     let undocumented = UNDOCUMENTED.iter().find(|(start, _)| seed.id.starts_with(start));
     if let Some((_, why)) = undocumented {
@@ -71,7 +71,8 @@ pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
     free.map(|(.., why)| *why)
 }
 
-/// The witness, or the first request that distinguishes the defect from the CNC without it.
+/// The witness if the defect is undetectable; otherwise the first request whose reply distinguishes the
+/// CNC with the defect from every correct CNC.
 pub(super) fn of(
     seed: &Seed,
     devices: &[&'static Device],
@@ -97,11 +98,11 @@ pub(super) fn of(
     Ok(DetectionResult::Undetectable(why))
 }
 
-/// The witness that [`Compare::Configured`] proves.
+/// Describes the witness whose existence a comparison with [`Compare::Configured`] proves.
 const CONFIGURED: &str =
     "elements may have any texts, objects any content, and V.E any extended description";
 
-/// The first request that distinguishes the defect from the CNC without it.
+/// The first request whose reply distinguishes the CNC with the defect from the CNC without it.
 fn difference(
     seed: &Seed,
     device: &Device,
@@ -112,7 +113,7 @@ fn difference(
     Ok(answers(device, device.cnc(Some(seed))?, mode, Some(right), compare)?.difference)
 }
 
-/// A CNC with another configuration that gives the same replies as the defect.
+/// The description of a witness with another configuration, whose replies equal those of the defect.
 fn configured_witness(
     seed: &Seed,
     device: &Device,

@@ -13,7 +13,8 @@ use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::parameters::{PARAMETERS_MAX, each, nothing, number, prefix};
-use crate::judge::{Checks as _, Evidence, Step, Stop, assumed};
+use crate::evidence::Evidence;
+use crate::judge::{Checks as _, Step, Stop, assumed};
 use crate::objects::KINDS;
 use crate::profile::Claim;
 use crate::suite::kit::{PendingCheck, Probe, between, steadily};

@@ -18,11 +18,11 @@ use ads_cnc::operation::{Function, Request};
 use ads_cnc_vectors::Level;
 
 use crate::deadline::Deadline;
+use crate::evidence::{Describe, Evidence};
 use crate::exchange::{Exchange, ExchangeError, Violation};
 use crate::gate::Reason;
 use crate::judge::{
-    Checks, Describe, Evidence, Judgement, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict,
-    applicable,
+    Checks, Judgement, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict, applicable,
 };
 use crate::process::interrupt;
 use crate::profile::Claim;

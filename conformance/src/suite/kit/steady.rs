@@ -7,7 +7,8 @@ use ads_cnc::operation::Request;
 use ads_cnc_vectors::ids::ADR_12;
 use ads_cnc_vectors::{ClauseId, Hex};
 
-use crate::judge::{Checks as _, Describe, Evidence, Rule, Rules, Step, Stop};
+use crate::evidence::{Describe, Evidence};
+use crate::judge::{Checks as _, Rule, Rules, Step, Stop};
 use crate::suite::kit::{Probe, RawCall};
 
 /// How often a value that changes is read again.

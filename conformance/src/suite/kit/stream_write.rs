@@ -7,7 +7,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::Ack;
 
-use crate::judge::{Describe, Step};
+use crate::evidence::Describe;
+use crate::judge::Step;
 use crate::suite::kit::{Probe, RawCall, with_reply};
 
 /// The reply to a write. Which error numbers mean "busy" and "rejected" is not documented; their

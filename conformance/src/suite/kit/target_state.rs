@@ -6,7 +6,8 @@ use ads_cnc::operation::{Function, Service};
 
 use crate::client::Client;
 use crate::deadline::Deadline;
-use crate::judge::{Evidence, Record};
+use crate::evidence::Evidence;
+use crate::judge::Record;
 use crate::objects::Object;
 use crate::profile::Profile;
 use crate::rules::RuleBook;

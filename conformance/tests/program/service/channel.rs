@@ -1,4 +1,5 @@
-//! A channel with services, an NC program and the five variables between them.
+//! A channel with the five variables of the Service Interface, through which an NC program and services
+//! communicate.
 
 use std::time::Duration;
 
@@ -39,7 +40,7 @@ impl Channel {
         self.written.push((variable, value.to_vec()));
     }
 
-    /// Writes a request as an NC program does.
+    /// Writes a request in the order in which an NC program writes it, and clears the record of writes.
     pub(crate) fn ask(&mut self, uuid: &str, request: &str) {
         self.write(Uuid, format!("{uuid}\0").as_bytes());
         self.write(Request, format!("{request}\0").as_bytes());
@@ -47,7 +48,7 @@ impl Channel {
         self.written.clear();
     }
 
-    /// Executes a step other than serving, and returns its kind.
+    /// Executes the next step of a host, unless it is to serve a request, and returns the kind of the step.
     pub(crate) fn step(&mut self, host: &mut Host<'_>) -> Did {
         match host.step() {
             HostStep::Read(variable) => {
@@ -67,7 +68,7 @@ impl Channel {
         }
     }
 
-    /// Executes steps up to the first that is not a read.
+    /// Executes steps of a host until the next step is not a read; returns the kind of that step.
     pub(crate) fn skip_reads(&mut self, host: &mut Host<'_>) -> Did {
         for _ in 0..50 {
             match host.step() {
@@ -80,7 +81,7 @@ impl Channel {
         panic!("reads and reads: {:?}", host.step());
     }
 
-    /// Executes steps until the next step writes this variable.
+    /// Executes steps of a host until the next step is a write of this variable.
     pub(crate) fn reach(&mut self, host: &mut Host<'_>, variable: ServiceVariable) {
         let there = (0..50).any(|_| {
             let there = self.skip_reads(host) == Did::Write(variable);
@@ -97,8 +98,8 @@ impl Channel {
         assert!((0..50).any(|_| self.step(host) == Did::Wait), "{:?}", host.step());
     }
 
-    /// Polls for a request, serves it and continues to the next wait; returns whether there was a
-    /// request.
+    /// Polls for a request, serves it and executes steps up to the next wait; returns whether a request was
+    /// found.
     pub(crate) fn serve(
         &mut self,
         host: &mut Host<'_>,
@@ -115,7 +116,7 @@ impl Channel {
         true
     }
 
-    /// Executes the steps of the program up to a wait or the end; returns the outcome, if it ended.
+    /// Executes the steps of the program up to a wait or the end; returns the outcome if the program ended.
     pub(crate) fn run(
         &mut self,
         call: &mut ServiceCall,

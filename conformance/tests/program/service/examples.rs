@@ -11,8 +11,8 @@ use super::channel::*;
 use super::{Fault, fault};
 use crate::square_root::square_root;
 
-/// SVC-9: the square root of 3, and of a negative number, whenever the interface clears
-/// REQUEST_STATE; and the order of what is written (SVC-4, SVC-5).
+/// SVC-9: the responses to requests for the square root of 3 and of a negative number, and the order of
+/// all writes (SVC-4, SVC-5), whether or not the interface itself clears REQUEST_STATE.
 #[test]
 fn square_root_example() {
     for (request, response, state) in [
@@ -44,7 +44,7 @@ fn square_root_example() {
                     (ResponseState, state.to_le_bytes().to_vec()),
                 ]
             );
-            // The request is answered only once.
+            // The host serves the request only once.
             assert!(!channel.serve(&mut host, square_root));
         }
     }
@@ -67,7 +67,7 @@ fn the_printed_uuid_without_a_digit_selects_no_service() {
     assert!(channel.serve(&mut host, square_root));
 }
 
-/// SVC-8: the example of the cycle, which waits for at most 5 seconds.
+/// SVC-8: the manual's example of the cycle SYS_SERVICE_WAIT, which waits for at most 5 seconds.
 #[test]
 fn sys_service_wait_example() {
     let program = || call(COMMAND, "some-command", [None, Some(5000), Some(1)]);
@@ -76,7 +76,7 @@ fn sys_service_wait_example() {
     let answer = Some(Ok((7, "did some-command".to_string())));
     let start = millis(1_000_000);
 
-    // In time, including a response that the last read finds.
+    // The response is in time. A response that only the last read finds is in time, too.
     for (answered, looked) in [(1, 2), (4999, 5000), (5000, 5000), (5000, 9000)] {
         let (mut channel, mut program) = (Channel::default(), program());
         assert_eq!(channel.run(&mut program, start), None);
@@ -86,7 +86,7 @@ fn sys_service_wait_example() {
         assert_eq!(channel.run(&mut program, start + millis(looked)), answer, "{looked}");
     }
 
-    // Not in time.
+    // The response is not in time: the program has timed out before.
     let (mut channel, mut program) = (Channel::default(), program());
     assert_eq!(channel.run(&mut program, start), None);
     assert_eq!(channel.run(&mut program, start + millis(4999)), None);
@@ -95,7 +95,7 @@ fn sys_service_wait_example() {
     assert_eq!(channel.run(&mut program, start + millis(5001)), Some(Err(())));
 }
 
-/// SVC-8: the parameters and their default values.
+/// SVC-8: the parameters of the cycle and their default values.
 #[test]
 fn parameters_of_the_cycle() {
     let wait = SysServiceWait::from_parameters;
@@ -113,7 +113,8 @@ fn parameters_of_the_cycle() {
         assert_eq!(error.to_string(), "sys-service-wait: @P3 at offset 8: missing");
     }
 
-    // A maximum wait of 0 reads once; the longest possible wait ends.
+    // With a maximum wait of 0, the program reads RESPONSE_STATE once. The end of the longest
+    // possible wait does not overflow.
     let mut channel = Channel::default();
     let mut program = call(COMMAND, "", [None, Some(0), Some(1)]);
     assert_eq!(channel.run(&mut program, millis(9)), Some(Err(())));
@@ -125,8 +126,9 @@ fn parameters_of_the_cycle() {
     assert_eq!(waiting.step(), WaitStep::Wait { until: Some(Duration::MAX) });
 }
 
-/// SVC-8 and SVC-3: because a request sets RESPONSE_STATE to 0, a @P1 other than 0 does not wait for
-/// the service, unless the service has already set that state.
+/// SVC-8 and SVC-3: the cycle waits while RESPONSE_STATE equals @P1. Because a request sets
+/// RESPONSE_STATE to 0, a cycle with a @P1 other than 0 does not wait for the service, unless the
+/// service has already set that state.
 #[test]
 fn a_keep_waiting_code_other_than_0() {
     let mut channel = Channel::default();
@@ -143,7 +145,7 @@ fn a_keep_waiting_code_other_than_0() {
     assert_eq!(waiting.step(), WaitStep::Done { state: 6 });
 }
 
-/// SVC-6, E-20: the program waits for RESPONSE_STATE; a response alone does not end the wait.
+/// SVC-6, E-20: the program waits for RESPONSE_STATE; a write of RESPONSE alone does not end the wait.
 #[test]
 fn a_response_alone_does_not_end_the_wait() {
     let mut channel = Channel::default();
@@ -155,8 +157,8 @@ fn a_response_alone_does_not_end_the_wait() {
     assert_eq!(channel.run(&mut program, millis(2)), Some(Ok((1, "1.732051".to_string()))));
 }
 
-/// SVC-2: without REQUEST_STATE, nothing is served; any value except 0 is a request, and is passed to
-/// the service.
+/// SVC-2: while REQUEST_STATE is 0, no request is served. Any other value is a request, and the host
+/// passes the value to the service.
 #[test]
 fn only_a_request_state_starts_a_service() {
     let mut channel = Channel::default();
@@ -181,7 +183,8 @@ fn only_a_request_state_starts_a_service() {
     assert_eq!(zero, CallError::State);
 }
 
-/// SVC-2: several services on one channel, of one or two hosts; each answers its own requests.
+/// SVC-2: two services on one channel, run by one host or by two hosts, each serve only their own
+/// requests.
 #[test]
 fn two_services_on_one_channel() {
     let both = [id(ROOT), id(COMMAND)];
@@ -208,7 +211,7 @@ fn two_services_on_one_channel() {
         assert_eq!(served, (uuid == ROOT, uuid == COMMAND));
     }
 
-    // An unknown UUID, and an empty one.
+    // A request with an unknown UUID is not served, nor does a host without services serve any.
     channel.ask("00000000-0000-0000-0000-000000000000", "3");
     assert!(!channel.serve(&mut first, square_root));
     channel.ask(ROOT, "3");

@@ -1,4 +1,4 @@
-//! Failed steps and late responses.
+//! Failed steps of hosts and late responses.
 
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
@@ -7,7 +7,8 @@ use ads_cnc_conformance::simulator::program::service::*;
 use super::channel::*;
 use crate::square_root::square_root;
 
-/// A failed write may have arrived: the host reads the variables and only writes what is missing.
+/// A failed write may have reached the CNC, so the host reads the variables again, and writes only those
+/// that do not have the new value.
 #[test]
 fn failed_writes_are_completed() {
     let ids = [id(ROOT)];
@@ -31,15 +32,15 @@ fn failed_writes_are_completed() {
             assert_eq!(host.outcome(), Some(Outcome::Answered), "{variable}");
             let answer = Some(Ok((1, "x".to_string())));
             assert_eq!(channel.run(&mut program, millis(1)), answer);
-            // Only RESPONSE may be written again, which is harmless.
+            // If the failed write arrived, the host writes only RESPONSE again, which is harmless.
             let times = channel.written.iter().filter(|(one, _)| *one == variable).count();
             assert_eq!(times, if arrives && variable == Response { 2 } else { 1 }, "{variable}");
         }
     }
 }
 
-/// RESPONSE_STATE arrived although its write failed, and the program has sent another request: the
-/// request is served, and not answered with the previous response.
+/// RESPONSE_STATE reached the CNC although its write failed, and the program has sent another request:
+/// the host serves this request, and does not answer it with the previous response.
 #[test]
 fn a_failed_write_does_not_answer_the_next_request() {
     let ids = [id(ROOT)];
@@ -61,12 +62,12 @@ fn a_failed_write_does_not_answer_the_next_request() {
     assert_eq!(channel.run(&mut program, millis(4)), Some(Ok((1, "second".to_string()))));
 }
 
-/// The write of RESPONSE_STATE failed, and the variables now belong to another service: nothing is
-/// written.
+/// The write of RESPONSE_STATE failed, and the variables now contain a request to, or a response of,
+/// another service: the host writes nothing.
 #[test]
 fn a_failed_write_is_not_repeated_over_another_service() {
     let ids = [id(ROOT)];
-    // Another service has answered, or has a request that it has not answered yet.
+    // First another service has responded; then another service has a request without a response.
     for (response_state, uuid) in [(2, ROOT), (0, COMMAND)] {
         let mut channel = Channel::default();
         channel.ask(ROOT, "3");
@@ -83,8 +84,9 @@ fn a_failed_write_is_not_repeated_over_another_service() {
     }
 }
 
-/// The documented limit of [`Host`] with two hosts on one channel: a state that arrived although its
-/// write failed is written again, and the program takes it for the response to its next request.
+/// The documented limit of [`Host`] with two hosts on one channel: a RESPONSE_STATE that reached the CNC
+/// although its write failed is written again, and the program takes it for the response to its next
+/// request.
 #[test]
 fn two_hosts_may_end_an_unserved_request() {
     let (own, others) = ([id(ROOT)], [id(COMMAND)]);
@@ -159,8 +161,8 @@ fn calls_in_the_wrong_order_do_nothing() {
     assert_eq!(program.step(), CallStep::Read(ResponseState));
 }
 
-/// The program has timed out and sent another request, to the same or another service: the late
-/// response is dropped, and no part of it is written.
+/// The program has timed out and sent another request, to the same or another service: the host drops
+/// the late response, and writes no part of it.
 #[test]
 fn a_late_response_is_dropped() {
     let ids = [id(ROOT)];
@@ -178,14 +180,14 @@ fn a_late_response_is_dropped() {
         assert_eq!(channel.serve(&mut host, |_| ("x".to_string(), 1)), ours);
         let last = if ours { Outcome::Answered } else { Outcome::Abandoned };
         assert_eq!(host.outcome(), Some(last));
-        // During the next response, the end of the previous one is discarded.
+        // When the next response begins, the outcome of the previous response is discarded.
         channel.ask(ROOT, "5");
         host.poll();
         assert_eq!(channel.skip_reads(&mut host), Did::Serve);
         host.answer(text("x"), 1).unwrap();
         assert_eq!(host.outcome(), None);
     }
-    // The same text with another state is another request.
+    // A request with the same text, but another request state, is another request.
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     let mut host = Host::new(&ids);
@@ -196,8 +198,8 @@ fn a_late_response_is_dropped() {
     assert_eq!((host.outcome(), channel.written.len()), (Some(Outcome::Abandoned), 0));
 }
 
-/// SVC-2: the program continues with another service between two reads of a host; the host does not
-/// serve that request.
+/// SVC-2: between two reads of a host, the program ends its request to another service and begins the
+/// next request. The host does not serve this request until it has read all its variables again.
 #[test]
 fn a_request_is_read_twice() {
     let ids = [id(COMMAND)];
@@ -220,8 +222,8 @@ fn a_request_is_read_twice() {
     assert_eq!(request, "some-command");
 }
 
-/// The CNC is reset at any step of a response: the host continues, and the next program receives its
-/// own response.
+/// The CNC is reset after any step of a host: the host continues, and the next program receives the
+/// response to its own request.
 #[test]
 fn a_reset_during_a_response() {
     let ids = [id(ROOT)];
@@ -240,7 +242,8 @@ fn a_reset_during_a_response() {
                 host.restart();
                 assert_eq!(host.step(), HostStep::Read(RequestState));
             }
-            // To its next wait, with what it had in hand when it was not told.
+            // Executes steps up to the next wait. A host that was not told of the reset may complete
+            // the response that it had begun.
             while channel.skip_reads(&mut host) != Did::Wait {
                 if channel.step(&mut host) == Did::Serve {
                     host.answer(text("old"), 99).unwrap();
@@ -255,7 +258,8 @@ fn a_reset_during_a_response() {
     }
 }
 
-/// A request that was served but not answered is served again after a restart of the host.
+/// A request that was served, but whose response was not written, is served again after a restart of
+/// the host.
 #[test]
 fn a_restarted_host_serves_again() {
     let ids = [id(ROOT)];

@@ -29,7 +29,8 @@ impl Fault {
     }
 }
 
-/// Creates an expected error; the expected number precedes the found one.
+/// Creates an expected error; of the two numbers, the first is the expected and the second the found
+/// number.
 pub(crate) fn fault(
     kind: ErrorKind,
     field: &'static str,

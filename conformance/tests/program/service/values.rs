@@ -1,4 +1,4 @@
-//! The values of the five variables, and their limits.
+//! The values of the five variables of the Service Interface, and their limits.
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
@@ -8,8 +8,8 @@ use ads_cnc_conformance::simulator::program::service::*;
 use super::channel::*;
 use super::{Fault, fault};
 
-/// SVC-1: each text has at most 128 bytes including the NUL, on each side; longer texts are rejected
-/// before a write.
+/// SVC-1: each text has at most 128 bytes including the NUL. The program, the host and the interface
+/// reject longer texts without a write.
 #[test]
 fn texts_have_128_bytes() {
     let wait = SysServiceWait::default();
@@ -17,7 +17,7 @@ fn texts_have_128_bytes() {
         let (fits, over) = (letter.repeat(127), letter.repeat(128));
         let too_long = |field| fault(TooLong, field, 0, (128, 129));
 
-        // The program's request, and a text of 127 bytes including its NUL.
+        // The program accepts requests of 127 and 128 bytes including the NUL, but not of 129 bytes.
         let shorter = &letter.repeat(126);
         assert!(ServiceCall::new(id(ROOT), text(shorter), wait).is_ok());
         let mut program = ServiceCall::new(id(ROOT), text(&fits), wait).unwrap();
@@ -25,7 +25,7 @@ fn texts_have_128_bytes() {
         let CallError::Text(error) = error else { panic!("{error}") };
         assert_eq!(Fault::of(error), too_long("request"));
 
-        // The request reaches the service, and the longest response the program.
+        // The longest request reaches the service, and the longest response reaches the program.
         let mut channel = Channel::default();
         assert_eq!(channel.run(&mut program, millis(0)), None);
         let ids = [id(ROOT)];
@@ -41,7 +41,7 @@ fn texts_have_128_bytes() {
         assert_eq!(channel.run(&mut program, millis(0)), Some(Ok((1, fits.clone()))));
         assert_eq!(channel.interface.read(Response).len(), 128);
 
-        // The interface.
+        // The interface accepts texts of 128 bytes including the NUL, and ignores bytes after the NUL.
         let (fits, over) = (vec![b'x'; 127], vec![b'x'; 128]);
         for (variable, field) in [(Uuid, "uuid"), (Request, "request"), (Response, "response")] {
             let mut interface = ServiceInterface::new();
@@ -57,7 +57,7 @@ fn texts_have_128_bytes() {
     }
 }
 
-/// A request that is longer than its variable is rejected; the next one is served.
+/// The host rejects a request that is longer than its variable, and serves the next request.
 #[test]
 fn a_too_long_request_is_rejected() {
     let mut channel = Channel::default();
@@ -75,19 +75,21 @@ fn a_too_long_request_is_rejected() {
     assert_eq!(host.step(), HostStep::Wait);
     host.poll();
     reach(&mut channel, &mut host);
-    // Padding is not part of the text.
+    // NULs after the text are padding, and do not count for its length.
     host.read(&[&b"3\0"[..], &[0; 300]].concat()).unwrap();
     assert_eq!(channel.skip_reads(&mut host), Did::Serve);
     let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
     assert_eq!(request, "3");
-    // When the response is ready, the request is a different one.
+    // When the response is ready, another request (which is too long) has replaced the served one:
+    // the host drops the response.
     host.answer(text("x"), 1).unwrap();
     reach(&mut channel, &mut host);
     host.read(&[b'3'; 128]).unwrap();
     assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
 
-/// SVC-5, E-35: a response state of 0 is rejected; another response to the same request is accepted.
+/// SVC-5, E-35: the host rejects a response state of 0, and then accepts another response to the same
+/// request.
 #[test]
 fn a_response_state_of_0_is_rejected() {
     let mut channel = Channel::default();
@@ -116,7 +118,7 @@ fn states_have_four_bytes() {
     host.poll();
     assert_eq!(Fault::of(host.read(&[0; 5]).unwrap_err()), long("request_state"));
 
-    // While a response is ready, the state is read again.
+    // If a state is invalid while a response is ready, the host reads the state again.
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     host.poll();

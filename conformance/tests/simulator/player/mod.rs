@@ -8,7 +8,7 @@ use ads_cnc_vectors::{Given, Pieces, Sequence, SequenceExpect};
 
 use crate::target::{Check, Failed, Target};
 
-/// The class of an error, and its step.
+/// The class of an error and the ID of the step that caused it; `None` without an error.
 type Fault<'c> = Option<(&'static str, &'c str)>;
 
 /// Plays a sequence up to its expected error, or to its end.
@@ -31,7 +31,7 @@ fn differs<T>(expected: impl ToString, found: impl ToString) -> Check<T> {
     Err(Failed(format!("expected {}, found {}", expected.to_string(), found.to_string())))
 }
 
-/// The error of a sequence without a required part.
+/// The error of a sequence whose step lacks a required part.
 fn lacks(what: &str) -> Failed {
     Failed(format!("a step lacks its {what}"))
 }

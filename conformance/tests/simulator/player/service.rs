@@ -1,4 +1,5 @@
-//! The steps of a sequence of the Service Interface, by NC program, services and other clients.
+//! Plays the steps of a sequence of the Service Interface as the NC program, the services and another
+//! client.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -16,7 +17,7 @@ use crate::services::{read_variable, write_variable};
 use crate::square_root::square_root;
 use crate::target::{Check, Target};
 
-/// Plays the steps up to the first error, on channels with empty interfaces.
+/// Plays the steps of a sequence up to the first error, after the interfaces of all channels are reset.
 pub(super) fn play<'c>(target: &Target, given: &'c ServiceSequence) -> Check<Fault<'c>> {
     let channels = target.channels();
     for &channel in &channels {
@@ -43,7 +44,7 @@ pub(super) fn play<'c>(target: &Target, given: &'c ServiceSequence) -> Check<Fau
 
 struct Player<'s, 'c> {
     target: &'s Target,
-    /// Channel 1 of a sequence is the first one, and so on.
+    /// The numbers of the CNC's channels: channel n of a sequence is the nth of them.
     channels: Vec<u8>,
     given: &'c ServiceSequence,
     hosts: BTreeMap<&'c str, Host<'s>>,
@@ -111,7 +112,7 @@ impl Player<'_, '_> {
         channel.copied().ok_or_else(|| lacks("channel"))
     }
 
-    /// The value of a variable; a text without its padding.
+    /// The value of a variable; for a text, without the NULs that pad it, but with one NUL.
     fn read(&self, step: &ServiceStep, variable: ServiceVariable) -> Check<Vec<u8>> {
         let mut value = read_variable(self.target, self.channel(step)?, variable)?;
         if variable.var_type() == VariableType::STRING {
@@ -130,14 +131,15 @@ impl Player<'_, '_> {
         Ok(program)
     }
 
-    /// The outcome of the request, after the program has polled.
+    /// The outcome of the program's request, after the program has polled once; `None` if the program
+    /// still waits.
     fn outcome(&mut self, step: &ServiceStep) -> Check<Option<ServiceOutcome>> {
         self.program_step(step)?;
         let answers = self.program_step(step)?.answers().next();
         Ok(answers.map(|answer| answer.outcome.clone()))
     }
 
-    /// The next action of the service, after it has read all variables it needs.
+    /// The next action of the service, after the service has read all variables that it needs.
     fn next_action(&mut self, step: &ServiceStep) -> Check<HostAction> {
         let channel = self.channel(step)?;
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
@@ -167,8 +169,8 @@ impl Player<'_, '_> {
         match step.actor.as_str() {
             "other" => {
                 let is_taken = write_variable(self.target, channel, variable, &value)?;
-                // The error number does not determine the class of the error, so derive it from the
-                // bytes.
+                // The error number does not determine the class of the error, so the class is derived
+                // from the written bytes.
                 let error = ServiceInterface::new().write(variable, &value).err();
                 let fault = error.map_or("outcome", |error| fault_class(error.kind()));
                 Ok((!is_taken).then_some(fault))
@@ -245,7 +247,7 @@ fn request(step: &ServiceStep) -> Check<Result<ServiceRequest, CallError>> {
     })
 }
 
-/// Response and response state.
+/// The response and the response state that a step states.
 fn response(step: &ServiceStep) -> Check<(Vec<u8>, u32)> {
     Ok((bytes(step.response.as_ref(), "response")?, number(step.response_state.as_ref())?))
 }
@@ -271,7 +273,7 @@ fn number(value: Option<&String>) -> Check<u32> {
     number.ok_or_else(|| lacks("number"))
 }
 
-/// The class of an error in sequences.
+/// The class by which sequences name an error.
 fn fault_class(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::Truncated => "truncated",

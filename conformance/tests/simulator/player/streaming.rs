@@ -13,10 +13,11 @@ use super::{Fault, bytes, differs, lacks};
 use crate::streams::{BUFFER_LEN, send, send_until_taken};
 use crate::target::{Check, Target};
 
-/// The channel that streams.
+/// The number of the channel whose stream the sequence uses.
 const CHANNEL: u8 = 1;
 
-/// Plays the steps up to the first error, on a channel whose program the sequence starts.
+/// Plays the steps of a sequence up to the first error. The program of the channel does not start by
+/// itself; a step of the sequence starts it.
 pub(super) fn play<'c>(target: &Target, given: &'c Streaming) -> Check<Fault<'c>> {
     let config =
         ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..ProgramConfig::default() };
@@ -59,7 +60,7 @@ pub(super) fn play<'c>(target: &Target, given: &'c Streaming) -> Check<Fault<'c>
     }
 }
 
-/// Number of bytes in the buffer.
+/// Number of bytes in the streaming interface.
 fn held(target: &Target) -> Check<usize> {
     Ok(target.cnc().with_program(CHANNEL, |program| program.buffered())?)
 }
@@ -89,8 +90,8 @@ fn write(
     })
 }
 
-/// The sequence determines whether a rejection means "busy" or "rejected", because the meaning of the
-/// error numbers is assumed.
+/// Sends a packet and interprets the reply. The sequence states whether a rejection means "busy" or
+/// "rejected", because the meanings of error numbers are only assumed.
 fn acknowledged(target: &Target, data: &[u8], stated: StreamAck, step: &StreamStep) -> Check<Ack> {
     let channel = Channel::new(CHANNEL.into())?;
     let held = held(target)?;
@@ -107,7 +108,8 @@ fn acknowledged(target: &Target, data: &[u8], stated: StreamAck, step: &StreamSt
     }
 }
 
-/// Lets the decoder read the buffer and execute the lines in zero time.
+/// Lets the decoder read the streaming interface and execute the lines in zero time, and compares the
+/// executed lines with the step.
 fn take(
     program: &mut StreamingProgram,
     step: &StreamStep,

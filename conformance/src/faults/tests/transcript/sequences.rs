@@ -1,4 +1,4 @@
-//! Requests whose replies depend on earlier ones, and the ends of lists.
+//! Requests whose replies depend on earlier requests, and requests at the ends of lists.
 
 use std::time::Duration;
 
@@ -72,7 +72,7 @@ impl Transcript<'_> {
         self.write_and_read(552, 0x12_3301, 0x1_0001, &[0]);
         self.read(552, 0x12_3300, 0x1001, 1);
         self.write_and_read(552, 0x12_1302, 0x2_0002, &[1; 8]);
-        // The axis leaves the channel and returns.
+        // Writing axis number 0 removes the axis from the channel; writing 3 returns it.
         self.read(552, 0x12_1301, 0x3_0002, 8);
         self.write_and_read(552, 0x12_1301, 0x3_0001, &[0, 0]);
         self.read(552, 0x12_1301, 0x3_0002, 8);
@@ -125,7 +125,7 @@ impl Transcript<'_> {
         self.ask(one, 0x47, 4, &numbers(&[first, 0]));
         self.ask(0x12_2302, 0x46, 4, b"V.E.channel\0");
         self.ask(one, 0x47, 4, &numbers(&[first, 0]));
-        // By handle as well as by name.
+        // The variables of the Service Interface, by handle as well as by name.
         self.write_and_read_by_name(one, REQUEST, b"a request of more than twenty characters\0");
         let request = handle(self.ask(one, 0x46, 4, REQUEST));
         self.ask(one, 0x47, 256, &numbers(&[request, 0]));

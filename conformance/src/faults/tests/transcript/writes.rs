@@ -8,8 +8,8 @@ use super::{Transcript, number, numbers};
 use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
 
 impl Transcript<'_> {
-    /// Queries of channel 6, which has rank 3: by number and by rank, of unknown channels and axes,
-    /// and of other lengths.
+    /// Queries of channel 6, which has rank 3: by number and by rank, with unknown channels and axes,
+    /// and with other lengths.
     pub(super) fn queries(&mut self) {
         let by_name = [0x46_u32, 0x48, 0x4C, 0x1_0004, 0x1_0005].map(|at| (0x12_2306_u32, at));
         for (group, offset) in by_name {
@@ -262,7 +262,8 @@ impl Transcript<'_> {
             &[&[&[b'X'; 700][..], b"\r\n"].concat(), &[b'X'; 700]],
         ];
         for text in texts {
-            // Written line by line, and all before the start.
+            // `Start::Once` executes lines as they arrive; `Start::ByHand` executes them only at the call
+            // of `start` below.
             for (pace, start) in [(Pace::Fast, Start::Once), (Pace::Fast, Start::ByHand)] {
                 self.cnc.set_program(1, hold(pace, start)).unwrap();
                 for packet in text {
@@ -298,7 +299,7 @@ impl Transcript<'_> {
                 .with_program(1, |program| program.start(Duration::from_secs(8)).is_ok())
                 .unwrap();
         }
-        // Filled and emptied.
+        // Fills the streaming interface, empties it by starting the program, and writes again.
         self.cnc.set_program(1, hold(Pace::Fast, Start::ByHand)).unwrap();
         let line = [&[b'X'; 498][..], b"\r\n"].concat();
         for _ in 0..20 {
@@ -313,7 +314,7 @@ impl Transcript<'_> {
         }
     }
 
-    /// Executed lines and states of the programs.
+    /// Records the executed lines, the states and the buffered bytes of the programs of channels 1 and 2.
     pub(super) fn record_programs(&mut self) {
         for channel in [1, 2] {
             let reply = self.cnc.with_program(channel, |program| {

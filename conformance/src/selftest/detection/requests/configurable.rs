@@ -1,5 +1,5 @@
-//! Replies that depend on the configuration of a CNC: any reply is correct that matches the request
-//! and does not change.
+//! Replies that depend on the configuration of a CNC: any valid reply is correct, if all replies to the
+//! same request are equal.
 
 use std::collections::BTreeMap;
 
@@ -11,24 +11,24 @@ use ads_cnc::{Decode as _, ExtendedReply};
 use crate::rules::element_type;
 use crate::text::plural;
 
-/// The differences between replies that count.
+/// Which differences between the replies of two CNCs count.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::selftest::detection) enum Compare {
     /// All differences.
     Bytes,
-    /// Differences that no configuration of the CNC explains. Configurable are names, types and units
-    /// of elements, extended descriptions and, in a mode without writes, the write flags of elements
-    /// and the contents of objects.
+    /// Only differences that no configuration of the CNC explains. Configurable are names, types and
+    /// units of elements, extended descriptions and, in a mode without writes, the write flags of
+    /// elements and the contents of objects.
     Configured,
 }
 
 /// The numbers of the channels of the default model, by rank.
 const NUMBERS: [u8; 3] = [1, 2, 6];
 
-/// The request of a reply: function, group by number, offset, data.
+/// A request: function, index group with the channel's number instead of its rank, offset, data.
 type Key = (Function, IndexGroup, IndexOffset, Vec<u8>);
 
-/// The configurable replies, and the lengths of the elements.
+/// The first reply to each request for a configurable value, and the lengths of the elements.
 #[derive(Default)]
 pub(super) struct ConfigurableReplies {
     known: BTreeMap<Key, Vec<u8>>,
@@ -36,7 +36,8 @@ pub(super) struct ConfigurableReplies {
 }
 
 impl ConfigurableReplies {
-    /// The text to compare instead of the data of a reply; `None` to compare the data.
+    /// The text to compare instead of the data of a reply. `None` if the data itself must be compared:
+    /// the value is not configurable, or the data differs from an earlier reply to the same request.
     pub(super) fn marker(&mut self, call: &Call<'_>, data: &[u8], writes: bool) -> Option<String> {
         let request = call.dispatch().ok()?;
         let text = || Some(ElementText::decode(data).ok()?.text.text.to_string());
@@ -66,7 +67,7 @@ impl ConfigurableReplies {
         let group = by_number(call.index_group);
         let key = (request.function(), group, call.index_offset, call.data.to_vec());
         let known = self.known.entry(key).or_insert_with(|| data.to_vec());
-        // The read length may truncate a reply.
+        // The read length may truncate one of the two replies.
         let len = known.len().min(data.len());
         (known.get(..len) == data.get(..len)).then_some(marker)
     }
@@ -76,7 +77,7 @@ fn element_key(element: ElementAddress) -> (IndexGroup, IndexOffset) {
     (by_number(element.class_group().index_group()), element.index_offset())
 }
 
-/// The group by the number of the channel instead of its rank.
+/// The index group with the number of the channel instead of its rank.
 pub(super) fn by_number(group: IndexGroup) -> IndexGroup {
     let number = |rank: u8| {
         let number = usize::from(rank).checked_sub(1).and_then(|rank| NUMBERS.get(rank));

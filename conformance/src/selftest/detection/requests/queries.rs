@@ -1,4 +1,4 @@
-//! Queries of all listed values, and of similar names, indices and addresses.
+//! Queries of all values that the CNC lists, and queries with similar names, indices and addresses.
 
 use ads_cnc::address::{
     Addressing, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -23,12 +23,11 @@ use ads_cnc::{
 use super::{AXES, CHANNELS, ContentAddress, ReplyRecorder, Variable, brackets, number, parts};
 use crate::values::until_nul;
 
-/// Maximum number of requested entries of a list.
+/// Maximum number of entries of a list that are requested.
 const LISTED_MAX: u32 = 150;
-/// Numbers whose low byte or low half is a small number.
+/// Numbers whose low byte or low 16 bits are 1, and the largest number.
 const WIDE: [u32; 3] = [0x101, 0x1_0001, u32::MAX];
-/// Names that no list contains: variables that are accessible by name only, those of the Service
-/// Interface, and unknown names.
+/// Names that no list contains: variables that are accessible by name only, and unknown names.
 const NAMES: [&str; 12] = [
     "V.CYC.count",
     "V.CYC.matrix",
@@ -83,8 +82,8 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Reads the whole value and parts of it: by name, by the handle of the name and by the described
-    /// handle.
+    /// Reads the whole value of a variable and its elements: by name, by the handle that the CNC returns
+    /// for the name, and by the handle in the description.
     fn variable(&mut self, variable: &Variable) {
         let Variable { channel, name, handle, dimensions, .. } = variable;
         let text = name.to_string();
@@ -98,7 +97,7 @@ impl ReplyRecorder<'_> {
         let by_name = by_name.and_then(|op| self.ask(op)).and_then(|data| number(&data));
         let handles = [by_name.map(Handle), *handle].into_iter().flatten();
         for (first, handle) in handles.enumerate() {
-            // The handles are usually equal: read the parts once.
+            // The two handles are usually equal: then the elements are read only once.
             let parts =
                 if first == 0 || by_name.map(Handle) != Some(handle) { &parts[..] } else { &[] };
             for part in [&[][..]].into_iter().chain(parts.iter().map(Vec::as_slice)) {
@@ -144,7 +143,7 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// The axis interface of a channel.
+    /// Reads the variables of the axis interface of a channel.
     pub(super) fn axes(&mut self, channel: Channel) {
         for name in self.axis_names(channel) {
             for axis in AXES.iter().filter_map(|&axis| ChannelAxis::new(axis).ok()) {
@@ -160,7 +159,7 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Names of V.A with and without an axis, and an unknown one.
+    /// The names of the V.A variables of a channel, with and without the axis, and an unknown name.
     pub(super) fn axis_names(&self, channel: Channel) -> Vec<String> {
         let mine = self.variables.iter().filter(|one| one.channel == channel);
         let full = mine.map(|one| one.name.to_string()).filter(|name| name.starts_with("V.A."));
@@ -290,7 +289,7 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Sends the request to GEO.
+    /// Sends the request to the port of GEO instead of SDA.
     fn of_geo<'a>(&mut self, request: impl Into<Request<'a>>) {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];

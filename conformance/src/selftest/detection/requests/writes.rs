@@ -16,7 +16,7 @@ use super::configurable::by_number;
 use super::{AXES, ContentAddress, ReplyRecorder, Variable, brackets, number, parts};
 
 impl ReplyRecorder<'_> {
-    /// Writes two other values and then the original one to each writable value.
+    /// Writes two other values and then the original value to each writable value.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {
             if variable.writable {
@@ -75,7 +75,7 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Whether the address belongs to an axis index that the suite does not write to.
+    /// Whether the address belongs to an axis index to which the suite does not write.
     fn is_unwritten(&self, group: IndexGroup, offset: IndexOffset) -> bool {
         let instance = match by_number(group).parts() {
             Some(Group::Com(com)) if com.table == ComTable::Channel => com.instance,
@@ -115,7 +115,7 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Reads a whole variable after a write, by name and by handle, and also in all other channels.
+    /// Reads a whole variable after a write, by name and by handle, and by name also in channels 1 and 2.
     fn read_back(&mut self, channel: Channel, name: &str, handle: Option<Handle>) {
         let others = [Channel::new(1).ok(), Channel::new(2).ok()].into_iter().flatten();
         for channel in [channel].into_iter().chain(others) {
@@ -155,7 +155,8 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Writes the variables of the Service Interface, in the right order and in others.
+    /// Writes the variables of the Service Interface in the order of a service, and reads all of them after
+    /// each write.
     pub(super) fn services(&mut self) {
         let writes: [(ServiceVariable, &[u8]); 8] = [
             (ServiceVariable::Uuid, b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0"),
@@ -180,7 +181,7 @@ impl ReplyRecorder<'_> {
     }
 }
 
-/// Two other values of the same size: all bits inverted, and each byte changed.
+/// Two other values of the same size: all bits inverted, and the lowest bit of each byte inverted.
 fn others(value: &[u8]) -> [Vec<u8>; 2] {
     [value.iter().map(|byte| !byte).collect(), value.iter().map(|byte| byte ^ 1).collect()]
 }
