@@ -1,4 +1,4 @@
-"""Convert a TCP capture to a pcap file with each AMS frame in an EtherCAT frame, as ADS Monitor records them.
+"""Convert a TCP capture to a pcap file with each AMS frame in an EtherCAT frame, as the ADS Monitor does.
 
     .ci/ads_monitor.py <FIELDS >PCAP
 

@@ -1,6 +1,8 @@
-// Compiles the description of the streams, and reads golden vectors with the reader in JavaScript.
+// Compiles the Kaitai Struct description of the streams, and reads golden vectors with the reader in
+// JavaScript.
 //
-//     node kaitai.mjs compile FOLDER               FOLDER/ads_cnc.ksy to FOLDER/ads_cnc.py, FOLDER/AdsCnc.js
+//     node kaitai.mjs compile FOLDER               makes FOLDER/ads_cnc.py and FOLDER/AdsCnc.js from
+//                                                  FOLDER/ads_cnc.ksy
 //     node kaitai.mjs read FOLDER VECTORS.json …   prints the fields that the reader finds, by vector ID
 import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -21,7 +23,7 @@ if (action === "compile") {
   const { KaitaiStream } = require("kaitai-struct");
   const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
   const plain = (value) => {
-    // JSON has no infinity and no -0.
+    // JSON cannot represent infinity and -0, so these values are printed as their bytes.
     if (Object.is(value, -0) || value === Infinity || value === -Infinity) {
       return plain(new Uint8Array(Float64Array.of(value).buffer));
     }

@@ -54,9 +54,9 @@ def read(files):
 
 
 def is_same(expected, value, is_text=False):
-    """Whether a value that a reader found is the value of these bytes."""
+    """Returns whether a value that a reader found is the value that these bytes encode."""
     if isinstance(value, dict):
-        # A reader finds a text without its NUL.
+        # For a text, the value of a reader does not contain the NUL and the bytes after it.
         return value["hex"] == expected.hex() or (is_text and value["hex"] == expected.split(b"\0")[0].hex())
     if isinstance(value, list):
         size = len(expected) // max(len(value), 1)
@@ -66,12 +66,12 @@ def is_same(expected, value, is_text=False):
         number = struct.unpack("<d", expected)[0]
         # JSON has no NaN.
         return value is None or value != value if number != number else struct.pack("<d", value) == expected
-    # An absent field has no value.
+    # A reader has no value for an absent field.
     return value == int.from_bytes(expected, "little") if expected else value is None
 
 
 def fields(vector):
-    """The bytes of each field; the items of a field are joined."""
+    """Returns the bytes of each field of a vector; the items of a list are joined."""
     found = {}
     for segment in vector["segments"]:
         record, name = re.fullmatch(r"(?:descriptors\[(\d+)\]\.)?(\w+)(?:\[\d+\])?", segment["field"]).groups()

@@ -13,9 +13,10 @@ FIELDS = ("description", "documentation", "license", "readme", "rust-version")
 KEYWORD = re.compile(r"[A-Za-z0-9][A-Za-z0-9_+-]{0,19}")
 # Twice the size of the largest crate, that of the suite: a larger one contains files by mistake.
 PACKED_MAX = 2 << 20
-# The files that cargo rewrites or adds.
+# The files that cargo rewrites or adds when it packs a crate.
 CARGOS = ("Cargo.toml", "Cargo.toml.orig", "Cargo.lock", ".cargo_vcs_info.json")
-# Home folders and other paths of this machine. A path such as /tmp/a in an example is permitted.
+# Home folders and other paths of this machine, which a packed file must not contain. A path such as /tmp/a
+# in an example is permitted.
 HOMES = (r"/home/\w", r"/root/", r"/Users/\w", r"[A-Z]:\\\\?Users")
 PATHS = (str(ROOT), os.environ.get("CARGO_HOME"), os.environ.get("CARGO_TARGET_DIR"))
 MACHINE = re.compile("|".join([*HOMES, *(re.escape(path) for path in PATHS if path)]).encode())
@@ -32,7 +33,7 @@ def metadata(package):
 
 
 def dependencies(manifest):
-    """A packed crate can only use dependencies from a registry."""
+    """Yields each dependency that is not from a registry: a packed crate cannot use it."""
     for kind in ("dependencies", "dev-dependencies", "build-dependencies"):
         for name, what in manifest.get(kind, {}).items():
             if "path" in what or "git" in what or "version" not in what:

@@ -6,10 +6,10 @@ build() {
     local sanitizer="$1" name names=("") features
     [ ${#chosen[@]} -eq 0 ] || names=("${chosen[@]}")
     for name in "${names[@]}"; do
-        # A target of the codec builds without the suite, which takes most of the time.
+        # A target of the codec does not need the suite, whose build takes most of the time.
         features=(--features libfuzzer)
         [ -z "$name" ] || needs_tools "$name" || features+=(--no-default-features)
-        # With lines in backtraces.
+        # Debug information for the lines in backtraces.
         CARGO_PROFILE_RELEASE_DEBUG=line-tables-only \
             RUSTFLAGS="${RUSTFLAGS:-}${FUZZ_RUSTFLAGS:+ $FUZZ_RUSTFLAGS}" cargo "+$toolchain" fuzz build \
             --fuzz-dir fuzz "${features[@]}" --release --debug-assertions \
@@ -39,7 +39,7 @@ each() {
     done
 }
 
-# The existing folders with inputs of a target, the committed ones first.
+# Prints the existing folders with inputs of a target, the committed folders first.
 inputs() {
     local folder
     for folder in "fuzz/corpus/$1" "fuzz/regressions/$1" "$corpus/$1"; do
@@ -47,7 +47,7 @@ inputs() {
     done | awk '!seen[$0]++'
 }
 
-# The options of a target: its dictionary, and the maximum length of an input.
+# Prints the options of a target: its dictionary, and the maximum length of an input.
 options() {
     local dictionary="fuzz/dictionaries/${1%%_*}.dict" folders
     if [ -f "$dictionary" ]; then echo "-dict=$dictionary"; fi
@@ -67,7 +67,8 @@ libfuzzer() {
 
 files() { find "$@" -type f 2>/dev/null | wc -l; }
 statistic() { sed -n "s/^stat::$2: *//p" "$1" | tail -n 1; }
-# Edges (cov) or features (ft): the number at the end, and the increase over the initial inputs.
+# Prints the number of edges (cov) or features (ft) at the end of a log, and the increase over the initial
+# inputs.
 covered() {
     awk -v what="$2:" '/^#[0-9]+\t/ {
         for (i = 2; i < NF; i++) if ($i == what) { last = $(i + 1); if ($2 == "INITED") first = last }
@@ -77,7 +78,7 @@ covered() {
 fuzz_without() { fuzz "$1" none "$seconds"; }
 fuzz_with_asan() { fuzz "$1" address "$asan_seconds"; }
 
-# One run of a target: its log, and a row for the summary.
+# Runs a target once, and writes its log and a row for the summary.
 fuzz() {
     local target="$1" sanitizer="$2" bound="$3" log="$output/logs/$1.$2.log" status=0
     local found="$output/found/$target" findings="$output/findings/$sanitizer/$target"
@@ -109,12 +110,12 @@ row() {
     (IFS=$'\t'; echo "$*") >>"$output/rows/$name"
 }
 rows() { for target in "${targets[@]}"; do cat "$output/rows/$target"; done; }
-# The number of rows with a different value in a column.
+# Prints the number of rows whose value in a column is not one of the given values.
 other_than() {
     rows | awk -F'\t' -v column="$1" -v wanted="^($2)\$" '$column !~ wanted { n++ } END { print n + 0 }'
 }
 
-# A Markdown table of rows with a header, with aligned columns.
+# Prints rows, of which the first is the header, as a Markdown table with aligned columns.
 markdown() {
     awk -F'\t' '{
         for (i = 1; i <= NF; i++) { cell[NR, i] = $i; if (length($i) > width[i]) width[i] = length($i) }
@@ -133,7 +134,8 @@ markdown() {
     }'
 }
 
-# The failure and its location from a log. It is the same for all inputs that cause this failure.
+# Prints the signature of a finding: the target, the kind of failure, and its location in the log. All
+# inputs that cause the same failure have the same signature.
 signature() {
     local what place
     what="$(basename "$3")"
@@ -142,7 +144,8 @@ signature() {
     echo "$1 ${what%%-*} ${place:-somewhere}"
 }
 
-# One finding per line: target, sanitizer, path, signature. A finding of both runs is listed once.
+# Prints one finding per line: target, sanitizer, path, signature. A failure that was found
+# both with and without sanitizer is listed once.
 list_findings() {
     local target sanitizer path
     for target in "${targets[@]}"; do
@@ -175,7 +178,8 @@ summary() {
     echo "results in $output"
 }
 
-# The inputs named by libFuzzer with the digest of their bytes. All other names were given by hand.
+# Lists the inputs that libFuzzer named, with the digest of their bytes as the name. All other inputs were
+# named by hand.
 digests() { find "$1" -maxdepth 1 -type f 2>/dev/null | grep -E '/[0-9a-f]{40}$' || true; }
 
 # Collects the kept and new inputs that add coverage to the committed ones. Committed inputs with a name
@@ -205,7 +209,8 @@ minimise() {
 
 committed() { [ "$(realpath -m "$corpus")" = "$PWD/fuzz/corpus" ]; }
 
-# Copies new inputs to the corpus; minimised inputs replace the previous ones.
+# Copies new inputs to the corpus. Minimised inputs replace the previous ones; in the committed corpus,
+# inputs that were named by hand stay.
 keep_inputs() {
     local from="$output/found/$1"
     mkdir -p "$corpus/$1"
@@ -217,7 +222,7 @@ keep_inputs() {
     cp -r "$from/." "$corpus/$1"
 }
 
-# The number of seeded defects of each target: name, family, number.
+# Prints a line for each target: its name, its family, and the number of its seeded defects.
 seeded_defects() { cargo run --quiet --locked -p ads-cnc-fuzz --example targets; }
 
 prove_target() {
@@ -227,8 +232,8 @@ prove_target() {
     [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
 }
 
-# Runs one target with one defect. A finding proves the target only if it is a broken law, not a timeout,
-# and passes without the defect.
+# Runs one target with one seeded defect. The defect counts as found only if the finding is a broken law,
+# not a timeout, and if its input passes without the defect.
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))

@@ -22,12 +22,12 @@ fn main() -> Result<()> {
         com(&cnc, PlatformAxis::new(number)?.into())?;
     }
     for class in Class::ALL {
-        // The reply for numbers that a class does not support is "no instance".
+        // For numbers that a class does not support, the reply is "no instance".
         for channel in 0..=MOST {
             for axis in 0..=MOST {
                 let mut reply = Vec::new();
                 let query = FindInstance::new(class, channel, axis);
-                // Some devices answer with an error instead.
+                // Some devices return an ADS error instead of this reply.
                 let Some(found) = unless_refused(cnc.call(&query, &mut reply))? else { continue };
                 if let Some(first) = found.first_element()? {
                     elements(&cnc, first)?;
@@ -38,7 +38,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The objects of one list; empty for a channel or axis that does not exist.
+/// Prints the objects of one list; prints nothing for a channel or axis that does not exist.
 fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     let mut reply = Vec::new();
     let count = unless_refused(cnc.call(&CountObjects::new(list), &mut reply))?;
@@ -51,7 +51,7 @@ fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     Ok(())
 }
 
-/// The elements of one instance.
+/// Prints the elements of one instance.
 fn elements(cnc: &Cnc, first: ElementAddress) -> Result<()> {
     let mut reply = Vec::new();
     let count = cnc.call(&CountElements::new(first)?, &mut reply)?.0;

@@ -32,7 +32,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Reads the description by name. An older CNC lacks this function: then searches all variables of the
+/// Reads the description by name. If an older CNC lacks this function, searches all variables of the
 /// kind.
 fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<DescriptionByName> {
     let mut reply = Vec::new();

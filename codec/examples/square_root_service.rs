@@ -57,7 +57,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The response and the response state, which must not be 0.
+/// Computes the response and the response state, which must not be 0.
 fn square_root(request: &str) -> (String, u32) {
     match request.trim().parse::<f64>() {
         Ok(number) if number < 0.0 => {

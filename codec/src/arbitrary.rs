@@ -11,7 +11,7 @@ use crate::rows::any::{open, text, up_to};
 use crate::text::{CncString, Text};
 use crate::{Descriptor, Descriptors};
 
-/// The data of a reply; only a reply with an error may have none.
+/// Generates the data of a reply; `None` only for a result that is an error (ADS-6).
 fn reply_data(u: &mut Unstructured<'_>, result: AdsError) -> Result<Option<Vec<u8>>> {
     if !result.is_ok() && u.arbitrary()? {
         return Ok(None);
@@ -52,7 +52,7 @@ arbitrary! {
         let result = u.arbitrary()?;
         Self { result, data: reply_data(u, result)? }
     };
-    // At least one: an empty list is not a valid stream.
+    // Generate at least one descriptor, because an empty list is not a valid stream.
     Descriptors, u => {
         let mut list: Vec<Descriptor> = up_to(u, ADS_DATA_MAX / DESCRIPTOR_LEN)?;
         if list.is_empty() {

@@ -4,8 +4,8 @@
 #[cfg(feature = "arbitrary")]
 use crate::rows::Owned;
 
-/// The kinds of rows, one line each: the type in a view, the type in an owned type, the row, and the
-/// size and type in the documentation. `as` gives a number its own Rust type.
+/// The kinds of rows. A line defines the type of the row in a borrowed type (a view) and in an owned type,
+/// the implementation of `Row`, and the documented size and type. `as` selects a Rust type for a number.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
     (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
@@ -54,7 +54,7 @@ macro_rules! row {
 ///
 /// | | declares |
 /// |---|---|
-/// | `struct XRef<'a> / X` | a type that borrows its data, and a type that owns it |
+/// | `struct XRef<'a> / X` | a type that borrows its data, and a type that owns its data |
 /// | `struct X` | one type with a field for each number |
 /// | `tuple X` | one type with a single number |
 /// | `packed XLayout` | the bytes of a stream of fixed length whose type is written by hand |
@@ -144,7 +144,7 @@ macro_rules! stream {
     (@static $view:ident / $owned:ident) => { $view<'static> };
     (@static $view:ident) => { $view };
 
-    // A field for each number.
+    // `struct X`: one type with a field for each number.
     (@types struct $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -171,7 +171,7 @@ macro_rules! stream {
         $crate::declare::stream! { @to_bytes () $view $max [$( [$at [$row] $field] )+] }
     };
 
-    // One number.
+    // `tuple X`: one type with a single number.
     (@types tuple $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [[$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal]]
@@ -196,7 +196,7 @@ macro_rules! stream {
         $crate::declare::stream! { @to_bytes $kind $view $max [[$at [$row] 0]] }
     };
 
-    // Numbers and texts of fixed length, as the bytes on the wire.
+    // `packed XLayout`: numbers and texts of fixed length, as the bytes on the wire.
     (@types packed $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -234,7 +234,7 @@ macro_rules! stream {
         };
     };
 
-    // `encode` may reject this number, so there is no `to_bytes`.
+    // No `to_bytes` for this kind of row, because `encode` may reject its number.
     (@to_bytes (UNS32_NON_ZERO) $view:ident $max:literal $rows:tt) => {};
     (@to_bytes $kind:tt $view:ident $max:literal [$( [$at:literal [$row:ty] $member:tt] )+]) => {
         impl $view {
@@ -265,7 +265,7 @@ macro_rules! stream {
                 let head: &[u8; $max] = match $crate::bytes::Reader::exact(stream, bytes) {
                     Ok(head) => head,
                     Err(error) => {
-                        // The error of a row takes precedence over bytes after the last row.
+                        // The error of a row takes precedence over the error for bytes after the last row.
                         if let Some(head) = bytes.first_chunk::<$max>() { $(
                             if <$row as $crate::rows::Row>::REJECTS {
                                 let field = const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) };
@@ -361,7 +361,7 @@ macro_rules! stream {
         }
     };
 
-    // A type that borrows its data, and a type that owns it.
+    // `struct XRef<'a> / X`: a type that borrows its data, and a type that owns its data.
     (@types struct $view:ident / $owned:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:tt]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -482,7 +482,7 @@ macro_rules! stream {
 
 pub(crate) use {row, stream};
 
-/// The bytes of a value in excess of the minimum of its row.
+/// The number of bytes by which an encoded value exceeds the minimum length of its row.
 #[cfg(feature = "arbitrary")]
 pub(crate) fn used<R: Owned>(value: &R::Type) -> usize {
     R::len(R::lend(value)).saturating_sub(R::LEAST)

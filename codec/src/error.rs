@@ -33,8 +33,8 @@ pub struct Error {
     found: u32,
 }
 
-/// The class of an [`Error`]. It defines the meaning of the numbers `expected` and `found`, which each
-/// variant lists in this order.
+/// The class of an [`Error`]. It defines the meaning of the numbers [`Error::expected`] and
+/// [`Error::found`]: see each variant.
 ///
 /// ```
 /// use ads_cnc::{Decode, ErrorKind, Handle};
@@ -46,37 +46,37 @@ pub struct Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The stream ends within the field: bytes that the field needs; bytes found.
+    /// The stream ends within the field. Expected: bytes that the field needs. Found: bytes that remain.
     Truncated,
-    /// Bytes follow the end of the stream: length of the stream; length of the input.
+    /// Bytes follow the end of the stream. Expected: length of the stream. Found: length of the input.
     Trailing,
-    /// The field or stream exceeds its maximum length: the maximum; the length.
+    /// The field or stream exceeds its maximum length. Expected: the maximum. Found: the length.
     TooLong,
-    /// A count exceeds its maximum: the maximum; the count.
+    /// A count exceeds its maximum. Expected: the maximum. Found: the count.
     TooMany,
-    /// No NUL ends the text: maximum length with the NUL; bytes found.
+    /// No NUL ends the text. Expected: maximum length including the NUL. Found: bytes without a NUL.
     MissingNul,
-    /// A NUL inside the text: expected is 0; found is the index of the NUL in the text.
+    /// A NUL inside the text. Expected: 0. Found: index of the NUL in the text.
     InnerNul,
-    /// A character without a CP1252 byte: expected is 0; found is the code point.
+    /// A character without a CP1252 byte. Expected: 0. Found: its code point.
     NotCp1252,
-    /// A character that is not a decimal digit: expected is 0; found is the code point.
+    /// A character that is not a decimal digit. Expected: 0. Found: its code point.
     NotDecimal,
-    /// A number without digits or with too many: maximum number of digits; digits found.
+    /// A number with no digits or too many digits. Expected: maximum number of digits. Found: their number.
     Digits,
-    /// A character where the syntax requires another: expected is 0; found is the code point.
+    /// A character where the syntax requires a different one. Expected: 0. Found: its code point.
     Unexpected,
-    /// A required part is missing; both numbers are 0.
+    /// A required part is missing. Expected and found: 0.
     Missing,
-    /// A value outside its range: the nearest permitted value; the value. The conversions from an
-    /// [`Element`](crate::Element) define the numbers differently.
+    /// A value outside its range. Expected: the nearest permitted value. Found: the value. The
+    /// conversions from an [`Element`](crate::Element) define these numbers differently.
     OutOfRange,
-    /// A value that must equal another one: the other value; this value.
+    /// A value that must equal another value but does not. Expected: the other value. Found: this value.
     Mismatch,
-    /// The index offset of a function, where the offset of content is required: expected is 0; found is
-    /// the offset.
+    /// The index offset of a function, where the offset of content is required. Expected: 0. Found: the
+    /// offset.
     Function,
-    /// The buffer is too small for the encoded stream: bytes needed; bytes available.
+    /// The buffer is too small for the encoded stream. Expected: bytes needed. Found: bytes available.
     BufferTooSmall,
 }
 
@@ -110,23 +110,23 @@ impl Error {
     /// The offset of the field at fault, in bytes from the start of the stream.
     ///
     /// For a [`Subject`] that is not a stream, the offset counts characters of a text or name, or
-    /// indices: see the constructor.
+    /// indices: see the function that returns the error.
     pub const fn offset(&self) -> u32 {
         self.offset
     }
 
-    /// The expected number; its meaning depends on the [`ErrorKind`].
+    /// The expected number; [`ErrorKind`] defines its meaning.
     pub const fn expected(&self) -> u32 {
         self.expected
     }
 
-    /// The found number; its meaning depends on the [`ErrorKind`].
+    /// The found number; [`ErrorKind`] defines its meaning.
     pub const fn found(&self) -> u32 {
         self.found
     }
 }
 
-/// A short description of the class.
+/// Displays a short description of the class.
 impl fmt::Display for ErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -173,7 +173,7 @@ impl fmt::Display for Character {
     }
 }
 
-/// The name and the range of the argument of a constructor.
+/// If a field stands for the argument of a constructor: its name, minimum and maximum.
 fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     const COUNT: Field = Field::of::<ObjectCount>("count");
     match field {
@@ -183,7 +183,7 @@ fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     }
 }
 
-/// The name and the unit of a number that must equal another one.
+/// If a field is a number that must equal another number: its name and its unit.
 fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
     match field {
         typed_value::COUNT => Some(("value", ["element", "elements"])),
@@ -193,7 +193,7 @@ fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
     }
 }
 
-/// Whether the remaining bytes limit a count, and not the maximum of its list.
+/// Whether the limit of a count is due to the remaining bytes, and not the maximum of its list.
 fn is_cut(count: Field, limit: u32) -> bool {
     let mut rows = count.stream().into_iter().flat_map(|stream| stream.layout().fields);
     rows.any(|row| matches!(row.size, Size::Items { max, .. } if max != limit))
@@ -266,7 +266,7 @@ impl fmt::Display for Error {
         }
         let Self { kind, field, offset, expected, found } = *self;
         match field.subject() {
-            // The only part of a text has the name of the subject.
+            // The subject `text` has only one part, also named `text`: do not display both names.
             Subject::Text => f.write_str(field.name())?,
             _ => write!(f, "{field}")?,
         }

@@ -22,8 +22,8 @@ struct Source<'r, R> {
     bytes: Vec<u8>,
 }
 
-/// The number of bytes to read at once. A wrong length allocates at most this much more than the bytes
-/// that the reader has.
+/// The number of bytes to read at once. If a length is wrong, at most this many bytes are allocated in
+/// excess of those that the reader returns.
 const CHUNK: usize = 1024;
 
 impl<R: Read> Pull for Source<'_, R> {
@@ -83,7 +83,7 @@ pub(crate) fn parse<T: Owned, R: Read + Seek>(
     T::pull(&mut source)?;
     let mut input = Reader::without_limit(stream, &source.bytes);
     let read = read_row::<T>(&mut input, field).map(T::own);
-    // A byte that was pulled but not decoded would be lost.
+    // Reject a byte that was pulled but not decoded; otherwise it would be lost.
     let whole = read.and_then(|owned| input.finish().map(|()| owned));
     whole.map_err(|error| custom(error, pos))
 }
@@ -94,7 +94,7 @@ fn read_row<'a, T: Owned>(input: &mut Reader<'a>, field: Field) -> Result<T::Vie
     T::read(input, head, field, to_usize(at))
 }
 
-/// The fixed bytes of a single row, including its count, and the offset after the count.
+/// The number of fixed bytes of a single row, including its count, and the length of the count.
 const fn head<T: Owned>() -> (u32, u32) {
     match T::SIZE {
         Size::Items { .. } => (4, 4),
@@ -127,9 +127,9 @@ pub(crate) fn emit<T: Owned, W: Write + Seek>(
 /// Rejects values that a decoder would reject.
 ///
 /// # Errors
-/// Those of `encode`, except for those of the buffer.
+/// Those of `encode`, except [`ErrorKind::BufferTooSmall`].
 pub(crate) fn check(stream: &impl Encode) -> Result<(), Error> {
-    // `encode` checks the value before the buffer.
+    // An empty buffer is sufficient, because `encode` checks the value before the buffer.
     match stream.encode(&mut []) {
         Err(error) if error.kind() != ErrorKind::BufferTooSmall => Err(error),
         _ => Ok(()),
@@ -151,10 +151,10 @@ pub(crate) fn error<'a, T: Encode + Decode<'a>>(stream: &T) -> Error {
 /// | `AmsHeader` | an address has two rows |
 /// | `DeviceInfoReply`, `Descriptor` | text of fixed length, with setters that check it |
 /// | `Descriptors` | a list of records without a count |
-/// | `ReadReply`, `ReadWriteReply` | rows after an error may be absent (ADS-6) |
+/// | `ReadReply`, `ReadWriteReply` | rows after the result may be absent if it is an error (ADS-6) |
 /// | `ExtendedReply` | a reply may have no bytes |
-/// | `ElementLength` | the width of the number is not documented, and is kept |
-/// | `DynamicValue` | compared by its bits |
+/// | `ElementLength` | the width of the number is not documented, so the received width is kept |
+/// | `DynamicValue` | values are compared by their bits |
 macro_rules! by_hand {
     ($( $type:ty: $from:ident => $pull:expr; )+) => { $(
         impl binrw::meta::ReadEndian for $type {
@@ -171,7 +171,7 @@ macro_rules! by_hand {
                 let decoded = pulled.map_err(binrw::Error::from).and_then(|()| {
                     Self::decode(&$from.bytes).map_err(|error| custom(error, pos))
                 });
-                // Derived implementations seek back too.
+                // After an error, seek back, as implementations derived by binrw do.
                 if decoded.is_err() {
                     reader.seek(SeekFrom::Start(pos))?;
                 }

@@ -87,14 +87,14 @@
 //!
 //! # Streams
 //! A stream has two types: `XRef` borrows from the bytes and never allocates; `X`, with the feature
-//! `alloc`, owns its data. Both accept the same bytes, reject all others with the same [`Error`], and
+//! `alloc`, owns its data. Both types accept the same bytes, reject all others with the same [`Error`], and
 //! encode to the bytes that they were decoded from. A stream of numbers only has one type. [`sections`]
 //! maps the sections of the manuals to this crate; [`layout`] contains the field table of every stream.
 //! Where the manuals contradict each other, [`errata`] lists the reading that this crate implements.
 //!
 //! # Common mistakes
-//! - Decode the bytes that were received, not the whole buffer: some ADS libraries do not return their
-//!   number, and a reply may be shorter than the read length.
+//! - Decode the bytes that were received, not the whole buffer: a reply may be shorter than the read
+//!   length, and some ADS libraries do not return the number of received bytes.
 //! - Send each request to [`Operation::port`](operation::Operation::port): a CNC has one AMS port for
 //!   each task.
 //! - Check the [`Effect`](operation::Effect) of a function before you offer it: some change a value, and
@@ -112,7 +112,7 @@
 //!
 //! # IDs
 //! IDs such as ADR-1, GEN-6 or VAR-9 are requirements. The crate `ads-cnc-vectors` contains their texts,
-//! with the sections in both editions. IDs such as E-17 are errata: see [`errata`].
+//! with the sections of the manuals. IDs such as E-17 are errata: see [`errata`].
 //!
 //! # Features
 //! - `alloc` (default): the owned types and the checks of an NC program.
@@ -156,7 +156,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
-// Every line here processes input from outside, which must not cause a panic.
+// This crate processes input from outside, which must not cause a panic.
 #![cfg_attr(
     not(test),
     deny(

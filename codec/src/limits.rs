@@ -21,41 +21,44 @@ pub(crate) const fn most<T: Declared>(field: &str) -> usize {
     to_usize(T::LAYOUT.most(field))
 }
 
-/// Bytes of a text in a request: 255 characters and the NUL (VAR-1, VAR-9).
+/// Maximum number of bytes of a text in a request: 255 characters and the NUL (VAR-1, VAR-9).
 pub const TEXT_MAX: usize = length::<VariableNameRef<'_>>();
-/// Characters of the name of a variable, without the NUL (VAR-9).
+/// Maximum number of characters of the name of a variable, without the NUL (VAR-9).
 pub const NAME_MAX: usize = TEXT_MAX.saturating_sub(1);
-/// Bytes of a request with index and kind (VAR-3).
+/// Maximum number of bytes of a request with index and kind (VAR-3).
 pub const INDEX_KIND_MAX: usize = length::<VariableIndexKindRef<'_>>();
-/// Bytes of a stream with a description, a handle and indices, or a value (VAR-4, VAR-11, VAR-14).
+/// Maximum number of bytes of a stream with a description, a handle and indices, or a value (VAR-4,
+/// VAR-11, VAR-14).
 pub const VARIABLE_MAX: usize = length::<ValueRef<'_>>();
-/// Bytes of a value written by handle (VAR-12).
+/// Maximum number of bytes of a value written by handle (VAR-12).
 pub const HANDLE_VALUE_MAX: usize = most::<HandleWriteRef<'_>>("value");
-/// Bytes of a value written by name (VAR-13).
+/// Maximum number of bytes of a value written by name (VAR-13).
 pub const NAME_VALUE_MAX: usize = most::<NameWriteRef<'_>>("value");
-/// Dimensions of a description by index, which leave room for an empty name (VAR-24).
+/// Maximum number of dimensions of a description by index; room for an empty name is left (VAR-24).
 pub const DIMENSIONS_MAX: usize = most::<DescriptionRef<'_>>("dimensions");
-/// Dimensions of a description by name, which does not contain the name (VAR-24, VAR-28).
+/// Maximum number of dimensions of a description by name, which contains no name (VAR-24, VAR-28).
 pub const NAMELESS_DIMENSIONS_MAX: usize = most::<DescriptionByNameRef<'_>>("dimensions");
-/// Indices after a handle (VAR-24).
+/// Maximum number of indices after a handle (VAR-24).
 pub const INDICES_MAX: usize = most::<HandleReadRef<'_>>("indices");
-/// Bytes of the name of a dynamic parameter, including the NUL (assumed, DYN-6).
+/// Maximum number of bytes of the name of a dynamic parameter, including the NUL (assumed, DYN-6).
 pub const DYNAMIC_NAME_MAX: usize = length::<DynamicNameRef<'_>>();
-/// Bytes of a text of the Service Interface, including the NUL (assumed, SVC-1).
+/// Maximum number of bytes of a text of the Service Interface, including the NUL (assumed, SVC-1).
 pub const SERVICE_TEXT_MAX: usize = 128;
-/// Bytes of an object descriptor (COM-2).
+/// Number of bytes of an object descriptor (COM-2).
 pub const DESCRIPTOR_LEN: usize = length::<DescriptorLayout>();
-/// Bytes of the name and of the type in an object descriptor (COM-2).
+/// Number of bytes of the name, and of the type, in an object descriptor (COM-2).
 pub const DESCRIPTOR_TEXT_LEN: usize = most::<DescriptorLayout>("name");
-/// Data bytes of an ADS request or reply. The manuals document no limit; this crate assumes one.
+/// Maximum number of data bytes of an ADS request or reply. The manuals document no limit; this value is
+/// assumed.
 pub const ADS_DATA_MAX: usize = to_usize(ADS_DATA);
-/// Bytes of the AMS/TCP header (ADS-5).
+/// Number of bytes of the AMS/TCP header (ADS-5).
 pub const AMS_TCP_HEADER_LEN: usize = length::<AmsTcpHeader>();
-/// Bytes of the AMS header (ADS-5).
+/// Number of bytes of the AMS header (ADS-5).
 pub const AMS_HEADER_LEN: usize = length::<HeaderLayout>();
-/// Bytes of one write to the program stream, MAX_PROGRAM_STREAM_INPUT_SIZE (STM-2).
+/// Maximum number of bytes of one write to the program stream, MAX_PROGRAM_STREAM_INPUT_SIZE (STM-2).
 pub const STREAM_PACKET_MAX: usize = length::<ProgramStreamRef<'_>>();
-/// Bytes that the program stream can hold, MAX_PROGRAM_STREAM_SIZE (STM-3).
+/// Maximum number of bytes that are written to the program stream but not read by the CNC yet,
+/// MAX_PROGRAM_STREAM_SIZE (STM-3).
 pub const STREAM_MAX: usize = 4094;
-/// Characters of a line in the program stream: a packet without CR LF (STM-20).
+/// Maximum number of characters of a line in the program stream: a packet without CR LF (STM-20).
 pub const NC_LINE_MAX: usize = STREAM_PACKET_MAX.saturating_sub(2);

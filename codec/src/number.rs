@@ -2,7 +2,7 @@
 
 /// Declares a code: a number with names for the documented values. Other values are kept.
 ///
-/// `in hex`: shown in hexadecimal; `in error`: shown in hexadecimal and decimal, as an ADS error.
+/// `in hex` displays the number in hexadecimal, `in error` in hexadecimal and decimal as an ADS error.
 macro_rules! code {
     (
         $(#[$doc:meta])*
@@ -35,7 +35,7 @@ macro_rules! code {
         $crate::number::from_number!($number: $code);
     };
     (@shown $code:ident) => {
-        /// The name, or the number if it is not documented.
+        /// Displays the name, or the number if it is not documented.
         impl core::fmt::Display for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 match self.name() {
@@ -52,7 +52,7 @@ macro_rules! code {
         }
     };
     (@shown $code:ident hex) => {
-        /// The name and the number, or the number if it is not documented.
+        /// Displays the name and the number, or only the number if it is not documented.
         impl core::fmt::Display for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 match self.name() {
@@ -65,8 +65,8 @@ macro_rules! code {
         $crate::number::code! { @hex $code }
     };
     (@shown $code:ident error) => {
-        /// The number in hexadecimal and decimal, and the name if it is documented. The text begins with
-        /// `ADS error`, so that it is clear as a `Box<dyn Error>`.
+        /// Displays the number in hexadecimal and decimal, and the name if it is documented. The text
+        /// begins with `ADS error`, so that it is clear when displayed as a `Box<dyn Error>`.
         impl core::fmt::Display for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 write!(f, "ADS error {0:#x} ({0}", self.0)?;
@@ -80,7 +80,7 @@ macro_rules! code {
         $crate::number::code! { @hex $code }
     };
     (@hex $code:ident) => {
-        /// The number without the name.
+        /// Formats the number, without the name.
         impl core::fmt::LowerHex for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 core::fmt::LowerHex::fmt(&self.0, f)
@@ -95,7 +95,7 @@ macro_rules! code {
     };
 }
 
-/// Conversions of a code from its number and back.
+/// Implements the conversions of a code from its number and back.
 macro_rules! from_number {
     ($( $code:ident ),+) => { $crate::number::from_number!(u32: $($code),+); };
     ($number:ident: $( $code:ident ),+) => { $(
@@ -115,7 +115,7 @@ macro_rules! from_number {
     )+ };
 }
 
-/// `Display`, `Debug` and the conversions of a stream that is a single number.
+/// Implements `Display`, `Debug` and the conversions for a stream that is a single number.
 macro_rules! shown {
     ($name:ident) => {
         $crate::number::shown!(u32: $name);

@@ -10,7 +10,7 @@ use crate::ads::AmsNetId;
 use crate::dynamic::DynamicValue;
 use crate::text::{CncString, Text, TextRef};
 
-/// Types that serialize as strings, in the format of `Display` and `FromStr`.
+/// Implements serialization as a string, in the format of `Display` and `FromStr`.
 macro_rules! strings {
     ($( $type:ty )+) => { $(
         impl Serialize for $type {
@@ -29,7 +29,8 @@ macro_rules! strings {
 
 strings! { AmsNetId CncString }
 
-/// A [`Text`]: a string if it ends in one NUL, otherwise a map with the bytes after its NUL.
+/// The serialized form of a [`Text`]: a string if it ends in one NUL, otherwise a map with the bytes after
+/// its NUL.
 #[derive(Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -64,7 +65,7 @@ impl From<Text> for TextShape {
     }
 }
 
-/// A text in a field of `N` bytes. NULs that pad it are not a tail.
+/// A text in a field of `N` bytes. The NULs that pad the text are not serialized as its tail.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "Text", into = "Text")]
 pub(crate) struct Padded<const N: usize>([u8; N]);
@@ -106,7 +107,7 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
     }
 }
 
-/// A REAL64: a number, or the bits of a number that is not finite.
+/// The serialized form of a REAL64: a number, or the bits of a number that is not finite.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, deny_unknown_fields, expecting = "expected REAL64: a number, or a map of `bits`")]
 pub(crate) enum Real {

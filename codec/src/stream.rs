@@ -6,8 +6,8 @@ use crate::layout::{Size, Stream};
 
 /// Decodes a stream.
 ///
-/// `XRef` types borrow from the bytes and never allocate; `X` types own their data. Both accept the same
-/// bytes and reject all others with the same [`Error`].
+/// `XRef` types borrow from the bytes and never allocate; `X` types own their data. Both types of a stream
+/// accept the same bytes and reject all other bytes with the same [`Error`].
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
 ///
@@ -26,7 +26,7 @@ pub trait Decode<'a>: Sized {
     /// The stream that this type decodes, with its field table.
     const STREAM: Stream;
 
-    /// Decodes the stream, which must consist of exactly these bytes.
+    /// Decodes the stream, which must have exactly the length of `bytes`.
     ///
     /// # Errors
     /// The first fault, with field and offset.
@@ -34,8 +34,8 @@ pub trait Decode<'a>: Sized {
 
     /// Decodes the stream at the front of the bytes, and returns the remaining bytes.
     ///
-    /// A stream of fixed fields ends after its last field, a list after its counted items. A stream
-    /// that ends in text or data extends to the end of the bytes.
+    /// A stream of fixed fields ends after its last field; a stream whose last field is a list ends after
+    /// its counted items. A stream that ends in text or data extends to the end of the bytes.
     ///
     /// ```
     /// use ads_cnc::{Decode, Handle, HandleReadRef, U32List};
@@ -52,7 +52,7 @@ pub trait Decode<'a>: Sized {
     ///
     /// # For implementors
     /// By default, content of your own types extends to the end of the bytes. Override this method if
-    /// the content determines its own end.
+    /// the content itself determines its end.
     fn decode_prefix(bytes: &'a [u8]) -> Result<(Self, &'a [u8]), Error> {
         let (stream, rest) =
             bytes.split_at_checked(prefix(Self::STREAM, bytes)).unwrap_or((bytes, &[]));
@@ -60,7 +60,7 @@ pub trait Decode<'a>: Sized {
     }
 }
 
-/// The length of the stream at the front of these bytes.
+/// The length of the stream at the front of `bytes`.
 fn prefix(stream: Stream, bytes: &[u8]) -> usize {
     let layout = stream.layout();
     let (mut at, mut count) = (0_usize, 0);
@@ -110,7 +110,7 @@ pub trait Encode {
     /// Writes the stream to the front of `buf` and returns the bytes written.
     ///
     /// # Errors
-    /// A value that the decoder would reject, or a buffer that is too small. Nothing is written then.
+    /// A value that the decoder would reject, or a buffer that is too small. On error, nothing is written.
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
     /// Encodes the stream into a new vector.

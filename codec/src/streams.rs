@@ -1,4 +1,4 @@
-//! The types of all streams, for code that treats all of them alike.
+//! The types of all streams, for code that treats all streams alike.
 
 use crate::layout::Stream;
 use crate::stream::Decode;

@@ -86,7 +86,7 @@ fn groups_of_the_com_task() {
         assert_eq!(built.get(), printed);
         assert_eq!(parts(printed), com(Logical, access, table, instance));
     }
-    // Printed as the base of all platform axes, and also as a complete group (E-04).
+    // The manuals print this group as the base of all platform axes, and also as a complete group (E-04).
     assert_eq!(parts(0x12_0200), com(Logical, Access::Element, ComTable::Axis, 0));
 }
 
@@ -107,7 +107,7 @@ fn bases_of_the_classes() {
     }
 }
 
-/// ADR-6, SDA-10: the attributes of feedhold.enable, as printed.
+/// ADR-6, SDA-10: the groups of the attributes of feedhold.enable, as the manuals print them.
 #[test]
 fn attributes_of_an_element() {
     for (printed, attribute) in [
@@ -163,7 +163,7 @@ fn only_address_0_0_has_no_first_element() {
     }
 }
 
-/// ADR-12: each base is also printed without the logical bit, and differs only in this bit.
+/// ADR-12: the manuals also print each base without the logical bit; both groups differ only in this bit.
 #[test]
 fn bases_without_the_logical_bit() {
     for (without, with) in [(0x2_0100, 0x12_0100), (0x2_0200, 0x12_0200), (0x2_0300, 0x12_0300)] {
@@ -175,7 +175,7 @@ fn bases_without_the_logical_bit() {
     }
 }
 
-/// ADR-10: an undocumented group does not parse, and keeps its number.
+/// ADR-10: an undocumented group does not parse, but its number is unchanged.
 #[test]
 fn undocumented_groups_do_not_parse() {
     for number in [
@@ -224,7 +224,7 @@ fn axes_with_both_strides() {
     let error = IndexOffset::new(0x1000_0000).axis_and_element(AxisStride::X1000).unwrap_err();
     assert_eq!((error.kind(), error.expected()), (ErrorKind::OutOfRange, 0xFFFF));
     assert_eq!((error.field().name(), error.found()), ("axis", 0x1_0000));
-    // The largest of each.
+    // The offset of the largest axis and element with each stride.
     assert_eq!(offset(AxisStride::X10000, 0xFFFF, 0xFFFF), u32::MAX);
     assert_eq!(offset(AxisStride::X1000, 0xFFFF, 0xFFF), 0x0FFF_FFFF);
 }

@@ -21,7 +21,7 @@ proptest! {
     }
 }
 
-/// The generators produce rare values: each end of a text, data and none, many items.
+/// The generators also produce rare values: each end of a text, replies with and without data, many items.
 #[test]
 fn values_vary() {
     let mut seen = std::collections::BTreeSet::new();
@@ -37,7 +37,7 @@ fn values_vary() {
         let variable: Description = made(&bytes);
         seen.insert(match variable.name.tail {
             None => {
-                // Without a character it would be none.
+                // A name without a NUL has at least one character; otherwise there would be no name.
                 assert!(!variable.name.text.as_bytes().is_empty());
                 "open name"
             }

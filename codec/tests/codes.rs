@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{Synchronisation, U32List, Validity, VariableAccess, VariableType, WriteAccess};
 
-/// The names of the numbers up to 0xFFF.
+/// The numbers up to 0xFFF that have a name, and their names.
 macro_rules! names {
     ($code:ident) => {
         (0..0x1000).filter_map(|number| Some((number, $code(number).name()?))).collect::<Vec<_>>()

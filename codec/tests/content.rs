@@ -48,13 +48,14 @@ fn addresses_of_functions_are_rejected_for_content() {
         };
         assert_eq!((error.kind(), error.found()), (ErrorKind::Function, offset.get()));
     }
-    // A Read of 0x02 … 0x05 is that function; a Read of element 0 counts the elements.
+    // A Read of the offsets 0x02 … 0x05 is dispatched to `CountDynamic`, and a Read of element 0 to
+    // `CountElements`.
     for offset in 2..=5 {
         let reached = content(0x12_2301, offset).dispatch().unwrap();
         assert_eq!(reached.function(), Function::CountDynamic);
     }
     assert_eq!(content(0x12_3301, 0).dispatch().unwrap().function(), Function::CountElements);
-    // Other classes, platforms of other channels and the first axis have no such functions.
+    // Other classes, channel 0 and other elements of the decoder have no functions.
     for (group, offset) in [(0x12_1301, 0x44), (0x12_2300, 0x44), (0x12_2301, 7)] {
         assert_eq!(content(group, offset).dispatch().unwrap().function(), Function::ReadElement);
     }
@@ -73,8 +74,8 @@ fn the_count_of_a_platform_axis_is_a_read_of_content() {
     assert_eq!(canonical.encode(&mut []), Ok(sent));
 }
 
-/// The content of a platform axis has the address of the table in 2.1 and of the example in 2.1.2
-/// (E-04). Its descriptors have only one group.
+/// The content of a platform axis has two addresses, those of the table in 2.1 and of the example in 2.1.2
+/// (E-04). Its descriptors have only one address: their group without an axis is rejected.
 #[test]
 fn content_of_a_platform_axis_has_two_addresses() {
     let call = |group, offset| Call {

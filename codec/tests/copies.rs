@@ -60,7 +60,7 @@ fn lists_contain_the_added_items_in_order() {
     assert!(name == names[1] && name == *names[1] && name != names[0]);
 }
 
-/// Text of a program is encoded as CP1252 with its NUL, or rejected.
+/// A Rust string is encoded as CP1252 with its NUL, or rejected.
 #[test]
 fn texts_of_a_program_are_cp1252_or_rejected() {
     let text: Text = "größer".parse().unwrap();

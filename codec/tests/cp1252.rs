@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::common::text::{CncStrBend, check_cp1252, check_utf8};
 use super::kept;
 
-/// Every byte has the same character as in encoding_rs.
+/// Every byte has the same character as in the crate `encoding_rs`.
 #[test]
 fn bytes_decode_as_elsewhere() {
     for byte in 0..=u8::MAX {
@@ -20,7 +20,7 @@ fn bytes_decode_as_elsewhere() {
     }
 }
 
-/// Exactly those characters have a byte that have one in encoding_rs.
+/// A character has a byte if and only if it has one in the crate `encoding_rs`.
 #[test]
 fn characters_encode_as_elsewhere() {
     let mut encoder = WINDOWS_1252.new_encoder();

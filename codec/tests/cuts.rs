@@ -1,5 +1,6 @@
 //! Every sample truncated at every length, and with one extra byte: the result is an error with field
-//! and offset, or a requirement permits it. It is the same for each type of the stream.
+//! and offset, or a requirement permits the changed bytes. The result is the same for each type of the
+//! stream.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +13,7 @@ use super::common::{Fault, Sample, check, each_sample, fault};
 /// The expected result of changed bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Expected {
-    /// The requirement that permits it.
+    /// The bytes are accepted, because this requirement permits them.
     Accepted(&'static str),
     Refused(Fault),
 }
@@ -43,7 +44,7 @@ const DYN_3: &str = "DYN-3: a name may come without its NUL";
 const STM_5: &str = "STM-5: whether lines are whole, the CNC says when it reads them";
 const VAR_16: &str = "VAR-16: V.G and V.A have no extended description";
 
-/// All requirements that permit a sample to lose or gain bytes. Each must occur below.
+/// All requirements that permit missing or extra bytes. The test fails if one of them permits no sample.
 const ALLOWED: [&str; 16] = [
     ADS_6,
     COM_3,
@@ -75,19 +76,19 @@ fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     }
 }
 
-/// How a text reacts to missing bytes and to an extra byte.
+/// The kind of a text field, which determines whether missing and extra bytes are accepted.
 #[derive(Clone, Copy, PartialEq)]
 enum Text {
-    /// Ends with a NUL; more NULs may follow.
+    /// The text ends with a NUL; more NULs may follow.
     Terminated,
-    /// Ends with a NUL, which more NULs may follow, or with the stream.
+    /// The text ends with a NUL, which more NULs may follow, or at the end of the stream.
     MayTerminate,
-    /// Ends with a NUL or with the stream, anything may follow: the clauses for what is behind the
-    /// NUL, for the end of the stream, for a longer text.
+    /// The text ends with a NUL, after which any bytes may follow, or at the end of the stream. Three
+    /// requirements permit this: the bytes after the NUL, the end of the stream, and a longer text.
     Open([&'static str; 3]),
 }
 
-/// Text fields, for which missing or extra bytes are not always an error.
+/// The kind of a text field; `None` for other fields.
 fn text_of(stream: Stream, field: &str) -> Option<Text> {
     match (stream, field) {
         (Stream::VariableKind | Stream::VariableIndexKind, "kind") => Some(Text::Terminated),
@@ -151,7 +152,7 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
         {
             Expected::Accepted(ADS_6)
         }
-        // Too few items are a fault of their count, which precedes them.
+        // The error for too few items is reported at their count, which is the previous field.
         (None, _, "dimensions" | "indices") => {
             let of_items = |&(other, ..): &(&str, usize, &[u8])| other == name;
             let (_, first, _) = sample.places().find(of_items).unwrap();
@@ -197,7 +198,7 @@ fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
             rejected(Truncated, "length", 4, (4, 1))
         }
         (_, Some((name, start, bytes))) => match text_of(stream, name) {
-            // The text fills the stream, or has its maximum length.
+            // A text of maximum length cannot have an extra byte.
             Some(Text::Open(_)) if stream == Stream::VariableDescription && bytes.len() == 256 => {
                 rejected(TooLong, name, start, (256, 257))
             }
@@ -265,7 +266,7 @@ fn text_after_the_nul_of_a_request_is_trailing() {
     }
 }
 
-/// A stream without fields is walked like it is decoded.
+/// A walk of the stream without fields accepts and rejects the same bytes as its decoder.
 #[test]
 fn no_data_rejects_bytes() {
     assert!(Stream::NoData.walk(&[], |_| ()).is_ok());

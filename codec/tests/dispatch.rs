@@ -11,7 +11,8 @@ use proptest::prelude::*;
 use super::common::{CALLS, check_call};
 use super::kept;
 
-/// Each sample is dispatched to its function and encodes to the same call; every function occurs.
+/// Each sample of a call is dispatched to its function and encodes to the same call. Every function occurs
+/// in a sample.
 #[test]
 fn calls_are_dispatched_to_their_functions() {
     let mut reached = BTreeSet::new();
@@ -58,7 +59,7 @@ fn a_call_with_one_fault_is_rejected_for_it() {
     let offset = IndexOffset::new;
     let cases = [
         (refusal(|call| call.port = AmsPort(851)), DispatchError::Port(AmsPort(851)), 0x6),
-        // COM does not serve classes, SDA does not serve objects.
+        // The task COM does not serve classes, the task SDA does not serve objects.
         (refusal(|call| call.port = AmsPort::COM), DispatchError::Group(group(0x12_2301)), 0x702),
         (
             refusal(|call| call.index_group = group(0x13_0101)),
@@ -119,7 +120,7 @@ fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
         let call = Call { port, service, index_group, index_offset, read_length: 84, data };
         reached = match call.dispatch() {
             Ok(request) => return request.function().spec().name.to_owned(),
-            // Other functions require other data.
+            // This data is not valid for the function: try the data of another function.
             Err(DispatchError::Stream(_)) => continue,
             Err(DispatchError::Port(_)) => "no port".to_owned(),
             Err(DispatchError::Group(_)) => "no group".to_owned(),
@@ -133,8 +134,8 @@ fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
     reached
 }
 
-/// A snapshot of the functions of Read, Write and ReadWrite near every group and offset. Groups with
-/// equal results are combined, and so are offsets.
+/// A snapshot of the functions that Read, Write and ReadWrite reach near every group and offset. Groups with
+/// equal results are combined; so are consecutive offsets with equal results.
 #[test]
 #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
 fn dispatch_reaches_the_same_functions() {

@@ -8,7 +8,7 @@ use ads_cnc::service::ServiceId;
 use ads_cnc::value::Boolean;
 use ads_cnc::*;
 
-/// Checks that all of `same` are equal, and differ from `other` in value and hash.
+/// Checks that all values in `same` are equal, and that `other` differs from them in value and hash.
 #[track_caller]
 fn check<T: Hash + Eq + std::fmt::Debug>(same: &[T], other: T) {
     let state = BuildHasherDefault::<DefaultHasher>::default();
@@ -38,7 +38,7 @@ fn texts_are_equal_by_their_characters() {
     }
 }
 
-/// Names are compared with case.
+/// Names are compared with regard to case.
 #[test]
 fn names_are_equal_by_their_text_and_its_case() {
     let path = |text| VariablePath::new(text).unwrap();
@@ -50,7 +50,7 @@ fn names_are_equal_by_their_text_and_its_case() {
     check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
 }
 
-/// A decoded name is used in a request without its end.
+/// A request for a decoded name contains the text of the name, without its decoded end.
 #[test]
 fn decoded_names_are_requested_by_their_text() {
     let channel = address::Channel::new(1).unwrap();
@@ -66,7 +66,7 @@ fn decoded_names_are_requested_by_their_text() {
     }
 }
 
-/// NULs after a kind are not part of it, but they are part of a text with its end (E-34).
+/// NULs after a kind are not part of the kind, but they are part of a text field (E-34).
 #[test]
 fn kinds_are_equal_by_their_text() {
     let padded = VariableKindRef::decode(b"V.E\0\0").unwrap().kind;
@@ -88,7 +88,7 @@ fn uuids_are_equal_without_regard_to_case() {
     );
 }
 
-/// Lists from all sources are equal if they have the same numbers and length.
+/// Lists from streams, from memory and from names are equal if they have the same numbers.
 #[test]
 fn lists_of_numbers_from_all_sources_are_equal() {
     let name = VariablePath::new("V.E.a[3][0]").unwrap();

@@ -61,7 +61,7 @@ fn a_call_encodes_to_the_request_of_its_service() {
         assert_eq!(Call::from_frame(&frame(command)), Ok(Some(call)));
         assert_eq!(Call::from_frame(&frame(Command::READ_STATE)), Ok(None));
         let header = AmsHeader::request(TARGET, SOURCE, command, 7);
-        // A tool that sees both directions must check the flags first.
+        // `from_frame` ignores the state flags; a tool that decodes both directions must check them itself.
         let flagged = AmsHeader { state_flags: StateFlags::RESPONSE, ..header };
         assert_eq!(Call::from_frame(&FrameRef::new(flagged, bytes).unwrap()), Ok(Some(call)));
         let cut = FrameRef::new(header, &bytes[..bytes.len() - 1]).unwrap();
@@ -90,7 +90,7 @@ fn the_header_of_a_response_matches_its_request() {
     assert_eq!(of_data.response(), wanted);
 }
 
-/// A fault is reported when its last byte has arrived, whatever follows.
+/// A fault is reported when the last byte of the faulty field has arrived, whatever bytes follow.
 #[test]
 fn a_fault_is_reported_as_soon_as_its_bytes_arrive() {
     for (at, byte, seen, wanted) in [
@@ -111,13 +111,13 @@ fn a_fault_is_reported_as_soon_as_its_bytes_arrive() {
     }
 }
 
-/// A length that overflows with that of the header is not a short frame.
+/// The sum of the length of the data and that of the header does not overflow to the length of a short frame.
 #[test]
 fn lengths_do_not_wrap() {
     let mut bytes = frame(b"");
     bytes[2..6].copy_from_slice(&[0xFF; 4]);
     let error = FrameRef::split(&bytes, u32::MAX).unwrap_err();
-    // Rejected by the named maximum before the data length is compared.
+    // The length is rejected because it exceeds `ADS_DATA_MAX`, before it is compared with `data_length`.
     assert_eq!((error.kind(), error.offset()), (TooLong, 2));
     let most = u32::try_from(ads_cnc::limits::ADS_DATA_MAX + 16 + 32).unwrap();
     bytes[2..6].copy_from_slice(&most.to_le_bytes());

@@ -14,7 +14,7 @@ use super::common::{CALLS, CallSample, check_reply, check_request, each_sample};
 use super::damage::{Damage, damage};
 use super::kept;
 
-/// Every sample and vector of a stream; empty without a stream.
+/// Every sample and vector of a stream; without a stream, only the empty data.
 fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {
     let Some(stream) = stream else { return vec![vec![]] };
     let samples = each_sample().filter(|&(other, _)| other == stream);
@@ -39,7 +39,7 @@ fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
 }
 
 /// Each function accepts and rejects the same data as the stream of its request, for every sample and
-/// vector and their truncations; accepted calls encode to themselves.
+/// vector and their truncations. An accepted call encodes to the same call.
 #[test]
 fn requests_are_those_of_the_table() {
     let mut accepted = BTreeSet::new();
@@ -78,7 +78,7 @@ fn replies_are_those_of_the_table() {
 proptest! {
     #![proptest_config(kept::cases(2000, file!()))]
 
-    /// The same for mutated requests and replies.
+    /// Mutated requests and replies have the same results as the streams in the row of the function.
     #[test]
     fn damaged_requests_and_replies_are_those_of_the_table(
         sample in select((0..CALLS.len()).collect::<Vec<_>>()),

@@ -54,7 +54,7 @@ fn join_is_the_inverse_of_a_walk() {
     assert!(counts > 20, "{counts}");
 }
 
-/// An omitted, repeated or longer part is an error, or the result has exactly these parts.
+/// If a part is omitted, repeated or longer, the result is an error or has exactly the changed parts.
 #[test]
 fn joined_bytes_have_exactly_the_parts() {
     for (stream, sample) in each_sample() {
@@ -101,7 +101,7 @@ fn errors_name_the_wrong_part() {
     };
     let four = &[1, 0, 0, 0][..];
     let cases: [JoinCase<'_>; 9] = [
-        // A number of three bytes.
+        // A number with three bytes instead of four.
         (Stream::VariableHandle, &[("handle", &[1, 2, 3])], (Truncated, "handle", 0, 4, 3)),
         (Stream::VariableIndexKind, &[("kind", b"V.E\0")], (MissingNul, "kind", 4, 256, 0)),
         (
@@ -109,7 +109,7 @@ fn errors_name_the_wrong_part() {
             &[("index", four), ("kind", b"V.E")],
             (MissingNul, "kind", 4, 256, 3),
         ),
-        // Out of order: the kind is missing.
+        // Two parts in the wrong order: at the position of the kind, the kind is missing.
         (
             Stream::VariableIndexKind,
             &[("kind", b"V.E\0"), ("index", four)],

@@ -45,7 +45,7 @@ ads_cnc::streams! { each }
 #[test]
 fn vectors_are_unchanged() {
     let streams = vectors().iter().filter(|vector| vector.is_accepted()).filter_map(|vector| {
-        // Addresses, paths and frames are not streams of the codec.
+        // Skip the vectors of addresses, paths and frames, which are not streams of the codec.
         let stream = Stream::by_name(&vector.stream)?;
         assert!(stream_comes_back(stream, &vector.bytes()), "{}", vector.id);
         Some(stream)
@@ -76,7 +76,7 @@ fn streams_are_maps_of_their_fields() {
     assert_eq!(header.as_object().map(serde_json::Map::len), Some(9));
 }
 
-/// Properties that need more than numbers and strings.
+/// Values that are more than numbers and strings: ends of texts, widths of numbers, absent data.
 #[test]
 fn ends_widths_and_absent_data_are_kept() {
     assert_eq!(shape::<VariableName>(b"a\0\0"), json!({ "name": { "text": "a", "tail": [0] } }));
@@ -103,8 +103,8 @@ fn blank() -> Description {
     Description::decode(&[&[0; 20][..], b"x"].concat()).unwrap()
 }
 
-/// Values that do not fit a type are errors of deserialization; those that do not fit a stream, of
-/// encoding.
+/// A value that does not fit a type is an error when it is deserialized; a value that only does not fit the
+/// stream is an error when it is encoded.
 #[test]
 fn values_are_checked() {
     let error = |json: Value| from_value::<VariableName>(json).unwrap_err().to_string();
@@ -159,7 +159,7 @@ fn unknown_forms_are_rejected() {
     assert_eq!(error, "invalid type: integer `1`, expected AMS header");
 }
 
-/// Any valid value of a stream.
+/// Any valid value of a stream is unchanged by serialization to JSON and back.
 #[cfg(feature = "arbitrary")]
 #[test]
 fn generated_values_are_unchanged() {

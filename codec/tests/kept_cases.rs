@@ -1,4 +1,4 @@
-//! Random cases that failed are stored in files and run again. The files are optional.
+//! The seeds of failed random cases are stored in files, and these cases run again. The files are optional.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use super::kept;
 const KEPT: usize = 2;
 const NEW: u32 = 3;
 
-/// The cases in order, and whether all passed.
+/// Runs cases; returns them in order, and whether all of them passed.
 fn run(config: ProptestConfig, well: impl Fn(u64) -> bool) -> (Vec<u64>, bool) {
     let seen = std::cell::RefCell::new(Vec::new());
     let result = TestRunner::new(config).run(&any::<u64>(), |number| {
@@ -28,7 +28,7 @@ fn kept_in(folder: &Path) -> ProptestConfig {
     ProptestConfig { cases: NEW, failure_persistence, ..ProptestConfig::default() }
 }
 
-/// A unique folder.
+/// The path of a folder that no other test or process uses.
 fn folder(name: &str) -> PathBuf {
     let folder =
         Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));

@@ -22,7 +22,7 @@ fn streams_are_accepted_up_to_their_maximum_length() {
         bytes
     };
     let data_length = [0, 0, 0x40, 0];
-    // The fields of the other streams determine their end.
+    // The fields of all other streams determine their end, so they have no maximum length to test.
     let has_limit = |stream: &Stream| !stream.layout().is_fixed() && !stream.layout().repeats;
     let mut rest: BTreeSet<_> = Stream::all().filter(has_limit).collect();
     rest.remove(&Stream::ElementLength);
@@ -31,7 +31,7 @@ fn streams_are_accepted_up_to_their_maximum_length() {
         (Stream::VariableName, filled(&[&[b'V'; 255], b"\0"], 256)),
         (Stream::VariableIndexKind, filled(&[&[b'V'; 259], b"\0"], 260)),
         (Stream::VariableValue, filled(&[], 2048)),
-        // 510 indices; 506 dimensions and a name of 4 bytes; 443 and a name of 256.
+        // 510 indices; 506 dimensions and a name of 4 bytes; 443 dimensions and a name of 256 bytes.
         (Stream::VariableHandleRead, filled(&[&[1; 4], &[0xFE, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xFA, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xBB, 1, 0, 0]], 2048)),
@@ -73,7 +73,7 @@ fn counts_that_do_not_fit_are_rejected() {
         (Stream::VariableDescriptionByName, 2, 4, 1),
         (Stream::VariableHandleRead, 511, 2040, 510),
         (Stream::VariableHandleRead, 1, 0, 0),
-        // Four times this is 4, in 32 bits.
+        // In 32 bits, four times this count overflows to 4.
         (Stream::VariableHandleRead, 0x4000_0001, 4, 1),
     ] {
         let (before, counter) = match stream {
@@ -197,7 +197,7 @@ fn encoders_reject_what_decoders_reject() {
     assert_eq!(refusal(&none), fault(Truncated, "id", 0, (4, 0)));
 }
 
-/// DYN-5: parameters are counted from 1.
+/// DYN-5: parameters are counted from 1, so index 0 is rejected.
 #[test]
 fn parameter_0_is_rejected() {
     let error = check(Stream::DynamicIndex, &[0; 4]).unwrap_err();

@@ -1,5 +1,5 @@
-//! Tests of the codec, in one program: most use the same samples and laws, and a link takes longer than most
-//! of them run.
+//! Tests of the codec, in one program: most tests use the same samples and laws, and linking a program takes
+//! longer than running most of the tests.
 
 mod common;
 mod damage;
@@ -45,7 +45,7 @@ mod typed_writes;
 mod values;
 mod vectors;
 
-/// Cargo does not look for test files here, so that all are in one program.
+/// Every file of this folder is a module of this program. Cargo itself does not search the folder for tests.
 #[test]
 fn every_file_is_a_module() {
     let modules = include_str!("main.rs");

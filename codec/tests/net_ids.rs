@@ -7,7 +7,7 @@ use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
 
 use super::common::{Fault, fault};
 
-/// Every byte at every position, with and without leading zeros.
+/// Every byte at every position of a NetId is displayed and parsed, also with leading zeros.
 #[test]
 fn displayed_net_ids_are_parsed() {
     for place in 0..6 {
@@ -21,7 +21,7 @@ fn displayed_net_ids_are_parsed() {
     }
 }
 
-/// The offset of an error is that of the wrong number.
+/// An invalid text is rejected. The offset of the error is the offset of the wrong number.
 #[test]
 fn invalid_net_ids_are_rejected() {
     for (text, wanted) in [

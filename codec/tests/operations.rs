@@ -1,4 +1,4 @@
-//! Any valid operation is dispatched to itself: `dispatch(encode(op)) = op`.
+//! Any valid operation is dispatched to the same operation: `dispatch(encode(op)) = op`.
 
 use ads_cnc::address::{
     Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -118,7 +118,7 @@ proptest! {
                 check_operation(ReadElementLength::new(address));
                 check_operation(ReadElementUnit::new(address));
                 check_operation(ReadElementWriteFlag::new(address));
-                // A function or an element; the first element counts the others.
+                // The element may be a function of the decoder, or the first element, which contains a count.
                 match ReadElement::new(address, length) {
                     Ok(read) => {
                         check_operation(read);
@@ -144,7 +144,7 @@ proptest! {
     ) {
         let axis = PlatformAxis::new(axis).unwrap().com(Access::Element);
         let platform = IndexGroup::new(0x12_0100);
-        // With the axis in the offset (E-04).
+        // The group of all platform axes: the offset contains the axis (E-04).
         let axes = IndexGroup::new(0x12_0200);
         let offset = IndexOffset::new(offset);
         for group in [platform, axis, axes, channel.com(Access::Element)] {
@@ -179,7 +179,7 @@ proptest! {
         };
         for &function in Function::ALL {
             if let Err(error) = check_made(function, &of, &|_| ()) {
-                // The address belongs to another function.
+                // An operation is only rejected if its address belongs to a different function.
                 prop_assert_eq!(error.kind(), ErrorKind::Function, "{:?}: {}", function, error);
                 prop_assert!(function.spec().is_content() || function == Function::CountElements);
             }

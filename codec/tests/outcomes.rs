@@ -1,11 +1,11 @@
 //! The codec accepts, rejects and dispatches what version 0.1.0 did, with the same bytes and errors.
 //!
 //! `outcomes.tsv` has a row for each vector, sample of a call and index group: a digest of the inputs made of
-//! it and one of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before streams and
+//! it and a digest of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before streams and
 //! functions were declared by macros) and with the sources of version 0.2.0. All rows were equal, without
 //! exception.
 //!
-//! A new vector or sample adds rows and changes none. Compare the new rows with version 0.1.0: check out
+//! A new vector or sample adds rows and changes no existing row. Compare the new rows with version 0.1.0: check out
 //! 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename `DispatchError` to `Refusal`,
 //! the fields of its `Service` to `takes` and `asked`, and `subject().name()` to `stream()`, run the test
 //! there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
@@ -22,7 +22,7 @@ use ads_cnc_vectors::{Vector, vectors};
 
 use super::common::{CALLS, CallSample, Fault, Subject};
 
-/// Mutations of each vector.
+/// The number of mutations of each vector.
 const MUTATIONS: usize = 48;
 
 /// FNV-1a, 64 bits.
@@ -33,14 +33,14 @@ impl Digest {
     const PRIME: u64 = 0x100_0000_01B3;
 
     fn add(&mut self, bytes: &[u8]) {
-        // The length too: otherwise a byte could move from one input to the next.
+        // Also add the length: otherwise a byte that moves from one input to the next would change nothing.
         self.0 = (self.0 ^ bytes.len() as u64).wrapping_mul(Self::PRIME);
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(Self::PRIME);
         }
     }
 
-    /// 32 bits, so that a row is short.
+    /// The digest reduced to 32 bits, so that a row is short.
     fn short(&self) -> u32 {
         (self.0 ^ (self.0 >> 32)) as u32
     }
@@ -66,7 +66,8 @@ impl Random {
     }
 }
 
-/// What was computed: by kind of input, and by the vector, sample or index group that the inputs are made of.
+/// The computed rows, by the kind of the inputs and by the vector, sample or index group that the inputs are
+/// made of.
 type Rows = BTreeMap<(&'static str, String), Row>;
 
 /// A row of `outcomes.tsv`.
@@ -81,7 +82,7 @@ impl Row {
     const EMPTY: Self =
         Self { inputs: 0, given: Digest::EMPTY, accepted: 0, outcomes: Digest::EMPTY };
 
-    /// An input, and its outcome: the bytes encoded again, or the error.
+    /// Adds an input and its outcome: the bytes encoded again, or the error.
     fn add(&mut self, input: &[u8], outcome: Outcome) {
         self.inputs += 1;
         self.given.add(input);
@@ -98,7 +99,7 @@ impl Row {
     }
 }
 
-/// The bytes encoded again, or the error.
+/// The outcome of an input: the bytes encoded again, or the error.
 type Outcome = Result<Vec<u8>, String>;
 
 fn shown(error: Error) -> String {
@@ -106,11 +107,11 @@ fn shown(error: Error) -> String {
     format!("{kind:?} {} {field} {offset} {expected} {found}", error.field().subject().name())
 }
 
-/// Bytes as they are, cut, extended and mutated. The seed is the bytes, so that a new vector leaves the
-/// inputs made of the others as they are.
+/// The inputs made of bytes: the bytes unchanged, truncated, extended and mutated. The seed of the mutations is
+/// derived from the bytes, so that a new vector does not change the inputs made of other vectors.
 fn inputs(bytes: &[u8]) -> Vec<Vec<u8>> {
     let len = bytes.len();
-    // Not every length of a long stream, for time.
+    // A long stream is truncated at some lengths only, to save time.
     let cuts = (0..=len).filter(|cut| len <= 300 || *cut < 40 || len - cut < 8 || cut % 101 == 0);
     let mut all: Vec<_> = cuts.map(|cut| bytes[..cut].to_vec()).collect();
     for end in [0, 0xFF].map(|byte| [byte; 3]) {
@@ -131,7 +132,7 @@ fn inputs(bytes: &[u8]) -> Vec<Vec<u8>> {
 
 fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
     let (at, byte) = (random.below(bytes.len() + 1), random.next() as u8);
-    // Limits of counts and lengths, and their neighbours.
+    // Numbers at the limits of counts and lengths, and close to them.
     let number = random.pick(&[0, 1, 2, 255, 256, 257, 506, 507, 510, 511, 0x4000_0001, u32::MAX]);
     let kind = random.below(5);
     if kind == 0 {
@@ -141,7 +142,7 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
             1 => drop(bytes.remove(at)),
             2 => tail[0] = byte,
             3 => tail[0] ^= 1 << (byte % 8),
-            // At a multiple of four, where the counts and lengths are.
+            // Replace a number at a multiple of four, where counts and lengths are.
             _ => {
                 let rest = bytes.iter_mut().skip(at / 4 * 4);
                 rest.zip(number.to_le_bytes()).for_each(|(byte, new)| *byte = new);
@@ -154,7 +155,7 @@ fn vectors_of(stream: &str) -> impl Iterator<Item = &'static Vector> {
     vectors().iter().filter(move |vector| vector.stream == stream)
 }
 
-/// The outcome of a stream by each of its types: the owned type has the outcome of the view.
+/// The outcome of a stream. Checks that the owned type has the same outcome as the view.
 fn decoded(stream: Stream, input: &[u8]) -> Outcome {
     let mut outcomes = Subject::of(stream).readings().map(|reading| {
         let mut buf = vec![0; input.len() + 8];
@@ -178,7 +179,7 @@ fn streams(rows: &mut Rows) {
     }
 }
 
-/// Frames are split off what was received.
+/// The rows of frames: the outcome is the first frame that is split off the input.
 fn frames(rows: &mut Rows) {
     for vector in vectors_of("ams-frame") {
         let row = rows.entry(("frame", vector.id.clone())).or_insert(Row::EMPTY);
@@ -190,7 +191,7 @@ fn frames(rows: &mut Rows) {
     }
 }
 
-/// All fields of a call.
+/// All fields of a call, as bytes.
 fn call_bytes(call: &Call<'_>) -> Vec<u8> {
     let numbers = [call.index_group.get(), call.index_offset.get(), call.read_length];
     let mut bytes = call.port.0.to_le_bytes().to_vec();
@@ -200,7 +201,7 @@ fn call_bytes(call: &Call<'_>) -> Vec<u8> {
     bytes
 }
 
-/// The function, and the call that its request encodes to again; or the error.
+/// The outcome of a call: the function and the call that the request encodes to, or the error.
 fn dispatched(call: &Call<'_>) -> Outcome {
     let request = call.dispatch().map_err(|error| match error {
         DispatchError::Port(port) => format!("Port {}", port.0),
@@ -215,8 +216,8 @@ fn dispatched(call: &Call<'_>) -> Outcome {
     Ok([request.function().spec().name.as_bytes(), &again].concat())
 }
 
-/// Calls by their address: near every index group that a sample has, at each offset that a function may
-/// have and others.
+/// The rows of addresses: calls with the index groups of all samples and similar groups, at all offsets
+/// of functions and at other offsets.
 fn addresses(rows: &mut Rows) {
     let groups: BTreeSet<u32> = CALLS
         .iter()
@@ -249,7 +250,7 @@ fn addresses(rows: &mut Rows) {
     }
 }
 
-/// Each sample of a call with its data cut, extended and mutated.
+/// The rows of data: each sample of a call with its data unchanged, truncated, extended and mutated.
 fn data(rows: &mut Rows) {
     for sample in CALLS {
         let row = rows.entry(("data", sample.slug.to_owned())).or_insert(Row::EMPTY);
@@ -260,11 +261,12 @@ fn data(rows: &mut Rows) {
     }
 }
 
-/// The reply to each sample of a call, made of the vectors of its stream. A vector has a row only if the
-/// request has another outcome than the stream: if the reply is longer than the request permits.
+/// The rows of replies: replies to each sample of a call, made of the vectors of the stream of the reply. A
+/// vector only has a row if the outcome of the request differs from that of the stream, because a reply is
+/// longer than the request permits.
 fn replies(rows: &mut Rows) {
     for CallSample { slug, call, .. } in CALLS {
-        // A call that is rejected differs in the rows of calls.
+        // Skip a sample that is rejected: the rows of data show its rejection.
         let Ok(request) = call.dispatch() else { continue };
         let reply = |input: &[u8]| {
             let reply = request.decode_reply(input).map_err(shown)?;
@@ -291,7 +293,7 @@ fn parsed(table: &str) -> BTreeMap<(&str, &str), Vec<&str>> {
     rows.map(|row| ((row[0], row[1]), row[2..].to_vec())).collect()
 }
 
-/// The rows that differ, and how.
+/// A description of each row that differs.
 fn differences(table: &str, kept: &str) -> Vec<String> {
     let (rows, kept) = (parsed(table), parsed(kept));
     let keys: BTreeSet<_> = rows.keys().chain(kept.keys()).collect();

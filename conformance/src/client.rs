@@ -45,7 +45,7 @@ pub struct Client {
     piece: Option<usize>,
 }
 
-/// How to open a connection, both the first one and those after a lost connection.
+/// How to open the first connection, and a new connection after one is lost.
 #[derive(Clone, Debug)]
 enum Dial {
     /// Over TCP, to the target's address.
@@ -171,7 +171,7 @@ impl Client {
         }
     }
 
-    /// The gate in front of the target.
+    /// The gate, which decides which frames this client may send.
     pub const fn gate(&self) -> &Gate {
         &self.gate
     }
@@ -296,7 +296,7 @@ impl Client {
         AmsHeader::request(target, source, command, self.invoke_id)
     }
 
-    /// Closes the connection. On the next one, another CNC may answer, or the same one after a
+    /// Closes the connection. On the next connection, another CNC may answer, or the same CNC after a
     /// restart.
     fn disconnect(&mut self) {
         self.wire = None;
@@ -418,8 +418,8 @@ fn are_frames(mut bytes: &[u8]) -> bool {
     bytes.is_empty()
 }
 
-/// Whether a header with a wrong invoke ID is that of the reply to this request: a reply to an earlier
-/// one would have another target port, and an invoke ID that was sent.
+/// Whether a header with a wrong invoke ID belongs to the reply to this request. A late reply to an
+/// earlier request has another target port, and an invoke ID that this client has sent.
 fn is_reply(sent: &AmsHeader, got: &AmsHeader) -> bool {
     let has_addresses = (got.target, got.source) == (sent.source, sent.target);
     let was_sent = FIRST_INVOKE_ID < got.invoke_id && got.invoke_id < sent.invoke_id;

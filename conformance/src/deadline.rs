@@ -13,7 +13,8 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// The deadline after this time from now. A time that the clock cannot represent sets no deadline.
+    /// Creates a deadline that is `time` from now. If the clock cannot represent that instant, the deadline
+    /// never passes.
     pub fn after(time: Duration) -> Self {
         Self { at: Instant::now().checked_add(time), after: time }
     }
@@ -31,7 +32,7 @@ impl Deadline {
     }
 }
 
-/// The error text after the deadline has passed.
+/// Formats the error for a command whose deadline has passed.
 impl fmt::Display for Deadline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let limit = shown_time(self.after.as_secs());

@@ -260,8 +260,8 @@ fn header(frame: &[u8]) -> Option<AmsHeader> {
     AmsHeader::decode(header).ok()
 }
 
-/// Whether the received bytes start with an AMS header that contains an address of the request, or
-/// end within such a header.
+/// Whether the received bytes are a reply over AMS: they start with an AMS header that contains an
+/// address of the request, or they end before the header is complete.
 pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     let Some((sent, got)) = header(sent).zip(header(received)) else {
         return incomplete_frame(received).is_some();

@@ -7,25 +7,25 @@
 //! |---|---|
 //! | [`cli`] | the command line of `ads-cnc` |
 //! | [`selftest`] | tests of the suite with seeded defects |
-//! | [`matrix`] | what covers each requirement |
-//! | [`capture`] | captured traffic: judged, or written for Wireshark |
+//! | [`matrix`] | the vectors, cases and fuzz targets that verify each requirement |
+//! | [`capture`] | judges captured traffic, and writes traffic to files for Wireshark |
 //! | [`clients`] | tests of clients, and the CNC to which they connect |
 //! | [`suite`] | the cases for a CNC |
 //! | [`testee`] | tests of codecs, over stdin and stdout |
-//! | [`named`], [`objects`] | variables and objects of a CNC: one by its name, or all of them |
+//! | [`named`], [`objects`] | finds a variable or object of a CNC by its name, or lists all of them |
 //! | [`session`] | the typed connection of a tool to a CNC |
 //! | [`report`] | the report of a run, in all its formats |
 //! | [`client`] | an AMS/TCP client that records all bytes |
 //! | [`faults`] | seeded defects of a codec or a CNC, and valid variants |
-//! | [`simulator`] | the simulated CNC: data model, answers, AMS/TCP server |
+//! | [`simulator`] | the simulated CNC: data model, replies, AMS/TCP server |
 //! | [`net`] | the only module that opens sockets |
 //! | [`rules`] | checks of requests and replies by the manuals' clauses, with the state of each CNC |
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |
-//! | [`process`] | commands given by the user, and signals |
+//! | [`process`] | runs commands given by the user, and handles signals |
 //! | [`tables`] | the codec's tables as data, and a dissector generated from them |
-//! | [`explain`] | the bytes of any stream, field by field |
-//! | [`codec`], [`show`] | the codec by the names of the vectors, and their values as text |
+//! | [`explain`] | explains the bytes of any stream, field by field |
+//! | [`codec`], [`show`] | calls the codec by the stream names of the vectors, and formats values as text |
 //! | [`judge`] | case, check, outcome, verdict, plan, waiver |
 //! | [`evidence`] | the bytes that a check is based on |
 //! | [`values`] | typed values: parsing and formatting |
@@ -44,9 +44,9 @@
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods)]
 // Code must not panic on bytes from outside, nor between a write and the restoring of its value.
-// Modules without such code allow these lints, here or in their parent: there, a panic ends one
-// case as a harness error, or a tool before its first request. In the modules `cli` and `suite`,
-// the files that write to a target or restore a value deny the lints again.
+// Modules without such code allow these lints, here or in their parent module: in such a module, a
+// panic only makes one case a harness error, or ends a tool before its first request. In the modules
+// `cli` and `suite`, the files that write to a target or restore a value deny the lints again.
 #![cfg_attr(
     not(test),
     deny(

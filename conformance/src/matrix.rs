@@ -44,7 +44,7 @@ pub struct RequirementRow {
     pub title: String,
     /// The text of the requirement.
     pub text: String,
-    /// Parts of the requirement that have another basis.
+    /// Parts of the requirement whose basis differs from that of the whole requirement.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartRow>,
     /// The basis: stated, derived, assumed or online.
@@ -56,7 +56,7 @@ pub struct RequirementRow {
     pub excluded: Option<String>,
     /// Document, edition and section.
     pub sources: Vec<String>,
-    /// Errata (contradictions between the manuals) that concern it.
+    /// Errata (contradictions between the manuals) that concern the requirement.
     pub errata: Vec<String>,
     /// The rulings on these errata.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -190,7 +190,8 @@ fn paragraph(out: &mut String, name: &str, words: &str) {
     }
 }
 
-/// Formats an erratum as text: its readings, the ruling, and what cites it.
+/// Formats an erratum as text: its readings, the ruling, and the requirements, vectors and sequences that
+/// cite it.
 pub fn erratum_to_text(erratum: &Erratum) -> String {
     let Erratum { id, title, readings, ruling, status, question } = erratum;
     let mut text = format!("{id}  {title} ({})\n", format!("{status:?}").to_lowercase());

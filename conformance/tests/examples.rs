@@ -13,7 +13,7 @@ use ads::{AmsAddr, Client, Device, Source, Timeouts};
 use common::Serve;
 use common::file::TestFile;
 
-/// Time limit of an example, without the build.
+/// Time limit for an example to end, without the time of the build.
 const TIME: Duration = Duration::from_secs(60);
 
 /// Builds the examples, unless the current test run has built them.
@@ -40,7 +40,7 @@ fn built() -> &'static [PathBuf] {
     })
 }
 
-/// A running example that is ended when dropped.
+/// A running example that is ended when this value is dropped.
 struct Example(Child);
 
 impl Example {
@@ -56,14 +56,14 @@ impl Example {
         Self(example.unwrap())
     }
 
-    /// Waits for success and returns stdout.
+    /// Waits until the example ends successfully, and returns its stdout.
     fn output(self) -> String {
         let (is_success, out, errors) = self.ended();
         assert!(is_success, "{errors}");
         out
     }
 
-    /// Waits for a failure and returns stderr.
+    /// Waits until the example ends with a failure, and returns its stderr.
     fn failure(self) -> String {
         let (is_success, out, errors) = self.ended();
         assert!(!is_success, "{out}");
@@ -71,7 +71,7 @@ impl Example {
     }
 
     fn ended(mut self) -> (bool, String, String) {
-        // Read while the example runs, because a full pipe would block it.
+        // Reads stdout while the example runs, because a full pipe would block the example.
         let mut out = self.0.stdout.take().unwrap();
         let reader = thread::spawn(move || {
             let mut text = String::new();
@@ -93,7 +93,7 @@ impl Example {
 
 impl Drop for Example {
     fn drop(&mut self) {
-        // This fails if the process has already ended.
+        // `kill` fails if the process has already ended.
         let _ended = self.0.kill().and_then(|()| self.0.wait());
     }
 }
@@ -135,8 +135,8 @@ fn read_variable() {
     assert_eq!(read, "V.G.NP[1].V[2]: REAL64\n  6\n");
 }
 
-/// STM-3, STM-6: the program does not fit into the interface, so the example must wait and send
-/// packets again.
+/// STM-3, STM-6: the program does not fit into the streaming interface, so the example must wait and
+/// send packets again.
 #[test]
 fn stream_program() {
     let serve = Serve::start(&["--pace", "200"]);
@@ -150,7 +150,7 @@ fn stream_program() {
     assert!(errors.starts_with("line 1, column 5: $FOR in a stream (STM-8)\n"), "{errors}");
 }
 
-/// SVC-9: 1.732051 for 3, and an error for a number without a square root.
+/// SVC-9: the response for 3 is 1.732051; for a number without a square root, it is an error.
 #[test]
 fn square_root_service() {
     let serve = Serve::start(&[]);

@@ -1,5 +1,5 @@
-//! Vectors extracted from captured traffic match the schema of the golden vectors, which is in the
-//! folder next to this package.
+//! Vectors that `check` extracts from captured traffic match the schema of the golden vectors, which is
+//! in the folder next to the folder of this package.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,14 +10,14 @@ use serde_json::Value;
 const SCHEMA: &str =
     concat!(env!("CARGO_MANIFEST_DIR"), "/../spec-vectors/schema/vectors.schema.json");
 
-/// Calls whose traffic is captured, and the minimum number of streams in it.
+/// Calls whose traffic is captured, each with the minimum number of streams that the traffic contains.
 const CALLS: [(&[&str], usize); 3] = [
     (&["browse", "--content"], 10),
     (&["browse", "--variables"], 9),
     (&["set", "V.E.Testvar[1]", "7"], 3),
 ];
 
-/// A folder of this process that is removed when dropped.
+/// A temporary folder that is removed when this value is dropped.
 struct Folder(PathBuf);
 
 impl Drop for Folder {

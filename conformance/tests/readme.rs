@@ -1,10 +1,10 @@
-//! The documents show the real output of the tools: each call in a block ```console is executed here,
-//! in readme/gate.rs or where [`ELSEWHERE`] states, and its output is compared.
+//! The documents show the real output of the tools: each call in a block ```console is executed by this
+//! test, by readme/gate.rs or where [`ELSEWHERE`] states, and its output is compared with the document.
 
 #[path = "readme/bench.rs"]
 mod bench;
 mod common;
-// The document is about Linux; other systems use other crates to end processes.
+// The document lists the crates for Linux; other systems use other crates to end processes.
 #[cfg(target_os = "linux")]
 #[path = "readme/dependencies.rs"]
 mod dependencies;
@@ -27,12 +27,13 @@ use std::process::Command;
 use bench::root;
 use documents::{IN_THE_GATE, documents, is_in_the_gate, make};
 
-/// Calls that are executed elsewhere: the call, the file, and the text there.
+/// Calls that are executed elsewhere: the start of the call, the file that executes it, and a text that
+/// this file must contain.
 const ELSEWHERE: [(&str, &str, &str); 4] = [
     ("cargo test --workspace", ".ci/run", "cargo test --workspace --locked"),
     ("cargo install ", ".ci/run", "cargo install --path conformance --locked"),
     ("fuzz/nightly ", ".ci/run", "fuzz/nightly --seconds 0"),
-    // This call depends on the name of a file in the next call.
+    // `cat` is not executed: its output in the document is written to the file that later calls use.
     ("cat ", "conformance/tests/readme/bench.rs", "strip_prefix(\"cat \")"),
 ];
 
@@ -46,7 +47,7 @@ fn calls_print_the_output_in_the_documents() {
     assert!(made >= 15, "{made} calls");
 }
 
-/// CONTRIBUTING describes each script of the gate.
+/// CONTRIBUTING names each script that the gate, `.ci/run`, runs.
 #[test]
 fn every_script_of_the_gate_is_documented() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
@@ -62,13 +63,13 @@ fn every_script_of_the_gate_is_documented() {
     };
     let scripts: BTreeSet<&str> = words.filter(is_script).collect();
     assert!(scripts.len() >= 15, "{scripts:?}");
-    // Each script is run where a document shows its call.
+    // Scripts of adapters are excluded: other documents show their calls.
     for script in scripts.iter().filter(|script| !script.contains("/adapters/")) {
         assert!(told.contains(script), "{script}");
     }
 }
 
-/// Every call that is not executed here is executed elsewhere.
+/// Every call that this test does not execute is executed by the file that `ELSEWHERE` names.
 #[test]
 fn other_calls_are_executed_elsewhere() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
@@ -91,7 +92,7 @@ fn other_calls_are_executed_elsewhere() {
     }
 }
 
-/// The documents show every command, and every option in them exists.
+/// The documents show every command, and every option in the documents exists.
 #[test]
 fn documented_commands_and_options_exist() {
     let help = |words: &[&str]| {
@@ -117,7 +118,7 @@ fn documented_commands_and_options_exist() {
             .filter(|line| !["cargo ", "fuzz/", "docker "].iter().any(|it| line.contains(it)))
         {
             let words = line.split(|character: char| !is_word(character));
-            // Skip the rules of tables.
+            // Skips the lines of dashes in tables.
             let options = words.filter(|word| word.strip_prefix("--").is_some_and(is_name));
             for word in options {
                 assert!(is_option(word), "{word} in {line}");

@@ -1,7 +1,8 @@
 //! Replays the corpora and prints, for each target, the number of inputs and a digest of their
 //! outcomes. Two builds of the codec print the same lines for the targets that both have.
 //!
-//! An argument limits the number of inputs of each folder; they are evenly distributed over it.
+//! An argument limits the number of inputs of each folder. The replayed inputs are evenly distributed over
+//! the folder.
 
 use std::hash::{Hash as _, Hasher as _};
 

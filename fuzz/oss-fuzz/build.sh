@@ -18,8 +18,8 @@ case "${ARCHITECTURE:-x86_64}" in
 esac
 
 # The build of libFuzzer reads the flags for C and C++ from the environment, unless
-# CUSTOM_LIBFUZZER_PATH names the libFuzzer of the container. cargo fuzz adds to the flags for Rust, and
-# so does FUZZ_RUSTFLAGS, as in fuzz/nightly.
+# CUSTOM_LIBFUZZER_PATH names the libFuzzer of the container. cargo fuzz adds its own flags to RUSTFLAGS;
+# FUZZ_RUSTFLAGS adds more, as in fuzz/nightly.
 target_dir="${CARGO_TARGET_DIR:-$WORK/target}"
 profile=release
 fuzz() {
@@ -33,7 +33,8 @@ case "${SANITIZER:-address}" in
     memory) fuzz memory --build-std ;;
     # Rust has no UndefinedBehaviorSanitizer; debug assertions are the closest replacement.
     none | undefined) fuzz none ;;
-    # The container's replacement for `cargo fuzz` ignores features. Not optimised, as in the container.
+    # For coverage, the container replaces `cargo fuzz` with a script that ignores features. This command
+    # does the same as the script, but with features: a build without optimisation.
     coverage)
         profile=debug
         RUSTFLAGS="${RUSTFLAGS:---cfg fuzzing -Cinstrument-coverage}" cargo build -p ads-cnc-fuzz \
@@ -48,10 +49,10 @@ for source in fuzz/fuzz_targets/*.rs; do
     for folder in "corpus/$target" "regressions/$target"; do
         if [ -d "fuzz/$folder" ]; then seeds+=("$folder"); fi
     done
-    # zip would add to an existing archive.
+    # If the archive exists, zip would add to it.
     rm -f "$OUT/${target}_seed_corpus.zip"
     (cd fuzz && zip -qrX "$OUT/${target}_seed_corpus.zip" "${seeds[@]}")
-    # The fuzzer finds a dictionary by its name.
+    # A fuzzer finds its dictionary by the name of the target.
     dictionary="fuzz/dictionaries/${target%%_*}.dict"
     if [ -f "$dictionary" ]; then cp "$dictionary" "$OUT/$target.dict"; fi
     printf '[libfuzzer]\ntimeout = 10\nmalloc_limit_mb = 256\n' >"$OUT/$target.options"

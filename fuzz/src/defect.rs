@@ -30,7 +30,7 @@ impl Defect {
         })
     }
 
-    /// Whether it is the defect with this number.
+    /// Whether `self` is the defect with this number.
     pub const fn is(self, number: u8) -> bool {
         self.0 == number
     }

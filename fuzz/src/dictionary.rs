@@ -7,7 +7,7 @@ use ads_cnc_vectors::vectors;
 use crate::bodies::bytes::FAMILIES;
 use crate::common;
 
-/// Longer words belong in the corpus.
+/// Maximum length of a word in bytes. Longer words belong in the corpus.
 const LONGEST: usize = 64;
 
 /// The family and the text of every dictionary, in the common format of libFuzzer and AFL.
@@ -57,11 +57,12 @@ fn entries(family: &str) -> BTreeSet<Vec<u8>> {
     entries
 }
 
-/// Characters of CP1252 that take several bytes in UTF-8, from all parts of the code page.
+/// Characters that take several bytes in UTF-8: from all parts of CP1252, and one that CP1252 lacks.
 const HIGH: &str =
     "\u{81}\u{9D}\u{A0}\u{E4}\u{FF}\u{152}\u{178}\u{192}\u{2C6}\u{2013}\u{20AC}\u{2122}\u{3A9}";
 
-/// Events of a host that finds a request, answers and writes, and of the program and hosts in turn.
+/// Inputs for the targets of the family `service`: a host that finds a request, answers it and writes,
+/// and steps of the program and the hosts in turn.
 const EVENTS: &[&[u8]] = &[
     b"\x00\x0A\x00\x03\x00\x1D",
     b"\x0E\x01\x0D",
@@ -99,7 +100,7 @@ const WORDS: &[&[u8]] = &[
     b"\r\nN10 G01 X200 F1000\r\n",
 ];
 
-/// Parts of names.
+/// Parts of the names of variables, valid and invalid.
 const NAMES: &[&[u8]] = &[
     b"V.A.",
     b"V.E.",

@@ -8,7 +8,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`targets`] | every target: its name, its body, what it proves, its seeded defects |
-//! | [`Outcome`] | the result of an input as one number, with which two builds are compared |
+//! | [`Outcome`] | the result of an input as one number, to compare two builds of the codec |
 //! | [`Defect`] | the seeded defects, which show that a target can fail |
 //! | [`seeds`], [`dictionary`] | initial inputs and words for a fuzzer, from vectors and samples |
 //! | [`replay`] | runs the body of a target on its corpus |
@@ -39,7 +39,8 @@ pub use outcome::{Digest, Outcome};
 pub use replay::{Folder, corpus, dictionaries, regressions, replay};
 pub use targets::{TARGETS, Target};
 
-// Tested here, because this crate is never packaged without the rest of the repository.
+// The code in the README of the repository is tested by this library, because the library exists only in
+// the repository.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;

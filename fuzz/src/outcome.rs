@@ -45,7 +45,7 @@ fn digest(what: impl Hash) -> u64 {
 /// A hash that does not depend on the byte order and word size of the machine, except for slices of
 /// numbers, which are hashed as they are in memory.
 ///
-/// It has no random key, so two programs of one toolchain agree.
+/// It has no random key, so two programs that the same toolchain has built compute the same hash.
 #[derive(Clone, Debug, Default)]
 pub struct Digest(DefaultHasher);
 
@@ -66,12 +66,12 @@ impl Hasher for Digest {
         self.0.write(&number.to_le_bytes());
     }
 
-    /// Lengths.
+    /// Hashes a length as 64 bits.
     fn write_usize(&mut self, number: usize) {
         self.write_u64(number as u64);
     }
 
-    /// Discriminants of enums.
+    /// Hashes the discriminant of an enum as 64 bits.
     fn write_isize(&mut self, number: isize) {
         self.write_u64(number as u64);
     }

@@ -38,7 +38,7 @@ impl Folder {
         let entries =
             std::fs::read_dir(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let entries = entries.map(|entry| entry.expect("readable"));
-        // A link is listed as a file.
+        // A symbolic link counts as a file.
         let files = entries.filter(|entry| !entry.file_type().expect("readable").is_dir());
         let mut paths: Vec<_> = files.map(|entry| entry.path()).collect();
         // Compared as bytes: comparing paths by their components takes too long under Miri.
@@ -65,7 +65,8 @@ impl Folder {
     }
 }
 
-/// Runs a target on every file of its corpus and regressions.
+/// Runs a target on every file of its corpus and regressions, and calls `each` with the path and the
+/// outcome.
 pub fn replay(target: &Target, mut each: impl FnMut(&Path, Outcome)) {
     for folder in [corpus(target.name), regressions(target.name)] {
         for (path, bytes) in Folder::new(&folder).files() {

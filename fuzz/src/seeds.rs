@@ -19,13 +19,13 @@ use crate::{Target, common};
 /// The name and the bytes of an input.
 pub type Seed = (String, Vec<u8>);
 
-/// Longer vectors are unsuitable as initial inputs.
+/// Maximum length in bytes of a vector that is used as an initial input.
 const LONGEST: usize = 2048;
 
 /// The initial inputs of a target, in a fixed order.
 ///
 /// # Panics
-/// If the target has none.
+/// If the target has no initial inputs.
 pub fn seeds(target: &Target) -> Vec<Seed> {
     let law = target.name.split_once('_').map_or("", |(_, law)| law);
     let mut seeds = match (target.family(), law) {
@@ -47,7 +47,7 @@ pub fn seeds(target: &Target) -> Vec<Seed> {
             let family = family_of(family);
             samples(family).chain(of_vectors(family)).collect()
         }
-        // Values are made from any bytes, so these inputs fit too.
+        // These targets make a value from any bytes, so samples of streams are suitable inputs too.
         (family, "value") => samples(family_of(family)).collect(),
         _ => panic!("{} has no seeds", target.name),
     };
@@ -70,7 +70,7 @@ fn samples(family: Family) -> impl Iterator<Item = Seed> {
     })
 }
 
-/// Accepted and rejected vectors in the same form.
+/// The accepted and rejected vectors of a family, in the same form as the [`samples`].
 fn of_vectors(family: Family) -> impl Iterator<Item = Seed> {
     let short = vectors()
         .iter()
@@ -93,7 +93,7 @@ fn calls() -> Vec<Seed> {
     common::CALLS.iter().map(write).collect()
 }
 
-/// Type, dimensions, indices, size (0: the actual size), value.
+/// Inputs of the target `variable_typed`: type, dimensions, indices, size (0: the actual size), value.
 fn values() -> Vec<Seed> {
     let of = |name: &str, before: &[u8], value: &[u8]| (name.to_string(), [before, value].concat());
     let mut seeds: Vec<_> = (0..)

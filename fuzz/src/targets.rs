@@ -11,7 +11,7 @@ use crate::{Defect, Outcome};
 
 /// A target. Its name is `<family>_<law>`, which is also the name of its binary and its corpus.
 pub struct Target {
-    /// Its name.
+    /// The name of the target.
     pub name: &'static str,
     /// The law that holds for any input.
     pub proves: &'static str,
@@ -21,12 +21,13 @@ pub struct Target {
 }
 
 impl Target {
-    /// The part of its name before the underscore. The targets of a family share a dictionary.
+    /// The family: the part of the name before the first underscore. The targets of a family share a
+    /// dictionary.
     pub fn family(&self) -> &'static str {
         self.name.split('_').next().unwrap_or(self.name)
     }
 
-    /// Runs the body.
+    /// Runs the body on an input, with a seeded defect or [`Defect::NONE`].
     ///
     /// # Panics
     /// If the input breaks a law, whether or not a defect causes it.
@@ -55,7 +56,7 @@ macro_rules! targets {
                 Target { name: $name, proves: $proves, defects: $defects, body: $body };
         )+
 
-        /// All of them.
+        /// All targets that the features of this build include.
         pub static TARGETS: &[&Target] = &[$( $(#[$cfg])* &$target, )+];
     };
 }

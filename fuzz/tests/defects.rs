@@ -18,8 +18,8 @@ const NOT_IN_EVERY_CORPUS: [&str; 6] = [
     "the readings differ if the last byte is odd",
 ];
 
-/// With any other defect of a target, an input of its corpus breaks a law. Without a defect, no input
-/// does: `corpora_keep_the_laws`.
+/// With any other seeded defect of a target, an input of its corpus breaks a law. The test
+/// `corpora_keep_the_laws` verifies that no input breaks a law without a defect.
 #[test]
 #[cfg_attr(miri, ignore = "too many inputs for an interpreter")]
 fn corpora_detect_the_seeded_defects() {

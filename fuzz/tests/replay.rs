@@ -12,8 +12,8 @@ fn write() -> bool {
     std::env::var_os("ADS_CNC_WRITE_SEEDS").is_some()
 }
 
-/// Every input of every corpus keeps the laws of its target, and at least one input passes its first
-/// checks.
+/// Every input of every corpus keeps the laws of its target, and at least one input of each target passes
+/// the first checks.
 #[test]
 fn corpora_keep_the_laws() {
     for target in TARGETS {
@@ -38,8 +38,8 @@ fn outcomes_are_repeatable() {
     }
 }
 
-/// Every vector and sample is an input of its corpus, with its own name, and the dictionaries match
-/// the vectors and samples.
+/// The corpora contain every vector and sample under its own name, and the dictionaries match the vectors
+/// and samples.
 #[test]
 fn corpora_and_dictionaries_are_up_to_date() {
     let mut stale = Vec::new();
@@ -126,7 +126,7 @@ fn the_matrix_names_existing_targets() {
 #[test]
 fn the_readme_lists_the_targets() {
     let readme = include_str!("../README.md");
-    // Its other tables have fewer columns.
+    // The other tables of the README have fewer columns.
     let rows = readme.lines().filter(|line| line.matches(" | ").count() == 4);
     let rows = rows.filter_map(|line| {
         let (name, rest) = line.strip_prefix("| `")?.split_once("` | ")?;

@@ -7,7 +7,7 @@ use ads_cnc::operation::{Operation, Service};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// `None` if the CNC answers with an ADS error; any other error remains one: those of the network, of the
+/// Converts an ADS error of the CNC to `None`. Any other error is returned: those of the network, of the
 /// ADS router (numbers below 0x700) and of decoding.
 #[allow(dead_code, reason = "the examples that write need every error")]
 pub(crate) fn unless_refused<T>(result: Result<T>) -> Result<Option<T>> {

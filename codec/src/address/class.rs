@@ -23,7 +23,7 @@ pub struct ClassGroup {
     pub class: Class,
     /// The attribute of the elements.
     pub attribute: Attribute,
-    /// Channel or spindle; 0 for the platform and for the query of an object address.
+    /// The number of the channel or spindle; 0 for the platform and for the query of an object address.
     pub instance: u8,
 }
 
@@ -44,7 +44,7 @@ impl ClassGroup {
     }
 }
 
-/// Declares an enum: for each variant, its number in the index group and its name.
+/// Declares an enum from rows of three items: variant, number in the index group, and displayed name.
 macro_rules! numbered {
     (
         $(#[$doc:meta])*
@@ -70,7 +70,7 @@ macro_rules! numbered {
                 })
             }
 
-            /// `==` for `const fn`.
+            /// Whether two variants are equal; `const fn` cannot use `==`.
             pub(crate) const fn is(self, other: Self) -> bool {
                 self.number() == other.number()
             }
@@ -96,13 +96,13 @@ numbered! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     Class {
-        /// Position controller: one per CNC, with the platform axes.
+        /// Position controller: a CNC has only one, and the platform axes belong to it.
         PositionController = 0, "position controller";
         /// Interpolator of a channel.
         Interpolator = 1, "interpolator";
         /// Decoder of a channel.
         Decoder = 2, "decoder";
-        /// High-level driver of a channel; the driver of the first channel has the platform axes too.
+        /// High-level driver of a channel; that of the first channel also has the platform axes.
         Hld = 3, "HLD";
         /// Path preparation of a channel.
         PathPreparation = 4, "path preparation";
@@ -116,7 +116,7 @@ impl Class {
         low(self.number()) << 12
     }
 
-    /// The addressing that the manuals recommend.
+    /// The addressing that the manuals recommend for this class.
     const fn best(self) -> Addressing {
         match self {
             Self::Spindle => Addressing::Index,

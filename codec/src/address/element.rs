@@ -34,8 +34,8 @@ pub struct ElementAddress {
 }
 
 impl ElementAddress {
-    /// The element at this group and offset, such as a query of an object address returns. The attribute
-    /// of the group is ignored.
+    /// The address of the element at this group and offset, which a query of an object address returns. The
+    /// attribute of the group is ignored.
     pub const fn new(group: ClassGroup, offset: IndexOffset) -> Self {
         // Spindles have no logical address.
         let addressing = match group.class {
@@ -46,7 +46,7 @@ impl ElementAddress {
         Self { group: ClassGroup { addressing, attribute, ..group }, offset }
     }
 
-    /// An element of a channel itself.
+    /// The address of an element of a channel itself, not of one of its axes.
     ///
     /// Use it only for classes that belong to a channel. With [`Class::Spindle`], the channel number
     /// would be taken as the index of a spindle: use [`for_spindle`](Self::for_spindle).
@@ -60,8 +60,8 @@ impl ElementAddress {
         Ok(Self::with_class(channel.addressing(), class, channel.number(), offset))
     }
 
-    /// An element of an axis of a channel, with a stride of 0x10000 between axes (ADR-7; assumed for all
-    /// classes but the decoder).
+    /// The address of an element of an axis of a channel, with a stride of 0x10000 between axes (ADR-7;
+    /// assumed for all classes except the decoder).
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element index of more than 16 bits (ADR-9).
@@ -75,7 +75,7 @@ impl ElementAddress {
         Ok(Self::with_class(channel.addressing(), class, channel.number(), offset))
     }
 
-    /// An element of a spindle.
+    /// The address of an element of a spindle.
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element index of more than 16 bits (ADR-9).
@@ -107,17 +107,17 @@ impl ElementAddress {
         }
     }
 
-    /// Class and instance, with the attribute [`Attribute::Content`].
+    /// The class and the instance of the element; the attribute is [`Attribute::Content`].
     pub const fn class_group(self) -> ClassGroup {
         self.group
     }
 
-    /// The index group of an attribute.
+    /// The index group of this attribute of the element.
     pub const fn group(self, attribute: Attribute) -> IndexGroup {
         ClassGroup { attribute, ..self.group }.index_group()
     }
 
-    /// The index offset, the same for all attributes.
+    /// The index offset of the element, which is the same for all attributes.
     pub const fn index_offset(self) -> IndexOffset {
         self.offset
     }

@@ -10,7 +10,7 @@ const OBJECT: u32 = 0x03_0000;
 const COM_CHANNEL: u32 = 0x100;
 const COM_AXIS: u32 = 0x200;
 
-/// An index group: any number that ADS can carry.
+/// An index group: any number of 32 bits.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
 ///
@@ -137,9 +137,9 @@ impl Group {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Addressing {
-    /// By the configured number: bit 0x100000 is set.
+    /// Addressing by the configured number: bit 0x100000 of the index group is set.
     Logical,
-    /// By the position among the active instances.
+    /// Addressing by the position among the active instances: bit 0x100000 is not set.
     Index,
 }
 
@@ -152,7 +152,7 @@ impl Addressing {
     }
 }
 
-/// The content of elements, or the description of objects (ADR-4).
+/// Whether an index group addresses the content of elements or the description of objects (ADR-4).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1 and 2.1.2.
 ///
@@ -184,7 +184,7 @@ pub enum Access {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ComTable {
-    /// 0x100: the platform (0, or 1 because the first channel drives it) and the channels.
+    /// 0x100: the channels, and the platform (instance 0, or 1 because channel 1 drives the platform).
     Channel,
     /// 0x200: platform axes.
     Axis,
@@ -209,13 +209,13 @@ pub enum ComTable {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ComGroup {
-    /// Logical or by index.
+    /// Logical addressing, or addressing by index.
     pub addressing: Addressing,
-    /// Content or descriptions.
+    /// Access to content, or to descriptions.
     pub access: Access,
-    /// Channels or platform axes.
+    /// The table of channels, or of platform axes.
     pub table: ComTable,
-    /// The channel (0 for the platform) or the platform axis.
+    /// The number of the channel (0 for the platform) or of the platform axis.
     pub instance: u8,
 }
 
@@ -263,8 +263,8 @@ pub(super) const fn low(instance: u8) -> u32 {
 mod tests {
     use super::*;
 
-    /// ADR-10: every documented group parses, and every 24-bit number that parses is built again from
-    /// its parts.
+    /// ADR-10: every documented group parses, and for every 24-bit number that parses, the group built
+    /// from its parts is the same number.
     #[test]
     #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
     fn parts_add_up_to_the_group() {
@@ -275,7 +275,7 @@ mod tests {
                 known += 1;
             }
         }
-        // 2 × 2 × 2 tables of COM; 5 classes × 7 attributes × 2, and the spindle's 7.
+        // COM: 2 addressings × 2 accesses × 2 tables. 5 classes × 7 attributes × 2 addressings. Spindle: 7.
         assert_eq!(known, 256 * (8 + 70 + 7));
         assert_eq!(IndexGroup(0x0112_0301).parts(), None);
     }

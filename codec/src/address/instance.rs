@@ -18,10 +18,10 @@ fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
     }
 }
 
-/// The largest instance: it has 8 bits of an index group (ADR-9).
+/// The largest instance number: an index group has 8 bits for it (ADR-9).
 const INSTANCE_MAX: u32 = 0xFF;
 
-/// The name and the range of the argument of a constructor.
+/// For errors: the name, the minimum and the maximum of the argument that a field stands for.
 pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     match field {
         CHANNEL => Some(("channel", 1, INSTANCE_MAX)),
@@ -197,28 +197,28 @@ impl Spindle {
     }
 }
 
-/// The logical number, or the index.
+/// Displays the logical number, or the index.
 impl fmt::Display for Channel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.number().fmt(f)
     }
 }
 
-/// The index, from 1.
+/// Displays the index, which counts from 1.
 impl fmt::Display for PlatformAxis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.index().fmt(f)
     }
 }
 
-/// The index, from 1.
+/// Displays the index, which counts from 1.
 impl fmt::Display for ChannelAxis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.index().fmt(f)
     }
 }
 
-/// The index, from 0.
+/// Displays the index, which counts from 0.
 impl fmt::Display for Spindle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.index().fmt(f)

@@ -5,10 +5,10 @@ use core::fmt;
 use crate::error::{Error, ErrorKind};
 use crate::layout::index_offset::{AXIS, ELEMENT};
 
-/// An index offset: any number that ADS can carry.
+/// An index offset: any number of 32 bits.
 ///
 /// The manuals print two strides between the axes of a channel (E-01), and an offset does not show which
-/// one it was computed with: `0x10001` is element 1 of axis 1, or of axis 16. For axes of COM, a client
+/// stride it was computed with: `0x10001` is element 1 of axis 1, or of axis 16. For axes of COM, a client
 /// should use the group and offset in the object's descriptor instead of computing them (ADR-8).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.2, 2.2.2 and 4.2.2.
@@ -27,7 +27,7 @@ use crate::layout::index_offset::{AXIS, ELEMENT};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndexOffset(u32);
 
-/// The largest axis: it has 16 bits (ADR-9).
+/// The largest axis number: an index offset has 16 bits for it (ADR-9).
 pub(super) const AXIS_MAX: u32 = 0xFFFF;
 
 /// The distance between the axes of a channel in index offsets.
@@ -43,10 +43,11 @@ pub(super) const AXIS_MAX: u32 = 0xFFFF;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum AxisStride {
-    /// 0x10000: SDA and GEO (ADR-7), and COM according to its examples (ADR-8).
+    /// 0x10000: for SDA and GEO (ADR-7), and for COM according to the examples of the manuals (ADR-8).
     #[default]
     X10000,
-    /// 0x1000: COM according to its table, and the first platform axis of the HLD as printed (E-01).
+    /// 0x1000: for COM according to a table of the manuals, and for the first platform axis of the HLD in a
+    /// printed example (E-01).
     X1000,
 }
 

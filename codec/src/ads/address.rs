@@ -53,7 +53,7 @@ impl FromStr for AmsNetId {
         for (count, byte) in (0_u32..).zip(&mut id) {
             let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, count))?;
             let len = crate::bytes::to_u32(part.len());
-            // `u32::parse` accepts a sign and any number of zeros.
+            // Check the digits here, because `u32::parse` also accepts a sign and any number of zeros.
             if let Some(odd) = part.chars().find(|character| !character.is_ascii_digit()) {
                 return Err(Error::new(ErrorKind::NotDecimal, NUMBER, at, 0, odd.into()));
             }
@@ -72,7 +72,7 @@ impl FromStr for AmsNetId {
     }
 }
 
-/// The parts of the text between its dots. `str::split` would compile a panic into the program.
+/// The parts of the text between its dots; not by `str::split`, which would add a panic to the program.
 fn parts(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     core::iter::from_fn(move || {

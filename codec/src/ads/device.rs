@@ -10,7 +10,7 @@ use crate::number::code;
 use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
 
-/// Bytes of the name of a device.
+/// The number of bytes of the field `name`.
 const NAME_LEN: usize = most::<InfoLayout>("name");
 
 #[doc = include_str!("../../doc/device-info-reply.md")]

@@ -72,9 +72,9 @@ impl<'a> FrameRef<'a> {
     /// The first frame in `received`, and its length in bytes; `None` if the frame is not complete yet.
     ///
     /// # Errors
-    /// As soon as the header is complete: a `reserved` that is not 0, lengths that disagree, and a
-    /// length of more than `max_data` bytes of data or of more than any service can have. After an
-    /// error, no further frame can be found in the TCP stream: close the connection.
+    /// As soon as the header is complete: a field `reserved` that is not 0, two lengths that disagree,
+    /// and a length of more than `max_data` bytes of data or of more data than any service can have.
+    /// After an error, no further frame can be found in the TCP stream: close the connection.
     pub fn split(received: &'a [u8], max_data: u32) -> Result<Option<(Self, usize)>, Error> {
         let Some((tcp, rest)) = received.split_at_checked(AMS_TCP_HEADER_LEN) else {
             return Ok(None);
@@ -124,7 +124,7 @@ impl Encode for FrameRef<'_> {
     }
 }
 
-/// The length field of a frame.
+/// The field with the length of a frame, for errors.
 const LENGTH: Field = Field::of::<AmsTcpHeader>("length");
 const LENGTH_AT: u32 = AmsTcpHeader::LAYOUT.offset("length");
 

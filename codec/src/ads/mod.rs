@@ -41,8 +41,8 @@
 //! sends its replies to that NetId and port. With several requests in flight, match replies to
 //! requests by `invoke_id`.
 //!
-//! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (Read, Write, ReadWrite). The
-//! vendors' public help pages are the source of everything else.
+//! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (Read, Write, ReadWrite). The source
+//! of everything else in this module is the vendors' public help pages.
 
 mod address;
 mod codes;

@@ -29,7 +29,7 @@ stream! {
     }
 }
 
-/// The fields of a reply with data; the replies to Read and ReadWrite have the same rows.
+/// The fields result, length and data of a reply, which are the same for Read and ReadWrite.
 const fn fields(stream: Stream) -> [Field; 3] {
     const RESULT: Field = Field::of::<ReadReplyRef<'_>>("result");
     const LENGTH: Field = Field::of::<ReadReplyRef<'_>>("length");
@@ -64,7 +64,7 @@ fn encode<'b>(
     buf: &'b mut [u8],
 ) -> Result<&'b [u8], Error> {
     let Some(data) = data else {
-        // Only the reply with an error may have no data.
+        // A reply may end before its data only if its result is an error (ADS-6).
         if result.is_ok() {
             let [_, length_field, _] = fields(stream);
             return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));

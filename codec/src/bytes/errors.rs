@@ -21,8 +21,8 @@ pub(crate) fn truncated(stream: Stream, at: u32, left: usize) -> Error {
     Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, left)
 }
 
-/// The error for more or fewer bytes than those of a stream of fixed fields.
-// Inlining would make each decoder of a fixed stream save registers.
+/// The error for a stream of fixed length with too many or too few bytes.
+// Not inlined: otherwise each decoder of a fixed stream would save registers for this rare case.
 #[cold]
 #[inline(never)]
 pub(super) fn not_all(stream: Stream, size: usize, given: usize) -> Error {

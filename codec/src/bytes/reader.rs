@@ -28,8 +28,8 @@ impl<'a> Reader<'a> {
         Ok(Self::without_limit(stream, bytes))
     }
 
-    /// Starts reading a stream whose fields determine its end: extra bytes are `Trailing`, not
-    /// `TooLong`.
+    /// Starts reading a stream whose fields determine its end: extra bytes are reported as `Trailing`,
+    /// not as `TooLong`.
     pub(crate) fn without_limit(stream: Stream, bytes: &'a [u8]) -> Self {
         Self { stream, bytes, at: 0 }
     }
@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         Error::new(kind, field, self.at, expected, self.left())
     }
 
-    /// The next `size` bytes, all of which belong to `field`.
+    /// Reads the next `size` bytes, all of which belong to `field`.
     #[inline]
     pub(crate) fn take(&mut self, field: Field, size: u32) -> Result<&'a [u8], Error> {
         let Some((head, rest)) = self.bytes.split_at_checked(to_usize(size)) else {
@@ -98,7 +98,7 @@ impl<'a> Reader<'a> {
         Ok(u32::from_le_bytes(*le))
     }
 
-    /// The fixed rows at the start of the stream.
+    /// Reads the bytes of the fixed rows at the start of the stream.
     #[inline]
     pub(crate) fn head<const N: usize>(&mut self) -> Result<&'a [u8; N], Error> {
         let Some((head, rest)) = self.bytes.split_first_chunk() else {
@@ -109,7 +109,7 @@ impl<'a> Reader<'a> {
         Ok(head)
     }
 
-    /// `count` items of `each` bytes; the preceding field, `counter`, contains the count.
+    /// Reads `count` items of `each` bytes; the preceding field, `counter`, contains the count.
     pub(crate) fn items(
         &mut self,
         counter: Field,
@@ -122,11 +122,11 @@ impl<'a> Reader<'a> {
             let at = self.at.saturating_sub(4);
             return Err(Error::new(ErrorKind::TooMany, counter, at, fits, count));
         }
-        // No overflow: the items fit into the remaining bytes.
+        // This cannot overflow, because the items fit into the remaining bytes.
         self.take(counter, count.saturating_mul(each))
     }
 
-    /// `count` numbers; otherwise like [`items`](Self::items).
+    /// Reads `count` numbers of four bytes; otherwise like [`items`](Self::items).
     pub(crate) fn numbers(
         &mut self,
         counter: Field,
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
         max: u32,
     ) -> Result<&'a [U32], Error> {
         let bytes = self.items(counter, count, 4, max)?;
-        // No error: the length is a multiple of four.
+        // This cannot fail, because the length is a multiple of four.
         Ok(<[U32]>::ref_from_bytes(bytes).unwrap_or_default())
     }
 
@@ -150,25 +150,25 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Text up to and including its NUL, which is required.
+    /// Reads a text and its NUL, which is required. Returns the text without the NUL.
     pub(crate) fn cstring_prefix(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
         let window = self.bytes.get(..to_usize(max)).unwrap_or(self.bytes);
         let Some((text, _)) = split_nul(window) else {
             return Err(self.error(ErrorKind::MissingNul, field, max));
         };
-        // A second split, which makes the code smaller than one split of all bytes.
+        // Splitting twice gives smaller code than splitting all bytes once.
         self.take(field, to_u32(text.len()).saturating_add(1))?;
         Ok(CncStr::without_nul(text))
     }
 
-    /// All remaining bytes.
+    /// Reads all remaining bytes.
     #[inline]
     pub(crate) fn take_all(&mut self) -> &'a [u8] {
         self.at = self.at.saturating_add(self.left());
         core::mem::take(&mut self.bytes)
     }
 
-    /// All remaining bytes, between `min` and `max`.
+    /// Reads all remaining bytes, which must be `min` to `max` bytes.
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
         if self.bytes.len() < to_usize(min) {
             return Err(self.error(ErrorKind::Truncated, field, min));
@@ -179,7 +179,7 @@ impl<'a> Reader<'a> {
         Ok(self.take_all())
     }
 
-    /// Like [`rest`](Self::rest), as text and the tail after its NUL.
+    /// Like [`rest`](Self::rest), but splits the bytes at the first NUL into a text and its tail.
     #[inline]
     pub(crate) fn text_and_tail(
         &mut self,
@@ -190,7 +190,7 @@ impl<'a> Reader<'a> {
         self.rest(field, min, max).map(TextRef::split)
     }
 
-    /// All remaining bytes, at least one, as text with any number of NULs at its end.
+    /// Reads all remaining bytes, at least one, as text with any number of NULs at its end.
     pub(crate) fn optional_nul(&mut self, field: Field) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();
@@ -204,7 +204,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Four bytes that are not all 0.
+    /// Reads four bytes, which must not all be 0.
     #[inline]
     pub(crate) fn non_zero(&mut self, field: Field) -> Result<&'a [u8], Error> {
         let at = self.at;
@@ -215,7 +215,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// All remaining bytes: one, two or four.
+    /// Reads all remaining bytes, which must be one, two or four bytes.
     #[inline]
     pub(crate) fn uns8_to_32(&mut self, field: Field) -> Result<&'a [u8], Error> {
         match self.left() {
@@ -224,7 +224,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Rejects remaining bytes.
+    /// Checks that no bytes remain.
     pub(crate) fn finish(self) -> Result<(), Error> {
         match self.bytes {
             [] => Ok(()),

@@ -56,7 +56,7 @@ impl<'b> Writer<'b> {
         Self::run(stream, bytes.len(), buf, |out| out.put(bytes))
     }
 
-    /// Like [`run`](Self::run), but without a maximum length; errors name this subject.
+    /// Like [`run`](Self::run), but without a maximum length. Errors name `subject`.
     #[inline]
     pub(crate) fn fill(
         subject: Subject,
@@ -89,10 +89,10 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Writes a stream that is part of this one.
+    /// Writes a stream that is a part of the stream being written.
     #[inline]
     pub(crate) fn stream(&mut self, part: &impl Encode) {
-        // No error: the buffer has the length of the part.
+        // This cannot fail, because the buffer has the length of the part.
         let _written = part.encode(self.next(part.encoded_len()));
     }
 
@@ -109,7 +109,7 @@ impl<'b> Writer<'b> {
         self.array(number.to_le_bytes());
     }
 
-    /// Writes a NUL and the bytes after it, usually none.
+    /// Writes a NUL and then `tail`, which is usually empty.
     #[inline]
     pub(crate) fn nul_and(&mut self, tail: &[u8]) {
         self.put(&[0]);

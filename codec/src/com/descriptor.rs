@@ -16,10 +16,10 @@ use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
 use crate::value::DataType;
 
-/// The name of an object.
+/// The field with the name of an object, for errors.
 const NAME: Field = Field::of::<DescriptorLayout>("name");
 
-/// The name of the type of an object.
+/// The field with the name of the type of an object, for errors.
 const TYPE: Field = Field::of::<DescriptorLayout>("type");
 
 stream! {
@@ -108,7 +108,7 @@ pub struct DescriptorRef<'a>(pub(super) &'a DescriptorLayout);
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Descriptor(pub(super) DescriptorLayout);
 
-/// Declares the accessors of both types.
+/// Declares the accessors of [`DescriptorRef`] and [`Descriptor`].
 macro_rules! accessors {
     ($lifetime:lifetime) => {
         /// Unique internal number of the object.
@@ -264,7 +264,7 @@ impl<'d> From<&DescriptorRef<'d>> for DescriptorRef<'d> {
     }
 }
 
-/// Writes a text into its 32 bytes.
+/// Writes a text into the 32 bytes of its field.
 fn pad(text: CncStr<'_>, field: Field, at: u32, bytes: &mut [u8]) -> Result<(), Error> {
     let (len, max) = (text.len(), to_u32(bytes.len()));
     if to_u32(len) > max {

@@ -18,7 +18,7 @@ use crate::stream::{Decode, Encode};
 /// Each record is a [`DescriptorRef`].
 ///
 /// The read length of the request is a multiple of 84 and limits the number of records. At the end of
-/// the list, a reply has fewer.
+/// the list, a reply has fewer records.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
 ///

@@ -8,8 +8,8 @@ use crate::address::IndexOffset;
 /// [`CountDynamic`](crate::operation::CountDynamic),
 /// [`DynamicNameByIndex`](crate::operation::DynamicNameByIndex),
 /// [`DynamicValueByName`](crate::operation::DynamicValueByName) and
-/// [`DynamicValueByIndex`](crate::operation::DynamicValueByIndex). Each has its own index offset for
-/// each kind.
+/// [`DynamicValueByIndex`](crate::operation::DynamicValueByIndex). Each function has its own index offset
+/// for each kind.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
 ///
@@ -49,13 +49,13 @@ impl DynamicKind {
         })
     }
 
-    /// The kind with this offset.
+    /// The kind whose offset in `offsets`, the four offsets of a function, is `offset`.
     pub(crate) fn from_offset(offsets: [u32; 4], offset: IndexOffset) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.offset(offsets) == offset)
     }
 }
 
-/// As the manual writes it: `P`, `V.L`, `V.P`, `V.S`.
+/// Displays the name of the kind in the manual: `P`, `V.L`, `V.P` or `V.S`.
 impl fmt::Display for DynamicKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -132,7 +132,7 @@ impl From<DynamicValue> for f64 {
     }
 }
 
-/// The number.
+/// Displays the number.
 impl fmt::Display for DynamicValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.get().fmt(f)

@@ -3,7 +3,7 @@
 use super::spec::{FieldSpec, Layout, Size, is_same};
 
 impl Layout {
-    /// Whether all fixed fields are in the head of the stream, from which they are read.
+    /// Whether all fixed fields are in the head of the stream, where the decoders expect them.
     pub(crate) const fn is_headed(&self) -> bool {
         let (mut fields, mut is_head) = (self.fields, true);
         while let [row, rest @ ..] = fields {
@@ -16,8 +16,8 @@ impl Layout {
         true
     }
 
-    /// Whether the field with this name begins at the end of the rows before it, at their minimum
-    /// length.
+    /// Whether the field with this name has the offset at which the rows before it end, if each of them has
+    /// its minimum length.
     pub(crate) const fn is_at(&self, name: &str) -> bool {
         let (mut fields, mut end, mut per_item) = (self.fields, 0_u32, 0_u32);
         while let [row, rest @ ..] = fields {
@@ -34,8 +34,8 @@ impl Layout {
         false
     }
 
-    /// Whether the maximum length of the stream leaves room for the maximum of each row, and exactly
-    /// that room where no other check limits the row.
+    /// Whether the maximum length of the stream leaves room for the maximum length of each row. A row that
+    /// no other check limits must fill this room exactly.
     pub(crate) const fn is_filled(&self) -> bool {
         let (mut fields, mut before) = (self.fields, 0_u32);
         while let [row, rest @ ..] = fields {
@@ -60,7 +60,7 @@ impl Layout {
 
 #[cfg(feature = "arbitrary")]
 impl Layout {
-    /// The bytes that a stream may have in excess of the minimum of its rows.
+    /// The number of bytes by which a stream may exceed the minimum length of its rows.
     pub(crate) fn room(&self) -> usize {
         crate::bytes::to_usize(self.max.saturating_sub(least(self.fields)))
     }
@@ -88,7 +88,7 @@ mod tests {
             let (ty, meaning, clause) = (Type::Uns32, "", "");
             FieldSpec { name, offset, per_item, size, ty, meaning, clause }
         };
-        // A static keeps the fields reachable, so Miri reports no leak.
+        // Keep the leaked fields reachable from a static, so that Miri reports no leak.
         static LEAKED: Mutex<Vec<&[FieldSpec]>> = Mutex::new(Vec::new());
         let fields = &*rows.iter().map(row).collect::<Vec<_>>().leak();
         LEAKED.lock().expect("no test panics with it").push(fields);

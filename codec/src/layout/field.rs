@@ -35,7 +35,7 @@ impl Field {
         Self::new(Subject::Stream(T::STREAM), index)
     }
 
-    /// The previous field; for a list, its count.
+    /// The previous field. Before a list, this is its count.
     pub(crate) const fn before(self) -> Self {
         Self { index: self.index.saturating_sub(1), ..self }
     }
@@ -50,7 +50,7 @@ impl Field {
         Self::whole_subject(Subject::Stream(stream))
     }
 
-    /// The subject as a whole.
+    /// A subject as a whole, for errors that concern no single part.
     pub(crate) const fn whole_subject(subject: Subject) -> Self {
         Self { subject, index: u8::MAX }
     }

@@ -1,4 +1,4 @@
-//! The fixed fields at the start of a record, as numbers: building an error does not need their names.
+//! Number and sizes of the fixed fields at the start of a record, from which an error computes its offset.
 
 use super::spec::FieldSpec;
 use crate::bytes::to_usize;
@@ -8,7 +8,7 @@ pub(super) const fn count(fields: &[FieldSpec]) -> usize {
     measure(fields).0
 }
 
-/// The sizes of these fields, which have no gaps between them.
+/// The size of each of these fields in bytes. The fields have no gaps between them.
 pub(super) const fn sizes<const COUNT: usize>(fields: &[FieldSpec]) -> [u8; COUNT] {
     let mut sizes = [0; COUNT];
     let (mut left, mut rows): (&mut [u8], _) = (&mut sizes, fields);
@@ -40,7 +40,7 @@ const fn measure(mut fields: &[FieldSpec]) -> (usize, usize) {
 mod tests {
     use crate::layout::Stream;
 
-    /// The sizes equal those of the rows, and their sums equal the offsets of the rows.
+    /// The sizes equal the sizes of the rows, and the sums of the sizes equal the offsets of the rows.
     #[test]
     fn heads_consist_of_the_leading_fixed_fields() {
         for stream in Stream::all().chain([Stream::NoData]) {

@@ -46,7 +46,7 @@ impl Stream {
             .buf
             .get(..out.at)
             .ok_or_else(|| Error::new(ErrorKind::BufferTooSmall, whole, 0, needed, given))?;
-        // Only decoding the result shows which fields a reader finds in it.
+        // Decode the result, because the parts alone do not show which fields a decoder would find.
         let mut read = Read { stream: self, parts: parts.peekable(), fault: None };
         self.walk(bytes, |segment| read.compare(&segment))?;
         let unread =
@@ -54,7 +54,7 @@ impl Stream {
         read.fault.or(unread).map_or(Ok(bytes), Err)
     }
 
-    /// Whether the field is the count of the next one.
+    /// Whether the field is the count of the next field.
     fn is_count(self, field: Field) -> bool {
         let next = |row: &FieldSpec| matches!(row.size, Size::Items { .. });
         self.fields().zip(self.layout().fields).any(|(at, row)| next(row) && at.before() == field)
@@ -76,7 +76,7 @@ impl Out<'_> {
         self.at = self.at.saturating_add(bytes.len());
     }
 
-    /// Writes the parts of a record; returns whether it had any.
+    /// Writes the parts of a record; returns whether the record had any parts.
     fn record<B: AsRef<[u8]>>(
         &mut self,
         stream: Stream,

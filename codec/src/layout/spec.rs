@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::Stream;
 
-/// [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX), in the type that declarations use.
+/// [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX) as a `u32`, which the declarations of streams use.
 pub(crate) const ADS_DATA: u32 = 0x40_0000;
 
 /// A type that is declared as a stream.
@@ -89,7 +89,8 @@ impl Layout {
         u8::MAX
     }
 
-    /// Whether the fields determine the end of the stream: extra bytes are `Trailing`, not `TooLong`.
+    /// Whether the fields determine the end of the stream. If so, extra bytes are reported as `Trailing`,
+    /// not as `TooLong`.
     pub(crate) fn ends_itself(&self) -> bool {
         self.is_fixed() || self.fields.iter().any(|row| row.size == Size::Uns8To32)
     }
@@ -122,7 +123,7 @@ pub struct FieldSpec {
     pub name: &'static str,
     /// The offset that the manual prints, without the part that depends on a count.
     pub offset: u32,
-    /// Bytes added to `offset` for each counted item before the field.
+    /// The number of bytes to add to `offset` for each counted item before the field.
     pub per_item: u32,
     /// The size of the field.
     pub size: Size,
@@ -148,12 +149,12 @@ pub struct FieldSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Size {
-    /// Always this many bytes.
+    /// Exactly this number of bytes.
     Fixed(u32),
-    /// This many bytes. This field and those after it may be absent if the field before it, an ADS
-    /// result, is not 0 (ADS-6).
+    /// This number of bytes. This field and the fields after it may be absent if the field before it, an
+    /// ADS result, is not 0 (ADS-6).
     FixedOnSuccess(u32),
-    /// Items; the field before this one is their count.
+    /// Items; the previous field contains their number.
     Items {
         /// The length of one item in bytes.
         each: u32,
@@ -172,7 +173,7 @@ pub enum Size {
         /// The maximum length in bytes, including the NUL.
         max: u32,
     },
-    /// This many bytes, in a stream that may also be empty.
+    /// This number of bytes, in a stream that may also be empty.
     OptionalFixed(u32),
     /// Text up to a NUL or to the end of the stream. The bytes after the NUL are its tail, which is
     /// kept.
@@ -191,7 +192,7 @@ pub enum Size {
     NonZero,
     /// An unsigned number of one, two or four bytes, up to the end of the stream.
     Uns8To32,
-    /// Text in this many bytes, padded with NULs.
+    /// Text in this number of bytes, padded with NULs.
     Padded(u32),
     /// The rest of the stream.
     Rest {
@@ -215,8 +216,8 @@ impl Size {
         }
     }
 
-    /// The minimum length of a field in bytes. An absent text counts as one NUL: only the last field
-    /// can be absent.
+    /// The minimum length of a field in bytes. It is 1 for a text that may be absent: only the last field
+    /// of a stream can be absent.
     pub(crate) const fn least(self) -> u32 {
         match self {
             Self::TextAndTail { min, .. } | Self::Rest { min, .. } => min,

@@ -32,7 +32,7 @@ macro_rules! subjects {
         }
 
         impl Subject {
-            /// The name in errors and reports.
+            /// The name of the subject in errors and reports.
             pub const fn name(self) -> &'static str {
                 match self {
                     Self::Stream(stream) => stream.layout().name,
@@ -40,7 +40,7 @@ macro_rules! subjects {
                 }
             }
 
-            /// The name of a part; for a stream, of a field.
+            /// The name of the part of the subject with this index; for a stream, the name of the field.
             pub(super) fn part(self, index: u8) -> Option<&'static str> {
                 let index = usize::from(index);
                 let parts: &[&str] = match self {

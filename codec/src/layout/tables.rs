@@ -52,7 +52,7 @@ macro_rules! tables {
                         &HEAD
                     } )+
                     Self::NoData => {
-                        // The match compiles to a table only if each arm is a static.
+                        // The match only compiles to a lookup table if each arm is a static.
                         static HEAD: [u8; 0] = [];
                         &HEAD
                     }

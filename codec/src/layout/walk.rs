@@ -74,7 +74,7 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
     }
 
     fn record(&mut self, stream: Stream) -> Result<(), Error> {
-        // The previous field and its value, which may be the count of the next field.
+        // The previous field and its value, which is a count if the next field is a list.
         let mut counter = Field::whole(stream);
         let mut count = 0_u32;
         for (field, spec) in stream.fields().zip(stream.layout().fields) {

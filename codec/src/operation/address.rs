@@ -39,7 +39,7 @@ impl Address for (Channel, ChannelAxis) {
     }
 
     fn offset(self, rule: OffsetRule) -> IndexOffset {
-        // No error: the elements of `OffsetRule::OfAxis` have few bits.
+        // This cannot fail, because the elements of `OffsetRule::OfAxis` have less than 16 bits.
         self.1.offset(rule.first().get()).unwrap_or(rule.first())
     }
 
@@ -77,7 +77,7 @@ impl Address for (ObjectList,) {
     }
 }
 
-/// A list, and the number of an object in the list.
+/// A list of objects, and the number of an object in the list.
 impl Address for (ObjectList, u32) {
     fn group(self, _: GroupRule) -> IndexGroup {
         self.0.index_group()
@@ -93,7 +93,7 @@ impl Address for (ObjectList, u32) {
     }
 }
 
-/// The content of a COM object.
+/// The address of the content of a COM object.
 impl Address for ((ComGroup, IndexOffset),) {
     fn group(self, _: GroupRule) -> IndexGroup {
         self.0.0.index_group()
@@ -109,7 +109,7 @@ impl Address for ((ComGroup, IndexOffset),) {
     }
 }
 
-/// The object addresses of a class.
+/// The query of the object addresses of a class.
 impl Address for (ClassGroup,) {
     fn group(self, _: GroupRule) -> IndexGroup {
         self.0.index_group()
@@ -156,7 +156,8 @@ impl Address for (ElementAddress,) {
 pub struct ObjectList(ComGroup);
 
 impl ObjectList {
-    /// The list of the platform. The list of the first channel contains its objects too (COM-4).
+    /// The list of the platform. The list of the first channel also contains the objects of the platform
+    /// (COM-4).
     pub const PLATFORM: Self = Self(ComGroup::platform(Access::Object));
 
     /// The index group of the list.

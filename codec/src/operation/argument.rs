@@ -54,7 +54,7 @@ impl<'a> IntoName<'a> for CncStr<'a> {
     }
 }
 
-/// The text without its end: a request ends the name with one NUL.
+/// Converts the text without its end, because a request always ends the name with one NUL.
 impl<'a> IntoName<'a> for TextRef<'a> {
     fn into_name(self) -> Result<CncStr<'a>, Error> {
         Ok(self.text())
@@ -118,7 +118,7 @@ pub struct WriteValue<'a>(Source<'a>);
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bytes(&'a [u8]),
-    /// The first `len` of these bytes.
+    /// The number in the first `len` bytes of `bytes`.
     Number {
         bytes: [u8; 8],
         len: usize,
@@ -172,7 +172,7 @@ impl<'a> From<&'a Vec<u8>> for WriteValue<'a> {
     }
 }
 
-/// The bytes of the elements.
+/// Writes the bytes of the elements.
 impl<'a> From<Elements<'a>> for WriteValue<'a> {
     fn from(elements: Elements<'a>) -> Self {
         Self(Source::Bytes(elements.as_bytes()))

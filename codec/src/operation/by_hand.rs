@@ -4,7 +4,7 @@
 //!   the reply.
 //! - `ReadElement`, `WriteElement`, `ReadObject`, `WriteObject`, `CountElements`: the constructors
 //!   reject addresses of other functions (SDA-12).
-//! - `FindInstance`: the class is addressed by number or by index.
+//! - `FindInstance`: [`by_index`](FindInstance::by_index) changes the addressing of the class.
 
 use super::{
     CountElements, FindInstance, Function, ObjectList, ReadDescriptors, ReadElement, ReadObject,
@@ -24,7 +24,7 @@ use crate::layout::{ADS_DATA, Field, Stream};
 use crate::limits::DESCRIPTOR_LEN;
 use crate::sda::ObjectAddressQuery;
 
-/// Bytes of one descriptor.
+/// The number of bytes of one descriptor.
 const RECORD: u32 = Stream::ObjectDescriptor.layout().max;
 const COUNT: Field = Field::of::<ObjectCount>("count");
 const DESCRIPTORS: Field = Field::whole(Stream::ObjectDescriptors);
@@ -97,7 +97,7 @@ impl ReadDescriptors {
     }
 }
 
-/// Rejects the offset of a function, which cannot be the offset of content (SDA-12).
+/// Rejects an offset that belongs to a function, because it cannot be the offset of content (SDA-12).
 fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Error> {
     match Function::at(task, group, offset) {
         Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
@@ -120,8 +120,8 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     Ok((com, offset))
 }
 
-/// Rejects the offset of a function. The first element of an instance has the offset of
-/// [`CountElements`](super::CountElements).
+/// Rejects an element whose offset belongs to a function. The offset of the first element of an instance
+/// belongs to [`CountElements`](super::CountElements).
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
     content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
     Ok(element)
@@ -194,13 +194,13 @@ impl ReadObject {
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for a group that does not address COM content; [`ErrorKind::Function`]
-    /// for the program stream, which is write-only as far as documented (STM-1);
+    /// for the program stream, because only writing it is documented (STM-1);
     /// [`ErrorKind::TooLong`] for a size greater than [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX).
     pub fn new(group: IndexGroup, offset: IndexOffset, size: u32) -> Result<Self, Error> {
         Ok(Self { object: object(group, offset)?, length: length(size)? })
     }
 
-    /// The parts of the index group, and the index offset of the object.
+    /// The parts of the index group of the object, and its index offset.
     pub const fn address(&self) -> (ComGroup, IndexOffset) {
         self.object
     }
@@ -233,7 +233,7 @@ impl<'a> WriteObject<'a> {
         Ok(Self { object: object(group, offset)?, content: content.into() })
     }
 
-    /// The parts of the index group, and the index offset of the object.
+    /// The parts of the index group of the object, and its index offset.
     pub const fn address(&self) -> (ComGroup, IndexOffset) {
         self.object
     }
@@ -308,15 +308,14 @@ impl FindInstance {
         Self { class: ClassGroup::object_address(class), channel, axis }
     }
 
-    /// Changes the query to addressing by index: channels and spindles are counted among the active
-    /// ones.
+    /// Changes the query to addressing by index, which counts only the active channels and spindles.
     #[must_use]
     pub const fn by_index(mut self) -> Self {
         self.class.addressing = Addressing::Index;
         self
     }
 
-    /// The class and its addressing, by number or by index.
+    /// The class, and whether it is addressed by number or by index.
     pub const fn class_group(&self) -> ClassGroup {
         self.class
     }

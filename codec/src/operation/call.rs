@@ -73,7 +73,7 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, except access to content with another service.
+    /// No function of the index group has this offset, or only access to content with a different service.
     Offset(IndexOffset),
     /// The function requires another service.
     Service {
@@ -114,11 +114,11 @@ impl fmt::Display for DispatchError {
     }
 }
 
-// No `source`: `Display` contains the error of the stream, which a report with sources would repeat.
+// Without `source`: `Display` contains the error of the stream, so a report with sources would repeat it.
 impl core::error::Error for DispatchError {}
 
 impl<'a> Call<'a> {
-    /// Decodes the call to its function and arguments: the first row of the function table that matches.
+    /// Decodes the call to its function and arguments, by the first row of the function table that matches.
     ///
     /// Both SDA and GEO serve the classes of the CNC (ADR-10, assumed). The server must check that its
     /// reply fits the read length.
@@ -145,7 +145,7 @@ impl<'a> Call<'a> {
     /// ```
     ///
     /// # Errors
-    /// The first fault, in the order port, group, offset, service, data.
+    /// The first fault; port, group, offset, service and data are checked in this order.
     pub fn dispatch(&self) -> Result<Request<'a>, DispatchError> {
         let task = Task::from_port(self.port).ok_or(DispatchError::Port(self.port))?;
         let mut error = DispatchError::Group(self.index_group);
@@ -167,8 +167,8 @@ impl<'a> Call<'a> {
                     _ => Request::decode(function, group, self),
                 };
             }
-            // A later row may match content with this service, unless the offset belongs to a function
-            // (SDA-12).
+            // After a row of access to content, a later row may match with this service. Any other
+            // function excludes access to content at its offset (SDA-12).
             if !spec.is_content() {
                 return Err(DispatchError::Service { expected: spec.service, found: self.service });
             }

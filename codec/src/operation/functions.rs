@@ -115,7 +115,7 @@ functions! {
         by_hand(object: Object; content: Value) ContentRef { bytes: content } => NoData;
 }
 
-/// The function's [name](FunctionSpec::name) in reports.
+/// Displays the function's [name](FunctionSpec::name) in reports.
 impl fmt::Display for Function {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.spec().name)
@@ -123,7 +123,7 @@ impl fmt::Display for Function {
 }
 
 impl Function {
-    /// The function at this address; `None` for content (SDA-12).
+    /// The function at this address, except access to content (SDA-12); `None` for any other address.
     pub(super) fn at(task: Task, group: IndexGroup, offset: IndexOffset) -> Option<Self> {
         let group = group.parts()?;
         Self::ALL.iter().copied().find(|function| {

@@ -22,17 +22,17 @@ use crate::address::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GroupRule {
-    /// COM with object access, of the platform, a channel or a platform axis.
+    /// Groups of COM with object access: of the platform, a channel or a platform axis.
     ComObjects,
-    /// COM with element access, of the platform, a channel or a platform axis.
+    /// Groups of COM with element access: of the platform, a channel or a platform axis.
     ComContent,
-    /// COM with element access, of a channel.
+    /// Groups of COM with element access: of a channel.
     ComChannel,
-    /// The content of a class, of a channel.
+    /// Groups of a channel with the content of this class.
     ChannelOf(Class),
-    /// An attribute of any class and instance.
+    /// Groups of this attribute, of any class and instance.
     Elements(Attribute),
-    /// The object address of any class, without an instance.
+    /// Groups of the object address of any class; their instance is 0.
     Instances,
 }
 
@@ -45,7 +45,7 @@ impl GroupRule {
                 matches!(com.access, Access::Object)
                     && (matches!(com.table, ComTable::Channel) || com.instance > 0)
             }
-            // The axis may be in the offset instead of the group (E-04).
+            // The number of the axis may be in the offset instead of the group (E-04).
             (Self::ComContent, Group::Com(com)) => matches!(com.access, Access::Element),
             (Self::ComChannel, Group::Com(com)) => {
                 matches!((com.access, com.table), (Access::Element, ComTable::Channel))
@@ -81,7 +81,7 @@ const fn com_group(access: Access) -> IndexGroup {
 }
 
 const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexGroup {
-    // `index_group` ignores this for a spindle.
+    // For a spindle, `index_group` ignores the addressing.
     let addressing = Addressing::Logical;
     ClassGroup { addressing, class, attribute, instance }.index_group()
 }
@@ -103,20 +103,21 @@ const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexG
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OffsetRule {
-    /// This offset.
+    /// Only this offset.
     At(u32),
-    /// One offset for each kind of dynamic parameters.
+    /// Four offsets, one for each kind of dynamic parameters.
     OfKind([u32; 4]),
     /// This offset and all greater ones.
     AtLeast(u32),
     /// `axis * 0x10000` plus this element, for every axis from 1 on (VAR-26).
     OfAxis(u32),
-    /// The first element of an instance: of the channel, and of its axes with the stride 0x10000.
+    /// The offset of the first element of an instance: of a channel, or of one of its axes with the stride
+    /// 0x10000.
     FirstElement,
 }
 
 impl OffsetRule {
-    /// The smallest offset; for elements of axes, the element.
+    /// The smallest offset; for [`OfAxis`](Self::OfAxis), the element.
     pub(crate) const fn first(self) -> IndexOffset {
         IndexOffset::new(match self {
             Self::At(first) | Self::OfKind([first, ..]) | Self::AtLeast(first) => first,

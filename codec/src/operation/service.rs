@@ -65,7 +65,7 @@ pub enum Task {
     Com,
 }
 
-/// As the manual writes it: `GEO`, `SDA`, `COM`.
+/// Displays the name of the task in the manual: `GEO`, `SDA` or `COM`.
 impl fmt::Display for Task {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -42,13 +42,13 @@ pub struct FunctionSpec {
 }
 
 impl FunctionSpec {
-    /// Whether the function accesses content: at any offset that no other function has (SDA-12).
+    /// Whether the function accesses content, which has any offset that no other function has (SDA-12).
     pub const fn is_content(&self) -> bool {
         matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
     }
 
-    /// Whether the function exists in this group of this task. Both SDA and GEO serve the classes
-    /// (ADR-10, assumed).
+    /// Whether the function exists in this group of this task. SDA and GEO are not distinguished, because
+    /// both serve the classes (ADR-10, assumed).
     pub(super) const fn is_in(&self, task: Task, group: Group) -> bool {
         matches!(self.task, Task::Com) == matches!(task, Task::Com) && self.group.contains(group)
     }
@@ -75,8 +75,8 @@ pub enum Effect {
     Motion,
 }
 
-/// Declares the functions from their rows: `Function` with its specs, the typed operations, `Request`
-/// and its decoding.
+/// Declares the functions from their rows: [`Function`](super::Function) with its specs, the typed
+/// operations, and `Request` with its decoding.
 macro_rules! functions {
     ($(
         $function:ident $(<$a:lifetime>)? $name:literal: $service:ident $task:ident $effect:ident,

@@ -10,8 +10,8 @@ pub(super) mod sealed {
     pub trait Sealed {}
 }
 
-/// The parts of a call. Used as a trait object, so that all operations share the code that builds the
-/// call; otherwise firmware would contain it 30 times.
+/// The parts of a call. Used as a trait object, so that all 30 operations share the code that builds a
+/// call; otherwise a program would contain a copy of this code for each operation.
 pub(super) trait Parts {
     fn index_group(&self) -> IndexGroup;
     fn index_offset(&self) -> IndexOffset;
@@ -135,8 +135,8 @@ pub trait Operation: sealed::Sealed {
     /// Writes the data of the request, which may be empty, to the front of `buf`.
     ///
     /// # Errors
-    /// A value that the function does not accept, or a buffer that is too small. Nothing is written
-    /// then.
+    /// A value that the function does not accept, or a buffer that is too small. On error,
+    /// nothing is written.
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
     /// Encodes the data into `buf` and returns it with port, service, address and read length.

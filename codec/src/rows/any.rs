@@ -6,7 +6,7 @@ use crate::text::{CncString, Text};
 
 pub(crate) type Any<'u, 'a> = &'u mut arbitrary::Unstructured<'a>;
 
-/// At most `max` values.
+/// Generates at most `max` values.
 pub(crate) fn up_to<T: for<'a> arbitrary::Arbitrary<'a>>(
     u: Any<'_, '_>,
     max: usize,
@@ -15,14 +15,14 @@ pub(crate) fn up_to<T: for<'a> arbitrary::Arbitrary<'a>>(
     (0..len).map(|_| u.arbitrary()).collect()
 }
 
-/// Text of at most `max` bytes.
+/// Generates a text of at most `max` bytes.
 pub(crate) fn text(u: Any<'_, '_>, max: usize) -> arbitrary::Result<CncString> {
     let mut bytes: Vec<u8> = up_to(u, max)?;
     bytes.retain(|&byte| byte != 0);
     Ok(CncString::without_nul(bytes))
 }
 
-/// Text and its NUL, followed by NULs if `is_padded`, otherwise by any bytes.
+/// Generates a text and its NUL, followed by NULs if `is_padded`, otherwise by any bytes.
 pub(crate) fn ended(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::Result<Text> {
     let text = text(u, max.saturating_sub(1))?;
     let left = max.saturating_sub(1).saturating_sub(text.as_bytes().len());
@@ -33,7 +33,7 @@ pub(crate) fn ended(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::R
     Ok(Text { text, tail: Some(tail) })
 }
 
-/// The same, with or without the NUL.
+/// Like [`ended`], but the text may have no NUL and no bytes after it.
 pub(crate) fn open(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::Result<Text> {
     let ended = ended(u, max, is_padded)?;
     let is_open = !ended.text.as_bytes().is_empty() && u.arbitrary()?;

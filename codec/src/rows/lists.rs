@@ -6,7 +6,7 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::{ADS_DATA, Field, Size, Type};
 use crate::variable::U32List;
 
-/// A list of UNS32. Its count has its own row.
+/// A list of UNS32. The count of the list is a separate row.
 pub(crate) struct List<const MAX: u32>;
 
 impl<const MAX: u32> Row for List<MAX> {
@@ -50,7 +50,7 @@ impl<const MAX: u32> Row for List<MAX> {
     }
 }
 
-/// Counted bytes. Their length has its own row.
+/// Counted bytes. The number of bytes is a separate row.
 pub(crate) struct Data;
 
 impl Row for Data {
@@ -84,7 +84,7 @@ impl Row for Data {
     }
 }
 
-/// All remaining bytes. The length of the stream limits them.
+/// All remaining bytes. The maximum length of the stream limits their number.
 pub(crate) struct Rest<const MIN: u32, const MAX: u32>;
 
 impl<const MIN: u32, const MAX: u32> Row for Rest<MIN, MAX> {
@@ -159,7 +159,7 @@ mod owned {
         }
     }
 
-    /// Rows that are bytes.
+    /// Implements `Owned` for rows of bytes.
     macro_rules! bytes {
         ($(
             [$($generics:tt)*] $row:ty, pull $from:ident => $pull:expr,

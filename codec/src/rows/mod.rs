@@ -16,14 +16,14 @@ use crate::layout::{Field, Size, Type};
 
 /// A kind of row.
 ///
-/// The fixed rows at the start of a stream are its head. One check of the length covers them; each is
-/// then read at its offset in the table.
+/// The fixed rows at the start of a stream are its head. One check of the length covers the whole head;
+/// each row is then read at its offset in the table.
 pub(crate) trait Row {
-    /// The type in a view.
+    /// The type of the field in a borrowed type (a view).
     type View<'a>: Copy;
     const SIZE: Size;
     const TYPE: Type;
-    /// Whether `read` can reject the value of a fixed row. Not set for other rows.
+    /// Whether `read` can reject a value. Only used for rows of fixed size.
     const REJECTS: bool = false;
 
     /// Reads the row that begins at offset `at`.
@@ -35,27 +35,27 @@ pub(crate) trait Row {
     ) -> Result<Self::View<'a>, Error>;
     /// The length of the encoded row, including a count.
     fn len(view: Self::View<'_>) -> usize;
-    /// Rejects values that `read` would reject. The row, including a count, begins at `at`.
+    /// Rejects values that `read` would reject. The row, including its count, begins at offset `at`.
     #[inline]
     fn check(_: Self::View<'_>, _: Field, _at: usize) -> Result<(), Error> {
         Ok(())
     }
     /// Writes the bytes of the row that are in the head.
     fn write_head(_: Self::View<'_>, _head: &mut [u8], _at: usize) {}
-    /// Writes the bytes after the head.
+    /// Writes the bytes of the row that are after the head.
     fn write(_: Self::View<'_>, _: &mut Writer<'_>) {}
 }
 
 /// Pulls the bytes of one row from a reader, at most one more than the maximum of the row.
 #[cfg(feature = "binrw")]
 pub(crate) trait Pull {
-    /// Takes `len` bytes, or fewer at the end of the reader.
+    /// Reads `len` bytes, or fewer at the end of the reader.
     fn exact(&mut self, len: usize) -> binrw::io::Result<()>;
-    /// Takes all bytes to the end of the reader, at most `max` + 1.
+    /// Reads all bytes to the end of the reader, at most `max` + 1.
     fn rest(&mut self, max: u32) -> binrw::io::Result<()>;
-    /// Takes the bytes up to the first NUL, at most `max`.
+    /// Reads the bytes up to and including the first NUL, at most `max`.
     fn until_nul(&mut self, max: u32) -> binrw::io::Result<()>;
-    /// Takes a count and that number of items, unless the count exceeds `max`.
+    /// Reads a count and that number of items of `each` bytes; only the count if it exceeds `max`.
     fn counted(&mut self, each: usize, max: u32) -> binrw::io::Result<()>;
 }
 
@@ -75,12 +75,12 @@ pub(crate) trait Owned: Row {
     /// Pulls the row's bytes from a reader; `read` checks them.
     #[cfg(feature = "binrw")]
     fn pull(from: &mut impl Pull) -> binrw::io::Result<()>;
-    /// A valid value, with at most `room` bytes in excess of the minimum.
+    /// Generates a valid value, which exceeds the minimum length by at most `room` bytes.
     #[cfg(feature = "arbitrary")]
     fn any(u: any::Any<'_, '_>, room: usize) -> arbitrary::Result<Self::Type>;
 }
 
-/// Bytes of a head at an offset. `stream!` checks the offsets of its rows, so they are within the head.
+/// The bytes of a head at offset `at`. `stream!` checks the offsets of its rows, so they are in the head.
 #[inline(always)]
 fn part<const N: usize>(head: &[u8], at: usize) -> [u8; N] {
     head.get(at..).and_then(<[u8]>::first_chunk).copied().unwrap_or([0; N])
@@ -93,7 +93,7 @@ fn put<const N: usize>(head: &mut [u8], at: usize, bytes: [u8; N]) {
     }
 }
 
-/// The number before an offset: the count of a list.
+/// The number in the four bytes before offset `at`: the count of a list.
 #[inline(always)]
 fn count(head: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(part(head, at.saturating_sub(4)))

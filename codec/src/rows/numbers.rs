@@ -138,7 +138,7 @@ mod owned {
     #[cfg(feature = "binrw")]
     use crate::rows::Pull;
 
-    /// Rows with the same type in a view and in an owned type.
+    /// Implements `Owned` for rows that have the same type in a view and in an owned type.
     macro_rules! numbers {
         ($( [$($generics:tt)*] $row:ty, $type:ty, [$($where:tt)*] $size:expr, any $u:ident => $any:expr; )+) => { $(
             impl<$($generics)*> Owned for $row where $($where)* {

@@ -13,7 +13,7 @@ stream! {
     ///
     /// The first element of the instance is not counted (assumed).
     ///
-    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The width is assumed.
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The width of the number is assumed.
     ///
     /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
@@ -106,7 +106,7 @@ impl ElementLength {
     }
 }
 
-/// The number of bytes.
+/// Displays the number of bytes of the content.
 impl fmt::Display for ElementLength {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.length.fmt(f)
@@ -138,13 +138,13 @@ impl Encode for ElementLength {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        // A narrow number was decoded from the same width, so it fits.
+        // A length with a width of one or two bytes was decoded from that width, so it fits.
         let all = self.length.to_le_bytes();
         Writer::copy(Self::STREAM, all.get(..self.encoded_len()).unwrap_or_default(), buf)
     }
 }
 
-/// The length, tagged with the type that has its width.
+/// The serialized form: the length, tagged with the type that has its width.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "UPPERCASE")]

@@ -14,12 +14,12 @@ stream! {
     ///
     /// | class | channel | axis |
     /// |---|---|---|
-    /// | position controller | 0 | from 1 to the configured axes |
-    /// | interpolator, decoder, path preparation | from 1 to the configured channels | from 0 (the channel itself) to `BAHN_BAVO_AXMAX` |
-    /// | HLD | from 1 to the configured channels, 0 for platform axes (E-30) | 0, or from 1 to the configured axes |
+    /// | position controller | 0 | from 1 to the number of configured axes |
+    /// | interpolator, decoder, path preparation | from 1 to the number of configured channels | from 0 (the channel itself) to `BAHN_BAVO_AXMAX` |
+    /// | HLD | from 1 to the number of configured channels, 0 for platform axes (E-30) | 0, or from 1 to the number of configured axes |
     /// | spindle | index of the spindle, from 0 | 0 |
     ///
-    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths are assumed.
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths of the numbers are assumed.
     ///
     /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
@@ -43,7 +43,7 @@ stream! {
 stream! {
     /// The address of an instance of a class.
     ///
-    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths are assumed.
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths of the numbers are assumed.
     ///
     /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).

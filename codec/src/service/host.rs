@@ -7,10 +7,10 @@ use crate::text::CncStr;
 
 /// A host of one or more services on the Service Interface of a channel.
 ///
-/// The host reads REQUEST_STATE; if it is not 0, UUID; if that is one of its services, REQUEST. It
-/// then reads all three again, because the program may have called another service between two reads.
-/// If the values are unchanged, the host hands out the request (SVC-2). When it has the answer, the
-/// host
+/// The host reads REQUEST_STATE. If the state is not 0, it reads UUID; if the UUID is that of one of its
+/// services, it reads REQUEST. It then reads the three variables again, because the program may have
+/// called another service between two reads. If the values are unchanged, the host hands out the request
+/// (SVC-2). When it has the answer, the host
 /// 1. reads the three variables once more, and drops the answer if a value has changed: the program
 ///    gave up or called another service, or the CNC was reset,
 /// 2. writes RESPONSE,
@@ -26,8 +26,8 @@ use crate::text::CncStr;
 /// [`step`](Self::step) returns the same step until the caller reports its completion with
 /// [`read`](Self::read), [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll).
 /// A failed read can be repeated. Report a failed write with [`failed`](Self::failed). The value may
-/// have been written and the program may have continued, so the host then reads before it writes
-/// again.
+/// have been written and the program may have continued, so the host then reads the variables before it
+/// writes again.
 ///
 /// One case cannot be detected: two hosts share a channel, and a write of RESPONSE_STATE by the first
 /// host is reported as failed but took effect. If the program then calls a service of the second host,
@@ -65,11 +65,11 @@ use crate::text::CncStr;
 pub struct Host<'s> {
     services: &'s [ServiceId],
     phase: Phase,
-    /// The request: index of the service, text, state.
+    /// The request: the index of the service, the text and the state.
     service: usize,
     request: ServiceText,
     request_state: u32,
-    /// The answer; the state is 0 before the answer.
+    /// The answer: the text and the state. The state is 0 as long as there is no answer.
     response: ServiceText,
     response_state: [u8; 4],
     outcome: Option<Outcome>,
@@ -78,7 +78,7 @@ pub struct Host<'s> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Idle,
-    // Reads until there is a request to one of the services.
+    // Reads the variables until they contain a request to one of the services.
     PollState,
     PollUuid,
     PollRequest,
@@ -93,9 +93,9 @@ enum Phase {
     Clear,
     /// Writes RESPONSE_STATE.
     Finish,
-    /// The write of REQUEST_STATE failed: reads whether it took effect.
+    /// The write of REQUEST_STATE failed: reads REQUEST_STATE, to check whether the write took effect.
     LookCleared,
-    // The write of RESPONSE_STATE failed: reads whether it took effect or the interface is unchanged.
+    // The write of RESPONSE_STATE failed: reads the variables, to check whether the write took effect.
     LookResponseState,
     LookRequestState,
     LookUuid,
@@ -179,7 +179,7 @@ pub enum Outcome {
 }
 
 impl<'s> Host<'s> {
-    /// A host of these services. If two have the same UUID, the first one is called.
+    /// Creates a host of these services. If two services have the same UUID, the first one is called.
     pub const fn new(services: &'s [ServiceId]) -> Self {
         Self {
             services,
@@ -203,7 +203,7 @@ impl<'s> Host<'s> {
             Phase::Clear => HostStep::Write(ServiceVariable::RequestState, &[0; 4]),
             Phase::Finish => HostStep::Write(ServiceVariable::ResponseState, &self.response_state),
             Phase::Serving => {
-                // The index came from this list, so it is valid.
+                // The index was found in this list, so it is valid.
                 self.services.get(self.service).map_or(HostStep::Wait, |uuid| HostStep::Serve {
                     uuid,
                     request: self.request.text(),
@@ -264,7 +264,7 @@ impl<'s> Host<'s> {
             Phase::CheckUuid => self.go_on(self.is_own(value), Phase::CheckRequest),
             Phase::CheckRequest => {
                 let next = if self.has_answer() { Phase::Respond } else { Phase::Serving };
-                // A text that is too long differs from the request.
+                // A text that is too long is an error, and differs from the request.
                 self.go_on(request() == Ok(self.request), next)
             }
             Phase::LookResponseState if state()?.to_le_bytes() == self.response_state => {
@@ -278,7 +278,7 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// Enters the next phase if the values are unchanged; otherwise the request was withdrawn.
+    /// The phase `next` if the values are unchanged; otherwise the request was withdrawn.
     fn go_on(&mut self, is_unchanged: bool, next: Phase) -> Phase {
         match is_unchanged {
             true => next,
@@ -296,7 +296,7 @@ impl<'s> Host<'s> {
         self.services.iter().position(|service| *service == id)
     }
 
-    /// Whether the UUID is that of the current request.
+    /// Whether this value of UUID is that of the service of the current request.
     fn is_own(&self, value: &[u8]) -> bool {
         self.service_of(value) == Some(self.service)
     }
@@ -351,8 +351,8 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// Discards the request and its answer, and looks for a request. A request that is still in the
-    /// variables is served again.
+    /// Discards the current request and its answer, and looks for a new request. A request that is still
+    /// in the variables is served again.
     pub fn restart(&mut self) {
         self.phase = Phase::PollState;
     }

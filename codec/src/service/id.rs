@@ -43,7 +43,8 @@ impl ServiceId {
     ///
     /// # Errors
     /// [`ErrorKind::Truncated`], [`ErrorKind::Trailing`]: not 36 characters;
-    /// [`ErrorKind::Unexpected`]: a character that is neither a digit nor a hyphen, or is the wrong one of the two.
+    /// [`ErrorKind::Unexpected`]: a character other than the hexadecimal digit or the hyphen that its
+    /// position requires.
     pub fn new(text: &str) -> Result<Self, Error> {
         Self::from_chars(Chars::of_str(text))
     }

@@ -12,7 +12,7 @@ use crate::text::CncStr;
 #[derive(Clone, Copy)]
 pub(super) struct ServiceText {
     bytes: [u8; SERVICE_TEXT_MAX],
-    /// Includes the NUL.
+    /// The length of the text in bytes, including its NUL.
     len: u8,
 }
 
@@ -41,7 +41,7 @@ impl ServiceText {
         CncStr::until_nul(&self.bytes)
     }
 
-    /// The value: the text and one NUL.
+    /// The value to write: the text and one NUL.
     pub(super) fn value(&self) -> &[u8] {
         self.bytes.get(..to_usize(self.len.into())).unwrap_or(&self.bytes)
     }
@@ -104,7 +104,7 @@ impl ServiceVariable {
     }
 }
 
-/// The bytes of a state, which must not be 0.
+/// The bytes of a state; rejects a state of 0.
 pub(super) fn not_zero(state: u32, variable: ServiceVariable) -> Result<[u8; 4], Error> {
     match state {
         0 => Err(Error::new(ErrorKind::OutOfRange, variable.field(), 0, 1, 0)),

@@ -84,7 +84,7 @@ impl ServiceVariable {
     }
 }
 
-/// The name.
+/// Displays the name.
 impl fmt::Display for ServiceVariable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

@@ -45,7 +45,7 @@ pub struct Diagnostic {
 pub enum DiagnosticKind {
     /// A word of a loop (STM-8).
     Loop(LoopWord),
-    /// `$GOTO` to a label in the same or an earlier line, and not in a later one (STM-8).
+    /// `$GOTO` to a label that is in the same or an earlier line, but in no later line (STM-8).
     BackwardJump {
         /// The line of the label.
         to: u32,
@@ -78,7 +78,7 @@ impl DiagnosticKind {
     }
 }
 
-/// A short description of the class.
+/// Displays a short description of the class.
 impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

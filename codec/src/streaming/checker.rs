@@ -12,15 +12,15 @@ use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 /// ends. It carries comment blocks, labels, program ends and line numbers over from one part to the
 /// next. Because it knows neither later lines nor all earlier lines, two differences remain:
 /// - A jump goes back if its label is in the same or an earlier line, and not in a later line *of the
-///   same part* (assumed). The split into parts only matters if a label is both before and after the
-///   jump.
+///   same part* (assumed). The split into parts therefore only affects a jump whose label occurs both
+///   before and after it.
 /// - The checker remembers at least the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels, if they have
 ///   at most [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together. It does not detect a
 ///   jump back to an older label.
 ///
-/// It checks neither line ends, nor the length of lines, nor that all characters are ASCII.
-/// [`check_line_ends`](super::check_line_ends) checks line ends; [`NcText`](super::NcText) checks all
-/// three.
+/// A checker checks neither line ends, nor the length of lines, nor that all characters are ASCII.
+/// [`check_line_ends`](super::check_line_ends) checks line ends; [`NcText`](super::NcText) accepts any line
+/// ends, and checks the length of lines and the characters.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6 (STM-8, STM-9, STM-10).
 ///
@@ -92,7 +92,7 @@ impl Checker {
     /// The minimum number of labels that a checker remembers.
     pub const LABELS_KNOWN: usize = labels::LABELS;
 
-    /// The maximum number of characters of these labels together.
+    /// The maximum total number of characters of the labels that a checker remembers.
     pub const CHARACTERS_KNOWN: usize = labels::CHARACTERS;
 
     /// Creates a checker at the first line of a program.
@@ -116,7 +116,7 @@ impl Checker {
         self.state.lines
     }
 
-    /// The diagnostic for an open comment block, for use after the last line.
+    /// The diagnostic for a comment block that is open; call this function after the last line.
     pub fn open_comment(&self) -> Option<Diagnostic> {
         self.state.open_comment()
     }
@@ -209,7 +209,7 @@ impl Iterator for CheckEvents<'_> {
     }
 }
 
-/// Checks the remaining lines, because a program end in them affects later lines.
+/// Checks the lines that were not iterated over, because a program end in them affects later lines.
 impl Drop for CheckEvents<'_> {
     fn drop(&mut self) {
         while self.next().is_some() {}

@@ -10,13 +10,13 @@ pub(super) const fn is_end(byte: u8) -> bool {
     matches!(byte, CR | LF)
 }
 
-/// The first line, and the rest of the text, beginning with the line end.
+/// Splits a text into its first line and the rest, which begins with the line end.
 pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
     let len = bytes.iter().position(|&byte| is_end(byte)).unwrap_or(bytes.len());
     bytes.split_at_checked(len).unwrap_or((bytes, &[]))
 }
 
-/// The text after the line end, if the text begins with one.
+/// The text without the line end at its start, if there is one.
 pub(super) const fn after_end(bytes: &[u8]) -> &[u8] {
     match bytes {
         [LF, rest @ ..] | [CR, LF, rest @ ..] | [CR, rest @ ..] => rest,
@@ -24,10 +24,10 @@ pub(super) const fn after_end(bytes: &[u8]) -> &[u8] {
     }
 }
 
-/// Checks that each line of received data ends in CR LF, like a CNC that reads its stream.
+/// Checks that each line of received data ends in CR LF, as a CNC does when it reads its stream.
 ///
-/// Use it on the side of the CNC. The text of a client may have other line ends, which
-/// [`NcText::packets`](super::NcText::packets) replaces.
+/// Use this function in a server. The text of a client may have other line ends, which
+/// [`NcText::packets`](super::NcText::packets) replaces by CR LF.
 ///
 /// Manual: `stream-en`, section 4.1 (STM-5).
 ///

@@ -8,7 +8,7 @@ use super::scan::Label;
 /// The minimum number of recent labels that a checker remembers, if they have at most [`CHARACTERS`].
 pub(super) const LABELS: usize = 8192;
 
-/// The maximum number of characters of these labels together.
+/// The maximum total number of characters of the recent labels that a checker remembers.
 pub(super) const CHARACTERS: usize = 256 * 1024;
 
 /// The last line of each label of the current program, and of earlier programs in the same lines.
@@ -25,7 +25,7 @@ pub(super) struct Labels {
 
 #[derive(Clone, Debug)]
 struct Generation {
-    /// The last lines, by program and name.
+    /// The last line of each label, by the program and the name of the label.
     lines: BTreeMap<(u32, Vec<u8>), u32>,
     characters: usize,
 }
@@ -52,7 +52,7 @@ impl Labels {
         }
     }
 
-    /// The last line with the label.
+    /// The last recorded line of the label.
     pub(super) fn last(&self, label: &Label<'_>) -> Option<u32> {
         let key = (label.program(), label.key());
         self.recent.lines.get(&key).or_else(|| self.before.lines.get(&key)).copied()

@@ -1,6 +1,7 @@
 //! The tokens of a line.
 
-/// The block number, and the text after it. A `/` may precede it; blanks may be anywhere.
+/// The block number of a line, if it has one, and the text after it. A `/` may precede the number. Blanks
+/// before and after each of them are skipped.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     let mut at = skip_while(line, is_blank);
     if let [b'/', after @ ..] = at {
@@ -14,19 +15,20 @@ pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     (None, at)
 }
 
-/// The leading digits, and the text after them; `None` without a digit.
+/// The digits at the start of a text, after any blanks, and the text after the digits; `None` if the text
+/// does not start with a digit.
 pub(super) fn number_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     let (digits, rest) = split_while(skip_while(text, is_blank), u8::is_ascii_digit);
     (!digits.is_empty()).then_some((digits, rest))
 }
 
-/// A name up to the closing bracket, and the text after it.
+/// The name before the closing bracket, and the text after the bracket; `None` without a closing bracket.
 pub(super) fn name_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     let (name, rest) = split_while(text, |&byte| byte != b']');
     Some((name.trim_ascii(), rest.get(1..)?))
 }
 
-/// The text after `#COMMENT` and this word.
+/// The text after `#COMMENT` and `word`; `None` if the text does not start with these two words.
 pub(super) fn comment_command<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8]> {
     let (command, rest) = text.split_at_checked(b"#COMMENT".len())?;
     if command.first() != Some(&b'#') {
@@ -50,8 +52,8 @@ pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     }
 }
 
-/// Skips bytes that no word of interest begins with: numbers, signs, and addresses of one letter such
-/// as X. Most lines consist of these.
+/// Skips bytes that cannot begin a word of interest: numbers, signs, and addresses of one letter such as X.
+/// Most lines only consist of such bytes.
 pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
     while let [byte, after @ ..] = rest {
         rest = match char_kind(*byte) {
@@ -71,19 +73,19 @@ pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
 /// A class of bytes, by the words that can begin with them.
 #[derive(Clone, Copy)]
 enum CharKind {
-    /// No word.
+    /// Begins no word.
     Sign,
     Digit,
-    /// An address, or a longer word.
+    /// Begins an address of one letter, or a longer word.
     Letter,
-    /// A word that must be checked.
+    /// Begins a word that must be checked.
     Other,
 }
 
 const fn char_kind(byte: u8) -> CharKind {
     match byte {
         b'0'..=b'9' => CharKind::Digit,
-        // A program end, or the call of a subroutine.
+        // May begin a program end (`M`) or the call of a subroutine (`L`).
         b'M' | b'm' | b'L' | b'l' => CharKind::Other,
         b'A'..=b'Z' | b'a'..=b'z' => CharKind::Letter,
         b'$' | b'"' | b'.' | b'_' | b';' | b'(' => CharKind::Other,
@@ -91,7 +93,7 @@ const fn char_kind(byte: u8) -> CharKind {
     }
 }
 
-/// The text after the closing parenthesis; empty if there is none.
+/// The text after the closing parenthesis; empty if the parenthesis is not closed.
 pub(super) fn after_parentheses(mut rest: &[u8]) -> &[u8] {
     let mut open = 1_u32;
     while let Some((&byte, after)) = rest.split_first() {

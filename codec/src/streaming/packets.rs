@@ -35,7 +35,7 @@ pub struct Packets<'a> {
 #[derive(Clone, Copy)]
 pub(super) enum PacketBytes<'a> {
     Text(&'a [u8]),
-    /// At the front of the buffer.
+    /// The number of bytes at the front of the buffer.
     Buffer(usize),
 }
 
@@ -82,7 +82,7 @@ impl<'a> Packets<'a> {
         }
         let reach = match self.rest.get(..STREAM_PACKET_MAX) {
             Some(reach) => reach,
-            // The last packet. If its last line has no end and CR LF fits, the packet must be copied.
+            // The last packet. Copy it if its last line lacks a line end and there is room for CR LF.
             None if self.rest.len() < STREAM_PACKET_MAX.saturating_sub(1) => {
                 self.rest.ends_with(&[LF]).then_some(self.rest)?
             }
@@ -104,7 +104,7 @@ impl<'a> Packets<'a> {
     }
 }
 
-/// Copies as many lines as fit. Returns the rest of the text and the length of the packet.
+/// Copies as many lines as fit into the packet. Returns the rest of the text and the length of the packet.
 fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], usize) {
     let (mut rest, mut room, mut free) = (text, packet.as_mut_slice(), STREAM_PACKET_MAX);
     while !rest.is_empty() {
@@ -116,8 +116,8 @@ fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], 
     (rest, STREAM_PACKET_MAX.saturating_sub(free))
 }
 
-/// Copies a line and ends it with CR LF, if it fits. Returns the text after the line and the remaining
-/// room.
+/// Copies a line and ends it with CR LF. Returns the text after the line and the remaining room; `None` if
+/// the line does not fit.
 fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
     let (line, _) = split_at_end(text.get(..=room.len()).unwrap_or(text));
     let (out, room) = room.split_at_mut_checked(line.len())?;
@@ -161,7 +161,7 @@ mod tests {
         assert!(matches!(packets.next_in(&mut buf), Some(PacketBytes::Buffer(504))));
         assert!(packets.next_in(&mut buf).is_none());
 
-        // If only the line end of the open line does not fit, the packet before it is borrowed.
+        // If there is no room for the missing CR LF, only the line before the open line is borrowed.
         for (open, borrowed) in [(490, false), (491, true), (492, true)] {
             let bytes = [&line[..], &b"X".repeat(open)].concat();
             let mut packets = NcText::new(&bytes).unwrap().packets();

@@ -19,8 +19,8 @@ pub(super) struct Token<'a> {
 }
 
 pub(super) enum Word<'a> {
-    /// The first text of a line that is neither blank nor comment; another word may begin at the same
-    /// position.
+    /// The start of the code of a line: the first text that is neither blank nor comment. A `Goto`, `Loop`
+    /// or other word may begin at the same position.
     Code,
     Goto(Label<'a>),
     Loop(LoopWord),
@@ -41,7 +41,7 @@ impl Label<'_> {
         self.program
     }
 
-    /// The key for comparing labels of a program.
+    /// The key by which labels of a program are compared.
     pub(super) fn key(&self) -> alloc::vec::Vec<u8> {
         let text = self.text.iter().map(u8::to_ascii_lowercase);
         core::iter::once(u8::from(self.named)).chain(text).collect()
@@ -66,14 +66,14 @@ impl ScanState {
 /// Scans a text for words and labels; skips comment blocks.
 #[derive(Clone)]
 pub(super) struct Scan<'a> {
-    /// The text after the current line and its end.
+    /// The text after the current line and its line end.
     below: &'a [u8],
     line: &'a [u8],
     number: u32,
     /// The rest of the current line.
     rest: &'a [u8],
     stage: Stage,
-    /// Whether the rest of the line has no closing bracket.
+    /// Whether it is known that the rest of the line has no closing bracket.
     open: bool,
     /// The line after its block number.
     body: &'a [u8],
@@ -88,7 +88,7 @@ pub(super) struct Scan<'a> {
 enum Stage {
     /// No code has been seen in the line.
     Blank,
-    /// The same, in a line that begins a program, whose name may contain any words.
+    /// No code has been seen in a line that begins a program, whose name may contain any words.
     Title,
     Body,
 }
@@ -131,7 +131,7 @@ impl<'a> Scan<'a> {
         None
     }
 
-    /// The position before the last `left` bytes of the line.
+    /// The position in the current line that has `left` bytes after it.
     fn position_with(&self, left: usize) -> Position {
         let before = self.line.len().saturating_sub(left);
         Position { line: self.number, column: to_u32(before).saturating_add(1) }
@@ -284,7 +284,7 @@ impl<'a> Scan<'a> {
                 (self.number(digits), rest)
             }
             [b'[', name @ ..] if !self.open => {
-                // Later brackets of the line are not closed either.
+                // Remember this, because later brackets of the line are not closed either.
                 let Some((name, rest)) = name_of(name) else {
                     self.open = true;
                     return None;
@@ -309,7 +309,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Leading zeros are ignored.
+    /// The label with this block number, without leading zeros.
     fn number(&self, digits: &'a [u8]) -> Label<'a> {
         self.label(false, skip_while(digits, is_zero))
     }

@@ -35,9 +35,9 @@ pub enum Ack {
 }
 
 impl Ack {
-    /// The acknowledgement for the ADS result of a write. The results of a CNC are not documented.
-    /// Assumed: an error about service, address, access or size rejects the data; any other error
-    /// means that the CNC is busy (STM-6, ADS-7).
+    /// The acknowledgement for the ADS result of a write. Which results a CNC returns is not documented.
+    /// It is assumed that an error about service, address, access or size rejects the data, and that any
+    /// other error means that the CNC is busy (STM-6, ADS-7).
     ///
     /// ```
     /// use ads_cnc::ads::AdsError;
@@ -150,7 +150,7 @@ pub struct UnexpectedAck;
 #[derive(Clone)]
 pub struct Sender<'a> {
     text: NcText<'a>,
-    /// The packets that are not accepted yet.
+    /// The packets that the CNC has not accepted yet.
     packets: Packets<'a>,
     /// The packet in flight or waiting for a retry, and the packets after it.
     in_flight: Option<(PacketBytes<'a>, Packets<'a>)>,
@@ -161,7 +161,7 @@ pub struct Sender<'a> {
 }
 
 impl<'a> Sender<'a> {
-    /// Creates a sender at the first line. For a text without lines, it is done at once.
+    /// Creates a sender at the first line. For a text without lines, its state is [`SenderState::Done`].
     pub const fn new(text: NcText<'a>) -> Self {
         let empty = text.bytes().is_empty();
         Self {

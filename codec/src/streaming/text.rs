@@ -11,8 +11,9 @@ use crate::limits::NC_LINE_MAX;
 
 /// NC text whose lines can all be streamed.
 ///
-/// A line ends in LF, CR LF, or CR without LF. (The last is assumed, so that no CR is sent within a
-/// line.) The last line may lack its line end. Empty lines are streamed; an empty text has no lines.
+/// A line ends in LF, CR LF, or CR without LF. (A CR alone is assumed to end a line, so that no CR is sent
+/// within a line.) The last line may lack its line end. Empty lines are streamed; an empty text has no
+/// lines.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1 and 3.2 (STM-2, STM-4, STM-7, STM-20).
 ///
@@ -120,7 +121,7 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// The first error of a line.
+/// Checks a line; returns its first error.
 fn check(line: &[u8], number: usize) -> Result<(), LineError> {
     for (column, &byte) in (1_u32..).zip(line) {
         let kind = match byte {

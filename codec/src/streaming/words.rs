@@ -44,7 +44,7 @@ impl LoopWord {
         Self::EndWhile,
     ];
 
-    /// The word after the `$`.
+    /// The letters of the word, without the `$`.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::For => "FOR",

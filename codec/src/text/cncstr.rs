@@ -26,7 +26,7 @@ pub struct CncStr<'a>(Source<'a>);
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bytes(&'a [u8]),
-    /// Text with characters beyond ASCII, which were checked to be in CP1252.
+    /// A Rust string with characters outside ASCII, which all have CP1252 bytes.
     Str(&'a str),
 }
 
@@ -66,13 +66,13 @@ impl<'a> CncStr<'a> {
         Ok(Self(Source::Bytes(bytes)))
     }
 
-    /// The text before the first NUL, or all of it.
+    /// The text before the first NUL, or the whole text if it has no NUL.
     #[inline]
     pub(crate) fn until_nul(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes.get(..text_len(bytes)).unwrap_or(bytes)))
     }
 
-    /// Bytes that the caller has checked to contain no NUL.
+    /// A text with these bytes, which must not contain a NUL.
     #[inline]
     pub(crate) const fn without_nul(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes))
@@ -106,7 +106,7 @@ impl<'a> CncStr<'a> {
 
     /// The CP1252 bytes.
     pub fn bytes(&self) -> impl Iterator<Item = u8> + use<'a> {
-        // Every character has a CP1252 byte, so none is dropped.
+        // Every character of a text has a CP1252 byte, so the filter drops no character.
         self.chars().filter_map(char_to_cp1252)
     }
 
@@ -119,8 +119,8 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    /// The text before and after an offset in [`raw`](Self::raw); the whole text and an empty text if no
-    /// character begins at the offset.
+    /// Splits the text at an offset in [`raw`](Self::raw). If no character begins at the offset, the result
+    /// is the whole text and an empty text.
     pub(crate) fn split_at(self, at: usize) -> (Self, Self) {
         match self.0 {
             Source::Bytes(bytes) => {
@@ -154,10 +154,10 @@ impl<'a> CncStr<'a> {
     }
 }
 
-/// The number of characters. Cold: most texts are stored as bytes.
+/// The number of characters of UTF-8 text. Cold, because most texts are stored as bytes.
 #[cold]
 fn count(text: &str) -> usize {
-    // Each character has one byte that is not a continuation byte.
+    // Each UTF-8 character has exactly one byte that is not a continuation byte.
     text.bytes().filter(|byte| byte & 0xC0 != 0x80).count()
 }
 

@@ -5,7 +5,7 @@ use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 
-/// The text before the first NUL and the bytes after it.
+/// The bytes before and after the first NUL; `None` without a NUL.
 #[inline]
 pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (text, rest) = bytes.split_at_checked(text_len(bytes))?;
@@ -17,7 +17,8 @@ pub(crate) fn text_len(bytes: &[u8]) -> usize {
     bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len())
 }
 
-/// Text of `len` bytes, if one or more NULs follow and nothing else.
+/// Splits bytes into a text of `len` bytes and its tail; `None` unless one or more NULs, and nothing
+/// else, follow the text.
 #[inline]
 pub(crate) fn split_padded(bytes: &[u8], len: usize) -> Option<TextRef<'_>> {
     match bytes.split_at_checked(len)? {
@@ -28,14 +29,14 @@ pub(crate) fn split_padded(bytes: &[u8], len: usize) -> Option<TextRef<'_>> {
     }
 }
 
-/// The number of NULs before any other byte. Cold: most texts end in one NUL.
+/// The number of NULs at the start of a tail. Cold, because most texts end in exactly one NUL.
 #[cold]
 #[inline(never)]
 fn padding_len(tail: &[u8]) -> usize {
     tail.iter().position(|&byte| byte != 0).unwrap_or(tail.len())
 }
 
-/// The error for bytes that are not a text of `len` bytes with its NUL.
+/// The error for bytes that are not a text of `len` bytes followed by one or more NULs.
 #[cold]
 #[inline(never)]
 pub(crate) fn not_cstring(field: Field, at: u32, max: u32, bytes: &[u8], len: usize) -> Error {
@@ -45,7 +46,7 @@ pub(crate) fn not_cstring(field: Field, at: u32, max: u32, bytes: &[u8], len: us
     }
 }
 
-/// The error for bytes that are not a text of `len` bytes, with or without its NUL.
+/// The error for bytes that are not a text of `len` bytes, with or without NULs after it.
 #[cold]
 #[inline(never)]
 pub(crate) fn not_optional_nul(field: Field, at: u32, bytes: &[u8], len: usize) -> Error {

@@ -150,14 +150,14 @@ impl<'a> From<CncStr<'a>> for TextRef<'a> {
     }
 }
 
-/// The text.
+/// Displays the text, without its end.
 impl fmt::Display for TextRef<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.text, f)
     }
 }
 
-/// The text, and its end unless that is one NUL.
+/// Formats the text, and also its end unless the end is exactly one NUL.
 impl fmt::Debug for TextRef<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&self.text, f)?;

@@ -21,7 +21,7 @@ use crate::error::Error;
 pub struct CncString(Vec<u8>);
 
 impl CncString {
-    /// Bytes that the caller has checked to contain no NUL.
+    /// A text with these bytes, which must not contain a NUL.
     #[cfg(feature = "arbitrary")]
     #[inline]
     pub(crate) const fn without_nul(bytes: Vec<u8>) -> Self {
@@ -116,7 +116,7 @@ impl Text {
     }
 }
 
-/// The text.
+/// Displays the text, without its end.
 impl fmt::Display for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.text, f)

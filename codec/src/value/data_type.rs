@@ -7,7 +7,7 @@ use crate::text::CncStr;
 
 /// Declares the codes of the types of variables, and [`DataType`], from one table.
 ///
-/// A type that variables do not use has its name as a string literal.
+/// The name of a type that variables do not use is a string literal.
 macro_rules! data_types {
     (
         $(#[$code_doc:meta])*
@@ -59,7 +59,8 @@ macro_rules! data_types {
                 match self { $( Self::$variant => $object, )+ }
             }
 
-            /// The number of the type in errors: the code for variables, or a greater number.
+            /// The number of the type in errors: its code for variables, or a greater number if variables
+            /// do not use the type.
             pub(super) const fn number(self) -> u32 {
                 match self { $( Self::$variant => $number, )+ }
             }
@@ -119,8 +120,8 @@ data_types! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
-    /// The number is the code for variables. Types that variables do not use have numbers for errors
-    /// only. LINT and LWORD are types of objects only.
+    /// The number is the code of the type for variables; a type that variables do not use has a number for
+    /// errors only. Only objects use the types LINT and LWORD.
     DataType;
     /// One byte; 0 is FALSE, any other value is TRUE.
     Boolean: BOOLEAN = 1, "BOOL", 1;
@@ -160,7 +161,7 @@ impl DataType {
     }
 }
 
-/// The [`name`](DataType::name).
+/// Displays the [`name`](DataType::name).
 impl fmt::Display for DataType {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

@@ -6,7 +6,7 @@ use crate::com::{Descriptor, DescriptorRef};
 use crate::error::Error;
 use crate::variable::{DescriptionByNameRef, DescriptionRef, U32List, ValueRef, VariableType};
 
-/// Shape and elements of a value, from a description by index or by name.
+/// Implements `shape`, `elements` and `element` for a description by index or by name.
 macro_rules! describes {
     ($( $description:ident )+) => { $(
         impl<'a> $description<'a> {
@@ -18,7 +18,7 @@ macro_rules! describes {
                 Shape::for_variable(self.var_type, self.dimensions, self.size)
             }
 
-            /// The elements in the value of the whole variable.
+            /// The elements in a value that was read without indices: the whole variable.
             ///
             /// # Errors
             /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
@@ -26,7 +26,7 @@ macro_rules! describes {
                 self.shape()?.elements(value.bytes)
             }
 
-            /// The element in the value of one element, which was read by its indices.
+            /// The element in a value that was read by the indices of a single element.
             ///
             /// ```
             /// use ads_cnc::{Decode, DescriptionByNameRef, Element, ValueRef};
@@ -97,7 +97,7 @@ mod owned {
     macro_rules! describes {
         ($( $description:ident )+) => { $(
             impl $description {
-                /// Like the method of the borrowed description.
+                /// Like the method of the borrowed type of the description.
                 ///
                 /// # Errors
                 /// Those of [`Shape::for_variable`].
@@ -105,7 +105,7 @@ mod owned {
                     self.as_ref().shape()
                 }
 
-                /// Like the method of the borrowed description.
+                /// Like the method of the borrowed type of the description.
                 ///
                 /// # Errors
                 /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
@@ -113,7 +113,7 @@ mod owned {
                     self.as_ref().elements(value)
                 }
 
-                /// Like the method of the borrowed description.
+                /// Like the method of the borrowed type of the description.
                 ///
                 /// # Errors
                 /// Those of [`elements`](Self::elements).

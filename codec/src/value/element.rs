@@ -100,7 +100,7 @@ macro_rules! element {
             }
         }
 
-        /// A number, TRUE or FALSE for a BOOLEAN, or a text without its end.
+        /// Displays a number, TRUE or FALSE for a BOOLEAN, or a text without its end.
         impl fmt::Display for Element<'_> {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 match self {
@@ -157,7 +157,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// Type, dimensions and size.
+    /// The type, dimensions and size of the value.
     pub const fn shape(&self) -> Shape<'a> {
         self.shape
     }

@@ -47,7 +47,7 @@ pub trait EncodeValue: sealed::Sealed {
     ///
     /// # Errors
     /// [`ErrorKind::BufferTooSmall`], and [`ErrorKind::TooLong`] for a value that exceeds the limit of
-    /// all requests. Nothing is written then.
+    /// all requests. On error, nothing is written.
     fn encode_value<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
     /// Encodes the value into a new vector.
@@ -80,7 +80,7 @@ fn fill(len: usize, buf: &mut [u8], write: impl FnOnce(&mut Writer<'_>)) -> Resu
     Writer::fill(Subject::TypedValue, len, buf, write)
 }
 
-/// Implements [`EncodeValue`]: for each type its data type, element count, length and encoding.
+/// Implements [`EncodeValue`]. An entry has a Rust type, its data type, element count, length and encoding.
 macro_rules! encode_value {
     ($(
         $(#[$doc:meta])*
@@ -119,28 +119,28 @@ macro_rules! encode_value {
 }
 
 encode_value! {
-    /// One number or BOOLEAN.
+    /// Encodes one number or BOOLEAN.
     @T T, |item| T::TYPE, 1, size_of::<T::Wire>(),
     |buf| fill(item.value_len(), buf, |out| out.put(item.to_wire().as_bytes()));
-    /// All elements of an array; the last index varies fastest (VAR-21, assumed).
+    /// Encodes all elements of an array; the last index varies fastest (VAR-21, assumed).
     @T [T], |items| T::TYPE, items.len(), items.len().saturating_mul(size_of::<T::Wire>()),
     |buf| fill(items.value_len(), buf, |out| {
         items.iter().for_each(|item| out.put(item.to_wire().as_bytes()));
     });
-    /// Like the slice of its elements.
+    /// Encodes an array like the slice of its elements.
     @T; N [T; N], |items| T::TYPE, N, items.as_slice().value_len(),
     |buf| items.as_slice().encode_value(buf);
-    /// The text and one NUL.
+    /// Encodes the text and one NUL.
     CncStr<'_>, |text| DataType::String, 1, text.len().saturating_add(1),
     |buf| fill(text.value_len(), buf, |out| TextRef::from(*text).write(out));
-    /// The text and its end.
+    /// Encodes the text and its end.
     TextRef<'_>, |text| DataType::String, 1, text.field_len(),
     |buf| fill(text.value_len(), buf, |out| text.write(out));
-    /// The bytes of the elements.
+    /// Encodes the bytes of the elements.
     Elements<'_>, |elements| Elements::data_type(elements), elements.len(),
     elements.as_bytes().len(),
     |buf| fill(elements.value_len(), buf, |out| out.put(elements.as_bytes()));
-    /// The number or the text.
+    /// Encodes the number, or the text with its end.
     Element<'_>, |element| Element::data_type(element), 1,
     element.len(),
     |buf| element.write(buf);

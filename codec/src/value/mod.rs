@@ -2,13 +2,13 @@
 //!
 //! A [`ValueRef`](crate::ValueRef) or [`ContentRef`](crate::ContentRef) only contains bytes. The type
 //! is in the description of the variable, the descriptor of the object or an attribute of the element.
-//! [`DataType`] is the type of all three. [`Shape`] adds dimensions and size. [`Elements`] applies a
-//! shape to the bytes.
+//! [`DataType`] is the type of a variable, an object or an element. [`Shape`] adds dimensions and size.
+//! [`Elements`] applies a shape to the bytes.
 //!
 //! | task | use |
 //! |---|---|
 //! | read numbers of a type that your program knows | [`ValueRef::get`](crate::ValueRef::get), `iter`, `copy_to`, `to_vec` |
-//! | the same, and check the type against the description | [`Elements::items`], `copy_to`, `to_vec` |
+//! | read such numbers, and check the type against the description | [`Elements::items`], `copy_to`, `to_vec` |
 //! | read elements of a type known only at run time | [`Elements::get`], `iter`, [`Element`] |
 //! | convert an element to a number, a `bool` or a text | `TryFrom<Element>` |
 //! | read a structure of your own | [`Reader`], [`content_error`] |
@@ -19,8 +19,8 @@
 //! **assumes** row-major order: the last index varies fastest (VAR-21). It also assumes that each text
 //! in an array of STRING has the same number of bytes.
 //!
-//! Errors have the subject `typed-value`. For a wrong index or dimension, the offset is its position
-//! in the list, from 0. The table of [`DataType`] lists the numbers of types in errors.
+//! Errors have the subject `typed-value`. For a wrong index or dimension, the offset of the error is the
+//! position in the list, from 0. The table of [`DataType`] lists the numbers of types in errors.
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};

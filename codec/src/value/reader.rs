@@ -9,7 +9,7 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 use crate::text::TextRef;
 
-/// The bytes of a content.
+/// The field with the bytes of a content, for errors.
 const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
 /// Reads the members of a structure in sequence, without a panic and without a copy.
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
     /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes remain.
     pub fn read<T: Scalar>(&mut self) -> Result<T, Error> {
         let bytes = self.bytes(size_of::<T::Wire>())?;
-        // No error: the bytes have the length of the type.
+        // This cannot fail, because the bytes have the length of the type.
         let wire = T::Wire::read_from_bytes(bytes).unwrap_or_else(|_| T::Wire::new_zeroed());
         Ok(T::from_wire(wire))
     }

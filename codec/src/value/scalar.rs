@@ -14,7 +14,7 @@ use super::DataType;
 /// assert_eq!(<f32 as Scalar>::TYPE, DataType::Real32);
 /// ```
 pub trait Scalar: sealed::Wire + Copy + Default + PartialEq + fmt::Debug + 'static {
-    /// The type of the CNC.
+    /// The CNC's type that the Rust type represents.
     const TYPE: DataType;
 }
 
@@ -142,14 +142,14 @@ impl From<Boolean> for bool {
     }
 }
 
-/// TRUE or FALSE.
+/// Displays TRUE or FALSE.
 impl fmt::Display for Boolean {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(if self.is_true() { "TRUE" } else { "FALSE" })
     }
 }
 
-/// The byte.
+/// Formats the byte.
 impl fmt::Debug for Boolean {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&self.0, f)

@@ -46,8 +46,9 @@ impl<'a> Shape<'a> {
     /// In an array of STRING, all texts have the same number of bytes, at least one (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a wrong size: expected is the size of the elements, for STRING the
-    /// size rounded down to a multiple of the number of elements; found is `size`.
+    /// [`ErrorKind::Mismatch`] for a wrong size. [`Error::expected`] is the size of the elements; for
+    /// STRING, it is `size` rounded down to a multiple of the number of elements. [`Error::found`] is
+    /// `size`.
     pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
         if let Some(each) = data_type.size() {
@@ -214,8 +215,8 @@ impl<'a> Shape<'a> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`encode`](Self::encode). For a text that is too long, the offset is its position in
-    /// the value.
+    /// Those of [`encode`](Self::encode). For a text that is too long, the offset of the error is the
+    /// offset of the text in the value, in bytes.
     pub fn encode_texts<'b>(
         &self,
         texts: &[CncStr<'_>],
@@ -259,7 +260,7 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// The type of a variable; an error if it is not documented.
+/// The type with the code of a variable; an error if the code is not documented.
 pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
     var_type.data_type().ok_or_else(|| {
         let bound = VariableType::STRING.0.min(var_type.0.max(VariableType::BOOLEAN.0));
@@ -269,14 +270,14 @@ pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
 
 /// The product of the dimensions; `None` if it exceeds 32 bits.
 fn count(dimensions: U32List<'_>) -> Option<u32> {
-    // If a dimension is 0, the product is 0, even if the product of the others overflows.
+    // If a dimension is 0, the product is 0, even if the product of the other dimensions exceeds 32 bits.
     if dimensions.iter().any(|dimension| dimension == 0) {
         return Some(0);
     }
     dimensions.iter().try_fold(1, u32::checked_mul)
 }
 
-/// See [`Shape::index_of`].
+/// The implementation of [`Shape::index_of`].
 fn index_of(indices: U32List<'_>, dimensions: U32List<'_>) -> Result<u32, Error> {
     let (given, expected) = (to_u32(indices.len()), to_u32(dimensions.len()));
     if given != expected {

@@ -45,7 +45,7 @@ pub(super) fn beyond(count: usize, index: usize) -> Error {
 
 macro_rules! typed_reads {
     ($( $(#[$meta:meta])? [$($view:lifetime)?] $type:ty, [$($own:lifetime)?], |$this:ident| $bytes:expr, $checked:literal, $example:literal; )+) => { $(
-        /// Numbers and BOOLEANs, decoded by a Rust type. A single number has index 0.
+        /// Numbers and BOOLEANs, decoded as a Rust type. A single number has index 0.
         ///
         /// Only the number of bytes is checked.
         #[doc = $checked]
@@ -88,12 +88,12 @@ macro_rules! typed_reads {
                 Ok(split::<T>($bytes)?.iter().copied().map(T::from_wire))
             }
 
-            /// Copies all numbers to `out`, which must have exactly their number.
+            /// Copies all numbers to `out`, whose length must equal the number of numbers.
             ///
             /// # Errors
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
             /// of the type's size, [`ErrorKind::Mismatch`](crate::ErrorKind::Mismatch) for a
-            /// different number of elements. Nothing is written then.
+            /// different number of elements. On error, nothing is written.
             pub fn copy_to<T: Scalar>(&self, out: &mut [T]) -> Result<(), Error> {
                 copy_to(&self.bytes, out)
             }
@@ -128,7 +128,7 @@ typed_reads! {
         "let value = ads_cnc::Content { bytes: vec![77, 1, 0, 0, 200, 1, 0, 0] };";
 }
 
-/// Numbers and BOOLEANs, decoded by a Rust type, which must match the type of the elements.
+/// Numbers and BOOLEANs, decoded as a Rust type, which must match the type of the elements.
 ///
 /// ```
 /// use ads_cnc::{Decode, DescriptionByNameRef, ValueRef};
@@ -159,10 +159,10 @@ impl<'a> Elements<'a> {
         Ok(split::<T>(self.as_bytes())?.iter().copied().map(T::from_wire))
     }
 
-    /// Copies all elements to `out`, which must have exactly their number.
+    /// Copies all elements to `out`, whose length must equal the number of elements.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a different type or number of elements. Nothing is written then.
+    /// [`ErrorKind::Mismatch`] for a different type or number of elements. On error, nothing is written.
     pub fn copy_to<T: Scalar>(&self, out: &mut [T]) -> Result<(), Error> {
         self.check::<T>()?;
         copy_to(self.as_bytes(), out)
@@ -214,10 +214,10 @@ fn integer(element: Element<'_>) -> Option<i128> {
     })
 }
 
-/// Conversions to integers from integers of any type, by value.
+/// Implements the conversions to integers from elements of any integer type, by value.
 macro_rules! from_integers {
     ($( $type:ty )+) => { $(
-        /// From an integer of any type, by its value.
+        /// Converts an element of any integer type, by its value.
         ///
         /// # Errors
         /// [`ErrorKind::Mismatch`] for an element that is not an integer; [`ErrorKind::OutOfRange`]
@@ -238,11 +238,11 @@ macro_rules! from_integers {
 
 from_integers! { i8 u8 i16 u16 i32 u32 i64 u64 }
 
-/// Conversions to floating-point numbers, from floating-point numbers of at most the same size and from
-/// integers that the significand represents exactly.
+/// Implements the conversions to floating-point numbers, from floating-point numbers of at most the same
+/// size and from integers that the significand represents exactly.
 macro_rules! from_numbers {
     ($( $type:ty, $digits:literal, |$element:ident| $float:expr; )+) => { $(
-        /// From a floating-point number of at most the same size, and from an integer that this type
+        /// Converts a floating-point number of at most the same size, or an integer that this type
         /// represents exactly.
         ///
         /// # Errors
@@ -288,7 +288,7 @@ fn digits(number: i128) -> u32 {
     u128::BITS.saturating_sub(size.leading_zeros()).saturating_sub(size.trailing_zeros())
 }
 
-/// Conversions from elements of one type.
+/// Implements the conversions from elements of one type.
 macro_rules! from_one {
     ($( $(#[$meta:meta])? $type:ty, $data_type:ident, $element:pat => $value:expr; )+) => { $(
         /// # Errors

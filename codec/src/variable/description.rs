@@ -6,9 +6,9 @@ use crate::declare::stream;
 stream! {
     /// The description of a variable: the reply to a request by index.
     ///
-    /// The manuals do not document how the name ends (E-17). Accepted are one NUL, NULs up to 256
-    /// bytes, and the end of the stream. Bytes after the NUL are kept. A name has at least one byte. A
-    /// new description ends in one NUL.
+    /// The manuals do not document how the name ends (E-17). The decoder accepts a name that ends in one
+    /// NUL, in NULs up to 256 bytes, or at the end of the stream. Bytes after the NUL are kept. A name
+    /// has at least one byte. A new description ends in one NUL.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
     ///
@@ -44,8 +44,8 @@ stream! {
 stream! {
     /// The description of a variable by its name: [`DescriptionRef`] without the name.
     ///
-    /// Only the public help pages document it, for CNC versions from V3.1.3132.0 and V4.29.0 on;
-    /// `ads-en` 1.05 and `ads-de` 1.051 reserve the offset in section 4.2.1.
+    /// Only the public help pages document this reply, for CNC versions from V3.1.3132.0 and V4.29.0 on;
+    /// `ads-en` 1.05 and `ads-de` 1.051 reserve the offset of the function in section 4.2.1.
     ///
     /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or

@@ -10,7 +10,7 @@ use crate::stream::{Decode, Encode};
 stream! {
     /// Further properties of a V.E variable.
     ///
-    /// V.G and V.A variables have no extended description: their reply is empty. Decode a reply as
+    /// V.G and V.A variables have no extended description: the reply for them is empty. Decode any reply as
     /// [`ExtendedReply`].
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
@@ -35,7 +35,7 @@ stream! {
     }
 }
 
-/// The reply to a request for an extended description: an [`ExtendedDescription`], or empty for a V.G
+/// The reply to a request for an extended description: an [`ExtendedDescription`], or no bytes for a V.G
 /// or V.A variable.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.

@@ -27,7 +27,7 @@ stream! {
     }
 }
 
-/// In hexadecimal.
+/// Displays the number in hexadecimal.
 impl fmt::Display for Handle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:#x}", self.0)
@@ -43,7 +43,7 @@ impl fmt::Debug for Handle {
 stream! {
     /// The request to read the value of a variable by its handle.
     ///
-    /// Without indices, it reads the whole variable. Otherwise, it has one index for each dimension.
+    /// A request without indices reads the whole variable. Otherwise, it has one index for each dimension.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.4.
     ///
@@ -70,7 +70,7 @@ stream! {
 stream! {
     /// The request to write the value of a variable by its handle.
     ///
-    /// Without indices, it writes the whole variable. Otherwise, it has one index for each dimension.
+    /// A request without indices writes the whole variable. Otherwise, it has one index for each dimension.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.6.
     ///

@@ -14,7 +14,7 @@ use crate::text::{CncStr, TextRef};
 ///
 /// | | `ads-en` 1.05 | `ads-de` 1.051 |
 /// |---|---|---|
-/// | on the channel interface | V.E, V.G, V.A, V.CYC | these, and V.P, V.L, V.S from V2.11.2077, V2.11.2847, V3.1.3081.07, V3.1.3115 and V4.18.0 on |
+/// | on the channel interface | V.E, V.G, V.A, V.CYC | V.E, V.G, V.A, V.CYC; and V.P, V.L, V.S from V2.11.2077, V2.11.2847, V3.1.3081.07, V3.1.3115 and V4.18.0 on |
 /// | by name only, without a handle (0x46, 0x47, 0x49) | V.CYC | V.CYC, V.P, V.L, V.S |
 ///
 /// Requirements: VAR-18, VAR-19.
@@ -96,7 +96,7 @@ impl Hash for Kind<'_> {
     }
 }
 
-/// The text.
+/// Displays the text.
 impl fmt::Display for Kind<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.text(), f)

@@ -31,7 +31,7 @@ stream! {
 stream! {
     /// The request to write the value of a variable by its name.
     ///
-    /// The value begins after the NUL of the name, so the name cannot be padded.
+    /// The value begins directly after the NUL of the name, so NULs cannot pad the name.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.7 and 4.3.11.
     ///

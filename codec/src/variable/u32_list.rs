@@ -105,7 +105,7 @@ impl<'a> U32List<'a> {
             Source::Memory(numbers) => {
                 let slots = out.next(self.encoded_len()).chunks_exact_mut(4);
                 for (slot, number) in slots.zip(numbers) {
-                    // Not `copy_from_slice`, which keeps its panic when optimised for size.
+                    // Optimised for size, `copy_from_slice` would contain a panic.
                     slot.iter_mut().zip(number.to_le_bytes()).for_each(|(to, from)| *to = from);
                 }
             }
@@ -114,7 +114,7 @@ impl<'a> U32List<'a> {
     }
 }
 
-/// The number of opening brackets.
+/// The number of opening brackets, which is the number of indices.
 #[cold]
 const fn count_opened(mut brackets: &[u8]) -> usize {
     let mut count = 0_usize;

@@ -1,4 +1,4 @@
-//! Values of variables; the descriptions contain their types.
+//! Values of variables; the types of the values are in the descriptions.
 
 use crate::declare::stream;
 

@@ -3,7 +3,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-/// Counts per thread, because tests run in parallel.
+/// The allocator. It counts per thread, because tests run in parallel.
 struct Counting;
 
 thread_local! {
@@ -55,7 +55,7 @@ pub(crate) fn allocated() -> (usize, usize) {
     (COUNT.get(), BYTES.get())
 }
 
-/// Without this, no test here could fail.
+/// The counters detect allocations; otherwise no test of this file could fail.
 #[test]
 fn counters_detect_allocations() {
     let before = BYTES.get();

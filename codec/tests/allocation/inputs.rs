@@ -5,10 +5,10 @@ use ads_cnc_vectors::vectors;
 
 use crate::common::each_sample;
 
-/// Counts of four bytes that exceed every stream.
+/// Counts that exceed the number of items in any stream; each has four bytes.
 const HUGE: [u32; 6] = [u32::MAX, 0x8000_0000, 0x7FFF_FFFF, 0x4000_0001, 0x0100_0000, 0xFFFF];
 
-/// The length of a long input, for which a factor exceeds 4 KiB.
+/// The length of a long input, so long that a decoder that allocates a multiple of it exceeds the limit.
 pub(crate) const LONG: usize = 0x4000;
 
 /// Every golden vector of a stream, accepted or rejected.
@@ -36,18 +36,18 @@ pub(crate) fn each_input(mut visit: impl FnMut(Stream, &[u8])) {
     samples().for_each(|(stream, bytes)| each_long(stream, &bytes, &mut visit));
 }
 
-/// The first and the last indices below a count; all of them if the count is small.
+/// The first 128 and the last 64 indices below a count; all indices if the count is small.
 fn ends(places: usize) -> impl Iterator<Item = usize> {
     (0..places).filter(move |at| *at < 128 || *at + 64 > places)
 }
 
-/// Counts close to the number of remaining bytes or numbers.
+/// Counts close to the number of remaining bytes, or of remaining numbers of four bytes.
 fn counts(left: u32) -> [u32; 6] {
     [left, left + 1, left.saturating_sub(1), left / 4, left / 4 + 1, (left / 4).saturating_sub(1)]
 }
 
-/// A repeated sample, and a sample with more bytes, with each number replaced by a count of the bytes
-/// after it.
+/// A long input that repeats the sample, and one that extends it; in each of them, numbers are replaced
+/// by counts close to the number of bytes after them.
 fn each_long(stream: Stream, sample: &[u8], visit: &mut impl FnMut(Stream, &[u8])) {
     let max = stream.layout().max as usize;
     let len = max.min(LONG);

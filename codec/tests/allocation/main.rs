@@ -36,8 +36,8 @@ fn start(bytes: &[u8]) -> &[u8] {
     &bytes[..bytes.len().min(64)]
 }
 
-/// The test of owned types can fail: it detects a decoder that trusts a count, and one that copies too
-/// often.
+/// The test of owned types can fail: it detects a decoder that allocates as much as a wrong count states,
+/// and a decoder that copies the input too often.
 #[test]
 fn decoders_that_allocate_too_much_are_detected() {
     let believes: Decoder = |bytes| {
@@ -74,8 +74,8 @@ fn views_walks_and_encoders_allocate_nothing() {
     });
 }
 
-/// Calls all public functions that borrow, on every vector: the functions of the no-panic proof, which
-/// is compared with the list of the public API.
+/// Calls all public functions that borrow, with every vector as input. They are the functions of the
+/// no-panic proof, which a script compares with the list of the public API.
 #[test]
 fn borrowing_functions_allocate_nothing() {
     for (stream, bytes) in each_vector().filter(|(_, bytes)| bytes.len() <= 4096) {
@@ -86,8 +86,8 @@ fn borrowing_functions_allocate_nothing() {
     }
 }
 
-/// Dispatch, requests and replies: for every call, with its own data and that of every vector,
-/// complete and truncated.
+/// Dispatch, requests and replies allocate nothing: for every sample of a call, with its own data and with
+/// the data of every vector, complete and truncated.
 #[test]
 fn dispatch_and_replies_allocate_nothing() {
     let vectors: Vec<_> = each_vector().filter(|(_, bytes)| bytes.len() <= 4096).collect();
@@ -130,7 +130,7 @@ fn dispatch_errors_allocate_nothing() {
     }
 }
 
-/// Frames with any length in their headers.
+/// Splitting frames allocates nothing, whatever the lengths in their headers.
 #[test]
 fn frames_allocate_nothing() {
     let data = [0; 64];
@@ -152,7 +152,7 @@ fn frames_allocate_nothing() {
     }
 }
 
-/// Packets and the sender.
+/// Packets and the sender allocate nothing.
 #[test]
 fn streaming_allocates_nothing() {
     let jumps: String = (0..200).map(|n| format!("N{n}: X1\n$GOTO N{}\n", n / 2)).collect();

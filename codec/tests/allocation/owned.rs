@@ -12,7 +12,7 @@ use crate::{excess, start};
 
 #[test]
 fn memory_of_decoding_is_limited_by_the_input() {
-    // Rejected and accepted inputs, and the longest accepted input.
+    // By stream: the numbers of rejected and of accepted inputs, and the maximum length of the latter.
     let mut seen: BTreeMap<Stream, (u32, u32, usize)> = BTreeMap::new();
     each_input(|stream, bytes| {
         let decode = Subject::of(stream).owned.len;
@@ -88,7 +88,7 @@ fn owned_texts_are_allocated_once() {
     }
 }
 
-/// The test above can fail: growth and discarded buffers differ from a copy.
+/// The test above can fail: decoders whose buffers grow or are discarded allocate more than a copy.
 #[test]
 fn growth_and_waste_are_detected() {
     let grown: fn(&[u8], &mut dyn FnMut()) = |bytes, call| {
@@ -125,7 +125,7 @@ fn encoding_an_owned_value_allocates_nothing() {
     });
 }
 
-/// The test above can fail: it detects the allocations of decoding.
+/// The tests above can fail: the allocations of decoding are counted.
 #[test]
 fn allocations_of_decoding_are_detected() {
     let owned = Subject::of(Stream::VariableHandleRead).owned;
@@ -142,7 +142,7 @@ fn allocations_of_decoding_are_detected() {
 fn memory_of_a_checker_is_limited() {
     use ads_cnc::streaming::Checker;
 
-    // Two generations; a label needs its share of a node, a key and its characters.
+    // The checker keeps two generations of labels. A label needs part of a node, a key and characters.
     const MOST: usize = 2 * (Checker::LABELS_KNOWN * 160 + 2 * Checker::CHARACTERS_KNOWN);
     for (length, each) in [(1, "[{}]"), (990, "[{}]"), (1, "%\n[{}]")] {
         let held = |labels: usize| {

@@ -56,8 +56,8 @@ const fn sample(
     CallSample { slug, function, call }
 }
 
-/// Each function at least once, logically and by index, with the printed values where the manuals have
-/// them.
+/// At least one call of each function, with logical addressing and by index. If the manuals print values
+/// for a call, it has these values.
 pub(crate) const CALLS: &[CallSample] = &[
     read("objects-of-channel-1", Function::CountObjects, (0x13_0101, 0, 4)),
     read("objects-of-platform", Function::CountObjects, (0x13_0100, 0, 4)),

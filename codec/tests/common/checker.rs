@@ -5,7 +5,7 @@ use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, DiagnosticKind, NcText
 use super::findings::{FindingsBend, findings_of};
 use super::streaming::reference_lines;
 
-/// The program ends, and all diagnostics except that of an open comment, which is not an event.
+/// Checks lines; returns the diagnostics and the program ends. An open comment block is not reported here.
 pub(crate) fn check_lines(
     checker: &mut Checker,
     lines: &[u8],
@@ -20,7 +20,7 @@ pub(crate) fn check_lines(
     (findings, ends)
 }
 
-/// The first program end of a text: an added line follows it.
+/// The first program end of a text, which a diagnostic names because a line is appended to the text.
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
@@ -30,8 +30,8 @@ fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     })
 }
 
-/// Checks that the events of each part of whole lines equal those of the same lines in the text so
-/// far, checked as one part.
+/// Checks a text part by part. The events of each part must equal those that the check of the whole text
+/// so far, as one part, reports for the same lines.
 pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,
@@ -44,7 +44,7 @@ impl CheckedLots {
         Self { checker: Checker::new(), so_far: Vec::new(), ended: None, bend }
     }
 
-    /// Checks lines that can be streamed.
+    /// Checks the next part, which consists of lines that can be streamed.
     pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Diagnostic> {
         let before = self.checker.lines();
         self.so_far.extend_from_slice(lot);

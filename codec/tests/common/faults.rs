@@ -2,7 +2,7 @@
 
 use ads_cnc::{Error, ErrorKind};
 
-/// An error in the parts that tests compare.
+/// The parts of an error that tests compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) kind: ErrorKind,

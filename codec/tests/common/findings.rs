@@ -4,7 +4,7 @@ use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 
 use super::streaming::reference_lines;
 
-/// A fault added to the diagnostics of lines, after a number of other lines.
+/// A fault that changes the diagnostics of lines, given the number of lines before these lines.
 pub(crate) type FindingsBend = fn(&mut Vec<Diagnostic>, u32);
 
 pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {

@@ -9,7 +9,7 @@ use super::{Fault, SAMPLES};
 /// A function that splits frames: [`FrameRef::split`], or a variant with one fault.
 pub(crate) type Split = for<'a> fn(&'a [u8], u32) -> Result<Option<(FrameRef<'a>, usize)>, Error>;
 
-/// Without a fault.
+/// [`FrameRef::split`], without a fault.
 pub(crate) const SPLIT: Split = |received, max_data| FrameRef::split(received, max_data);
 
 /// The header of the Read sample; 12 bytes follow it.
@@ -26,7 +26,7 @@ pub(crate) fn frame(data: &[u8]) -> Vec<u8> {
     [&[0, 0][..], &length(32), &header, data].concat()
 }
 
-/// The length of the first frame if it is complete, or the fault as soon as it can be detected.
+/// The expected result: the length of the first frame if the frame is complete, or its first fault.
 fn wanted(received: &[u8], max_data: u32) -> Result<Option<usize>, Fault> {
     let number = |at: usize| u32::from_le_bytes(received[at..at + 4].try_into().unwrap()) as usize;
     let fault =
@@ -75,7 +75,7 @@ pub(crate) fn check_split(
     len
 }
 
-/// The frames of a stream, and the fault after them or the remaining bytes.
+/// The frames of a stream, and the remaining bytes or the fault after the frames.
 pub(crate) type Frames = (Vec<Vec<u8>>, Result<Vec<u8>, Fault>);
 
 /// Reads a stream in pieces. After each piece, all complete frames are split off.

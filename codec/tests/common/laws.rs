@@ -12,10 +12,10 @@ use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 use super::subjects::ReadAndWritten;
 use super::{Fault, Reading, Subject};
 
-/// The value of buffer bytes that were not written.
+/// The initial value of the bytes of a buffer, which shows that a byte was not written.
 const UNTOUCHED: u8 = 0x55;
 
-/// The length of a stream in bytes, or the error.
+/// The length of a decoded stream in bytes, or the error of the decoder.
 type Length = Result<usize, Error>;
 
 /// A fault added to a correct codec, to verify that the laws detect it.
@@ -75,7 +75,7 @@ pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
     check_bent(stream, bytes, &Bend::NONE)
 }
 
-/// The same for a codec that may have a fault.
+/// Like [`check`], for a codec to which `bend` adds a fault.
 pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let subject = Subject::of(stream);
     let verdict = walk(stream, bytes, bend);
@@ -104,20 +104,20 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
     }
     #[cfg(all(feature = "binrw", feature = "std"))]
     {
-        // A rejected stream stays in the reader.
+        // After an error, the reader is at its first position again, and nothing is written.
         let prefix = (subject.prefix)(bytes);
         let wanted = prefix.map_or((None, 0), |len| (Some(bytes[..len].to_vec()), len));
         let read = (bend.binrw)(bytes, (subject.binrw)(bytes));
         assert_eq!(read, wanted, "{stream}: BinRead and BinWrite of {bytes:x?}");
     }
-    // Longer input would only repeat the same case, and take time.
+    // A longer value would take more time, but test nothing else.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
         super::check_typed(bytes, bend.typed);
     }
     verdict
 }
 
-/// Whether the fields determine the end of the stream, however many bytes follow.
+/// Whether the fields determine the end of the stream, whatever the number of bytes after it.
 fn ends_by_its_fields(stream: Stream) -> bool {
     let layout = stream.layout();
     let ends = |row: &FieldSpec| {
@@ -152,7 +152,7 @@ where
     check_value_bent(value, &Bend::NONE);
 }
 
-/// The same for a codec that may have a fault. Returns the bytes.
+/// Like [`check_value`], for a codec to which `bend` adds a fault. Returns the bytes.
 #[cfg(feature = "alloc")]
 pub(crate) fn check_value_bent<T>(value: &T, bend: &Bend) -> Vec<u8>
 where
@@ -193,8 +193,8 @@ fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     verdict
 }
 
-/// Checks that the decoded value encodes to the same bytes and nothing after them, and that too small
-/// a buffer is not written to.
+/// Checks that the decoded value encodes to the same bytes, that no byte after them is written, and that
+/// nothing is written to a buffer that is too small.
 fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
     assert_eq!((reading.encode)(bytes, &mut large), Ok(bytes.len()));
@@ -205,8 +205,8 @@ fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
     check_too_small(bytes.len(), bend, |buf| (reading.encode)(bytes, buf));
 }
 
-/// Checks that too small a buffer is rejected with the needed and the available bytes, and not written
-/// to.
+/// Checks that a buffer that is too small causes an error with the needed and the available bytes, and that
+/// nothing is written to it.
 fn check_too_small<T: Debug>(
     len: usize,
     bend: &Bend,
@@ -230,7 +230,8 @@ pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Bend::NONE, |_| ()).map(drop)
 }
 
-/// The same for a codec that may have a fault: `wrong` changes the encoded call. Returns the function.
+/// Like [`check_call`], for a codec to which `bend` adds a fault; `wrong` changes the encoded call. Returns
+/// the function.
 pub(crate) fn check_call_bent(
     call: &Call<'_>,
     bend: &Bend,
@@ -258,7 +259,8 @@ pub(crate) fn check_call_bent(
     Ok(request.function())
 }
 
-/// Checks that a call is unchanged by a frame; a Write has no read length in a frame, a Read no data.
+/// Checks that a call that is encoded to a frame and decoded from it is unchanged, except for the read
+/// length of a Write, which a frame does not contain. A Read with data must be rejected.
 fn check_frame(call: &Call<'_>, bend: &Bend) {
     let mut bytes = vec![0; call.encoded_len()];
     let data = match call.encode(&mut bytes) {
@@ -289,12 +291,13 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), D
 }
 
 /// Checks that a request accepts and rejects the same replies as the stream of the reply of its
-/// function, up to the read length, and that accepted replies encode to the same bytes.
+/// function, except for replies longer than the read length, and that accepted replies encode to the
+/// same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
     check_reply_bent(call, bytes, &Bend::NONE).map(drop)
 }
 
-/// The same for a codec that may have a fault. Returns the function.
+/// Like [`check_reply`], for a codec to which `bend` adds a fault. Returns the function.
 pub(crate) fn check_reply_bent(
     call: &Call<'_>,
     bytes: &[u8],

@@ -23,7 +23,7 @@ pub(super) fn is_text(variable: ServiceVariable) -> bool {
     !matches!(variable, ServiceVariable::RequestState | ServiceVariable::ResponseState)
 }
 
-/// A fault added to a host.
+/// A fault that is added to a host, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct HostBend {
     /// Changes the value passed to the host, given the read value and the previous value of the
@@ -56,7 +56,7 @@ pub(crate) enum Step {
     Wait,
 }
 
-/// A host, and all its inputs.
+/// A host that is checked, and its inputs so far.
 pub(crate) struct CheckedHost<'s> {
     host: Host<'s>,
     ids: &'s [ServiceId],
@@ -84,7 +84,8 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Checks that invalid values are errors, and that values without a request cause none.
+    /// Checks that only an invalid value is an error, and that a request is only handed out or answered if
+    /// the last values were the same request.
     pub(crate) fn read(&mut self, value: &[u8]) {
         let before = self.step();
         let Step::Read(variable) = before else {
@@ -104,13 +105,13 @@ impl<'s> CheckedHost<'s> {
         self.reads.push((variable, value.to_vec()));
         match self.step() {
             Step::Read(_) | Step::Wait => {}
-            // SVC-2: read twice in sequence.
+            // SVC-2: the host has read the request twice in sequence.
             Step::Serve(id, request, asked) => {
                 assert!(asked != 0 && request.len() < 128 && self.ids.contains(&id));
                 assert!(self.found(2, &id, &request, asked), "{:x?}", self.reads);
                 self.asked = Some(self.step());
             }
-            // Read once more, or read after a failed write.
+            // The host has read the same request once more.
             Step::Write(ServiceVariable::Response, value) => {
                 assert_eq!(value, [&self.answer.0[..], b"\0"].concat());
                 let Some(Step::Serve(id, request, asked)) = &self.asked else { unreachable!() };
@@ -123,7 +124,7 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Whether the last reads are the same request, this number of times.
+    /// Whether the last reads returned this request, `times` times in sequence.
     fn found(&self, times: usize, id: &ServiceId, request: &[u8], asked: u32) -> bool {
         let values =
             [ServiceVariable::RequestState, ServiceVariable::Uuid, ServiceVariable::Request];
@@ -158,7 +159,7 @@ impl<'s> CheckedHost<'s> {
         assert_eq!(self.step(), wanted);
     }
 
-    /// Checks that the host reads after a failed write, and repeats any other step.
+    /// Checks that a host reads after a failed write, and repeats any other failed step.
     pub(crate) fn failed(&mut self) {
         let before = self.step();
         (self.bend.failed)(&mut self.host);

@@ -6,7 +6,7 @@ use ads_cnc::{CncStr, Error, ErrorKind, Kind, PathPart, U32List, VariablePath};
 
 use super::Fault;
 
-/// The pieces of a name, to compare with and to build from.
+/// The pieces of a name: the expected result of parsing, and the input for building.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pieces {
     pub(crate) kind: String,
@@ -43,7 +43,7 @@ impl Pieces {
     }
 }
 
-/// The pieces of a name, by splitting strings.
+/// The pieces of a name, computed by splitting strings; `None` for an invalid name.
 pub(crate) fn split(name: &str) -> Option<Pieces> {
     let mut parts = name.split('.');
     let (v, kind) = (parts.next()?, parts.next()?);
@@ -66,7 +66,7 @@ pub(crate) fn split(name: &str) -> Option<Pieces> {
     (!parts.is_empty()).then(|| Pieces { kind: format!("V.{kind}"), parts })
 }
 
-/// A fault added to names.
+/// A fault that is added to parsing or building, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct NameBend {
     pub(crate) pieces: fn(&mut Pieces),
@@ -80,8 +80,9 @@ impl NameBend {
         Self { pieces: |_| (), fault: |fault| fault, written: |name| name };
 }
 
-/// Checks any CP1252 bytes without NUL: from CP1252 and from UTF-8, parsing has the same result as
-/// splitting strings; a name is built again, and an error is at the fault.
+/// Checks any CP1252 bytes without NUL. Parsing them, or the same text in UTF-8, has the same result as
+/// splitting strings. A valid name is built again; the error for an invalid name has the position of the
+/// fault.
 pub(crate) fn check_name(wire: &[u8], bend: NameBend) -> Result<Pieces, Fault> {
     let utf8: String = wire.iter().map(|&byte| cp1252_to_char(byte)).collect();
     let of_wire = VariablePath::from_text(CncStr::from_bytes(wire).expect("no NUL"));

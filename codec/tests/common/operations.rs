@@ -41,7 +41,7 @@ impl Parameters<'_> {
     fn object(&self) -> (IndexGroup, IndexOffset) {
         let group = match self.place % 4 {
             0 => IndexGroup::new(0x12_0100),
-            // The axis is in the offset (E-04).
+            // For this group, the axis is in the offset (E-04).
             1 => IndexGroup::new(0x12_0200),
             2 => self.platform_axis.com(Access::Element),
             _ => self.channel.com(Access::Element),
@@ -122,13 +122,13 @@ pub(crate) fn check_made(
     }
 }
 
-/// Checks that a server dispatches a call to the operation of the client, and that it encodes to the
-/// same call.
+/// Checks that a server dispatches the call of a client to the same operation, and that this operation
+/// encodes to the same call.
 pub(crate) fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
     assert_eq!(made(operation, &|_| ()), Ok(()));
 }
 
-/// The same for an operation that may be invalid: then nothing is written.
+/// Like [`check_operation`], for an operation that may be invalid: then encoding must write nothing.
 fn made<'a, O: Operation + Into<Request<'a>>>(
     operation: O,
     bend: &dyn Fn(&mut Call<'_>),
@@ -152,7 +152,7 @@ fn made<'a, O: Operation + Into<Request<'a>>>(
     assert_eq!(found, wanted, "{request:?}");
     assert_eq!((call.port, call.service), (spec.task.port(), spec.service), "{request:?}");
     match call.dispatch() {
-        // A server cannot distinguish these two with the stride 0x1000 (E-01).
+        // With the stride 0x1000, a server cannot distinguish these two functions (E-01).
         Ok(read @ Request::ReadElement(_)) if O::FUNCTION == Function::CountElements => {
             assert_eq!(read.encode(&mut []), Ok(call));
         }

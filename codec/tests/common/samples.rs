@@ -5,7 +5,7 @@ use ads_cnc::layout::Stream;
 use super::samples_ads::*;
 use super::samples_elements::*;
 
-/// A valid stream, split by hand into its fields; a list appears once for each item.
+/// A valid stream, split by hand into its fields; a list has one entry for each item.
 pub(crate) struct Sample {
     pub(crate) slug: &'static str,
     pub(crate) fields: &'static [(&'static str, &'static [u8])],
@@ -107,8 +107,8 @@ const OBJECT_DESCRIPTOR: &[Sample] = &[
             ("type", &padded::<32>(b"BOOL")),
         ],
     ),
-    // Every bit that has to survive: TRUE as 0x0100, two bytes without a meaning, bytes behind a
-    // NUL, a name of 32 bytes without one.
+    // All bits that a codec must keep: TRUE as 0x0100, two unassigned bytes, bytes after a NUL, and a
+    // name of 32 bytes without a NUL.
     sample(
         "kept",
         &[
@@ -187,7 +187,7 @@ const VARIABLE_DESCRIPTION: &[Sample] = &[
             ("name", b"\0"),
         ],
     ),
-    // A matrix whose name ends with the stream, with codes that the manuals do not have.
+    // A matrix whose name ends at the end of the stream, with codes that the manuals do not document.
     sample(
         "matrix-open-name",
         &[

@@ -23,7 +23,7 @@ pub(super) const AMS_HEADER: &[Sample] = &[
             ("invoke_id", b"\x01\0\0\0"),
         ],
     ),
-    // Numbers that are not documented; all of them are kept.
+    // Numbers that are not documented; the codec keeps every number.
     sample(
         "unknown",
         &[

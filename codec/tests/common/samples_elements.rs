@@ -97,6 +97,6 @@ pub(super) const VARIABLE_DESCRIPTION_BY_NAME: &[Sample] = &[
 
 pub(super) const PROGRAM_STREAM: &[Sample] = &[
     sample("two-lines", &[("data", b"N10 G01 X200 F1000\r\nN20 M30\r\n")]),
-    // The CNC says so when it reads it (STM-5).
+    // The stream is valid; the CNC reports the missing line end when it reads the line (STM-5).
     sample("no-line-end", &[("data", b"N10 G01 X200")]),
 ];

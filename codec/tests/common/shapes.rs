@@ -15,7 +15,7 @@ pub(crate) struct Described<'a> {
     pub(crate) bytes: &'a [u8],
 }
 
-/// A fault added to values.
+/// A fault that is added to shapes and values, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct ShapeBend {
     /// Changes the indices.
@@ -30,10 +30,10 @@ impl ShapeBend {
         Self { indices: |_| (), place: |place| place, written: |_| (), size: |size| size };
 }
 
-/// The size of an element, if the value has this number of elements.
+/// The size of an element; `None` if the size of the value does not match its type and dimensions.
 fn each(of: &Described<'_>) -> Option<u32> {
     let size = u128::from(of.size);
-    // The product of four factors of 32 bits fits.
+    // The product of at most four dimensions of 32 bits fits 128 bits.
     let count = of.dimensions.iter().map(|&dimension| u128::from(dimension)).product::<u128>();
     match (of.data_type.size(), count) {
         (Some(each), _) => (count.checked_mul(each.into()) == Some(size)).then_some(each),
@@ -43,7 +43,8 @@ fn each(of: &Described<'_>) -> Option<u32> {
     }
 }
 
-/// The index of the element or the fault of the indices, from the sizes of the inner arrays.
+/// The expected index of the element, computed from the sizes of the inner arrays, or the expected fault of
+/// the indices.
 fn place(of: &Described<'_>) -> Result<u128, Fault> {
     let fault = |kind, field, offset, expected: usize, found: u32| {
         Err(Fault { kind, field, offset, expected, found: found as usize })
@@ -67,8 +68,8 @@ fn place(of: &Described<'_>) -> Result<u128, Fault> {
     Ok(place)
 }
 
-/// Checks that a shape is accepted if its size is that of its elements, that the sizes of the inner
-/// arrays give the index of an element, and that values are encoded to the same bytes.
+/// Checks that a shape is accepted exactly if its size matches its type and dimensions, that the index of
+/// an element follows from the sizes of the inner arrays, and that a value encodes to the same bytes.
 pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, ErrorKind> {
     let dimensions = U32List::from(of.dimensions);
     let shape = Shape::new(of.data_type, dimensions, (bend.size)(of.size));
@@ -109,7 +110,7 @@ pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, Er
     Ok(shape.count())
 }
 
-/// Checks that an element encodes to its bytes, also by itself.
+/// Checks that an element encodes to its bytes, by the shape and by itself.
 fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], bend: ShapeBend) {
     let mut buf = vec![0x55; bytes.len()];
     assert_eq!(element.encode_value(&mut buf), Ok(bytes));

@@ -3,7 +3,7 @@
 use ads_cnc::limits::{NC_LINE_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::*;
 
-/// The lines, computed in another way: by replacing line ends in a copy.
+/// The expected lines, computed by replacing line ends in a copy of the text.
 pub(crate) fn reference_lines(bytes: &[u8]) -> Vec<Vec<u8>> {
     let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
@@ -29,7 +29,7 @@ pub(crate) fn fault_of(error: LineError) -> TextFault {
     (error.line() as usize, error.column() as usize, error.kind())
 }
 
-/// The first fault, found byte by byte.
+/// The expected first fault, found byte by byte.
 fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 0);
     for (at, &byte) in bytes.iter().enumerate() {
@@ -52,7 +52,7 @@ fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
     None
 }
 
-/// A fault added to the packets of a text.
+/// A fault that is added to the packets of a text, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct TextBend {
     pub(crate) packets: fn(&mut Vec<Vec<u8>>),
@@ -69,7 +69,7 @@ pub(crate) fn packets(bytes: &[u8]) -> Vec<Vec<u8>> {
     std::iter::from_fn(|| packets.next_into(&mut buf).map(<[u8]>::to_vec)).collect()
 }
 
-/// Checks that the first fault of any bytes is detected, or that the packets of the text are correct.
+/// Checks that the first fault of the bytes is detected or, without a fault, that the packets are correct.
 pub(crate) fn check_text(bytes: &[u8], bend: TextBend) -> Result<Vec<Vec<u8>>, TextFault> {
     let verdict = NcText::new(bytes).map(drop).map_err(fault_of);
     let found = verdict.err().and_then(bend.fault);
@@ -107,7 +107,7 @@ fn check_packets_bent(bytes: &[u8], bend: TextBend) -> Vec<Vec<u8>> {
     packets
 }
 
-/// A fault added to a sender.
+/// A fault that is added to a sender, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct SenderBend {
     /// Changes the acknowledgement.
@@ -189,7 +189,7 @@ impl<'t> CheckedSender<'t> {
         assert_eq!(sender.left_bytes(), self.wire.len() - self.sent.bytes);
     }
 
-    /// The rest of the text, which is not accepted yet.
+    /// Checks the part of the text that is not accepted yet.
     pub(crate) fn check_left(&self) {
         let left = reference_lines(self.sender.left());
         assert_eq!(self.sender.left_lines(), left.len());
@@ -202,7 +202,7 @@ impl<'t> CheckedSender<'t> {
     }
 }
 
-/// The first line that does not end in CR LF, found byte by byte.
+/// The expected fault for line ends: the first line that does not end in CR LF, found byte by byte.
 pub(crate) fn missing_end(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 1);
     for (at, &byte) in bytes.iter().enumerate() {

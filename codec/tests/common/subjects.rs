@@ -5,7 +5,7 @@ use ads_cnc::{Decode as _, Encode as _, Error};
 
 use super::Bend;
 
-/// One type of a stream.
+/// One of the types of a stream, borrowed or owned.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
     /// `view` or `owned`.
@@ -38,7 +38,8 @@ pub(crate) struct Subject {
     /// Decodes the bytes to the owned type, and encodes it into a vector.
     #[cfg(feature = "alloc")]
     pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
-    /// Decodes the bytes, owned, calls, copies what was read if any was, and calls again.
+    /// Decodes the bytes to the owned type and calls the function; then copies the value, if decoding
+    /// succeeded, and calls the function again.
     #[cfg(feature = "alloc")]
     pub(crate) twice: fn(&[u8], &mut dyn FnMut()),
     /// Generates a value from the bytes, checks the laws, and returns the encoded bytes.

@@ -6,7 +6,7 @@ use ads_cnc::text::{TextRef, char_to_cp1252, cp1252_to_char};
 use ads_cnc::{CncStr, Error, ErrorKind};
 use encoding_rs::{EncoderResult, WINDOWS_1252};
 
-/// A fault added to a text.
+/// A fault that is added to a text, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct CncStrBend {
     pub(crate) shown: fn(String) -> String,
@@ -21,14 +21,14 @@ impl CncStrBend {
         Self { shown: |text| text, bytes: |_| (), len: |len, _| len, fault: Some };
 }
 
-/// Kind, offset and found number.
+/// The kind, the offset and the found number of an error.
 type Fault = (ErrorKind, usize, u32);
 
 fn fault_of(error: Error) -> Fault {
     (error.kind(), error.offset() as usize, error.found())
 }
 
-/// Checks any bytes as CP1252: text without a NUL has the characters of encoding_rs.
+/// Checks any bytes as CP1252: a text without a NUL has the same characters as in the crate `encoding_rs`.
 pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fault> {
     let found = CncStr::from_bytes(bytes).map_err(fault_of);
     let nul = bytes.iter().position(|&byte| byte == 0);
@@ -45,8 +45,8 @@ pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fau
     Ok(shown)
 }
 
-/// Checks any Rust string: its bytes are those of encoding_rs, or the first character without a byte
-/// is an error.
+/// Checks any Rust string: its CP1252 bytes are the same as in the crate `encoding_rs`, or the first
+/// character without a CP1252 byte is an error.
 pub(crate) fn check_utf8(utf8: &str, bend: CncStrBend) -> Result<String, Fault> {
     let found = CncStr::new(utf8).map_err(fault_of);
     let mut bytes = Vec::new();
@@ -73,7 +73,7 @@ fn encoded(character: char) -> Option<u8> {
     (result == EncoderResult::InputEmpty && written == 1).then_some(byte[0])
 }
 
-/// Checks that texts from these characters and from these bytes are equal.
+/// Checks that the text created from these characters equals the text created from these bytes.
 fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend) -> String {
     let shown = (bend.shown)(text.to_string());
     assert_eq!(shown, characters);
@@ -106,7 +106,8 @@ fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend
     shown
 }
 
-/// Checks that fields are equal if text and end are, and that only the text is displayed.
+/// Checks that two fields are equal if their texts and their ends are equal, and that only the text is
+/// displayed.
 fn check_field(bytes: &[u8]) {
     let text = CncStr::from_bytes(bytes).expect("text without NUL");
     for (tail, len) in [(None, 0), (Some(&[][..]), 1), (Some(&[0, 0][..]), 3)] {

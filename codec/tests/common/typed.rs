@@ -1,4 +1,4 @@
-//! Laws of any bytes as a value of any type.
+//! Laws of values, for any bytes and any type.
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Scalar};
 use ads_cnc::{ErrorKind, U32List, ValueRef};
@@ -12,7 +12,7 @@ pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
         let dimension = [count as u32];
         let elements = Elements::new(data_type, U32List::from(&dimension), bytes);
         let each = if data_type == DataType::String { count } else { each };
-        // No elements have no bytes.
+        // A value without elements has no bytes.
         let fits = bytes.len().checked_rem(each).map_or(bytes.is_empty(), |left| left == 0);
         assert_eq!(elements.is_ok(), fits, "{data_type:?}: {bytes:x?}");
         let Ok(elements) = elements else { continue };

@@ -1,6 +1,6 @@
-//! Uses every borrowing type, every operation, frames and the state machines on bytes that the
-//! compiler does not know: for the no-panic proof, which would link any reachable panic, and for the
-//! test that counts allocations.
+//! Uses every borrowing type, every operation, frames and the state machines, with bytes that the compiler
+//! does not know. The no-panic proof links this code, which fails if a panic is reachable; the test that
+//! counts allocations runs it.
 
 #![allow(unused_qualifications, reason = "the proof is searched for whole paths")]
 
@@ -16,7 +16,7 @@ use ads_cnc::value::{Boolean, EncodeValue as _, Scalar};
 use ads_cnc::*;
 use core::hint::black_box;
 
-/// Decodes a stream and encodes it again.
+/// Decodes a stream and encodes the value again.
 fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
     let mut buf = [0; 2200];
     let written = T::decode(bytes).and_then(|value| value.encode(&mut buf).map(<[u8]>::len));
@@ -70,7 +70,7 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
     Ok(reply.encode(&mut out)?.len().wrapping_add(again))
 }
 
-/// The next element of the instance that the bytes address, in each attribute.
+/// Encodes reads of all attributes of the second element of the instance whose address is in the bytes.
 fn elements(bytes: &[u8]) -> Result<usize, Error> {
     let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
     let next = first.nth(black_box(1))?;

@@ -19,6 +19,6 @@ pub(crate) fn cases(cases: u32, source: &str) -> Config {
 pub(crate) fn beside(folder: impl AsRef<Path>, source: &str) -> FileFailurePersistence {
     let name = Path::new(source).with_extension("txt");
     let file = folder.as_ref().join(name.file_name().expect("the file of a test"));
-    // proptest needs a path with a static lifetime, so leak one per test.
+    // proptest needs a path with a static lifetime, so leak the path of each test.
     FileFailurePersistence::Direct(file.to_str().expect("a path in UTF-8").to_string().leak())
 }

@@ -1,12 +1,12 @@
 /*
- * An adapter for `ads-cnc run --testee`, with a codec of every stream of the
- * golden vectors. C11 and libc alone:
+ * An adapter for `ads-cnc run --testee`, with a codec for every stream of the
+ * golden vectors. It needs only C11 and libc:
  *
  *     cc -std=c11 -O2 -o testee testee.c
  *     ads-cnc run --testee ./testee
  *
- * To test a codec of your own, keep the JSON part and everything from
- * `read_context` on, and call it in place of `decode` and `encode`.
+ * To test your own codec, keep the JSON part and everything from `read_context`
+ * on, and call your codec instead of `decode` and `encode`.
  */
 
 #include <ctype.h>
@@ -57,7 +57,7 @@ static uint32_t get_u32(const unsigned char *at) {
     return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
-/* Short pieces only; what has no bound goes through `append`. */
+/* Appends at most 255 characters; `append` is for texts of any length. */
 static void print(Bytes *b, const char *format, ...) {
     char piece[256];
     va_list arguments;
@@ -67,7 +67,7 @@ static void print(Bytes *b, const char *format, ...) {
     if (length > 0 && (size_t)length < sizeof piece) append(b, piece, (size_t)length);
 }
 
-/* With blanks in a value, as in the vectors, and without on the wire. */
+/* Separates the bytes by `blank`: " " in a value, as in the vectors, "" elsewhere. */
 static void print_hex(Bytes *b, const unsigned char *data, size_t size, const char *blank) {
     for (size_t i = 0; i < size; i++) {
         if (i > 0) append(b, blank, strlen(blank));
@@ -76,10 +76,10 @@ static void print_hex(Bytes *b, const unsigned char *data, size_t size, const ch
 }
 
 /* ---- JSON ---------------------------------------------------------------
- * A line is gone through once by `skip_value`. From then on a value is a pointer
- * to its first character in the line: nothing is copied, and no line can ask for
- * more memory than it takes itself. A value that is missing is NULL, and so is
- * whatever is looked for in it. */
+ * `skip_value` checks the syntax of a line once. After that, a value is a pointer
+ * to its first character in the line: nothing is copied, and a line needs no more
+ * memory than its own length. A missing value is NULL, and a search in a missing
+ * value returns NULL. */
 
 typedef const char *Json;
 
@@ -90,8 +90,8 @@ static int hex_digit(unsigned c) {
     return digit ? (int)(digit - HEX) : -1;
 }
 
-/* The skippers return what follows, or NULL if there is no such thing. All of
- * them stop at the NUL behind the line, so none has to know its end. */
+/* The skip functions return the position after the skipped text, or NULL for wrong
+ * syntax. They stop at the NUL after the line, so they need no length. */
 static Json skip_string(Json p) {
     if (*p++ != '"') return NULL;
     for (; *p != '"'; p++) {
@@ -104,7 +104,7 @@ static Json skip_string(Json p) {
     return p + 1;
 }
 
-/* Numbers and words are not looked at closely: nothing here depends on them. */
+/* Numbers and words are checked only roughly, because nothing depends on them. */
 static Json skip_value(Json p, int depth) {
     size_t plain = strspn(p, "+-.0123456789Eaeflnrstu");
     char close = *p == '{' ? '}' : ']';
@@ -127,8 +127,8 @@ static Json skip_value(Json p, int depth) {
     return NULL;
 }
 
-/* The next character of a checked string. What is not ASCII comes as bytes or
- * as the number of an escape: it only has to differ from what is ASCII. */
+/* The next character of a checked string. Other characters than ASCII are returned
+ * as bytes or as the numbers of escapes; they only have to differ from ASCII. */
 static unsigned next_character(Json *p) {
     static const char letters[] = "bfnrt", meant[] = "\b\f\n\r\t";
     unsigned c = (unsigned char)*(*p)++;
@@ -176,12 +176,12 @@ static size_t list_length(Json list) {
     return length;
 }
 
-/* A number of a context: 5, "5" or "0x5". Anything else is 0 or too large. */
+/* A number in a context: 5, "5" or "0x5". Any other text is 0 or out of range. */
 static uint64_t read_number(Json value) {
     return value ? strtoull(value + (*value == '"'), NULL, 0) : 0;
 }
 
-/* Pairs of hex digits, with or without blanks between the pairs. */
+/* Reads pairs of hex digits, with or without blanks between the pairs. */
 static bool read_hex(Json p, Bytes *bytes) {
     if (!p || *p++ != '"') return false;
     while (*p != '"') {
@@ -195,11 +195,11 @@ static bool read_hex(Json p, Bytes *bytes) {
 }
 
 /* ---- The codec ----------------------------------------------------------
- * Each stream is described once, by its fields in their order; whether they
- * are read or written is known to the functions below alone. Decoding goes
- * from `in` to JSON in `out`, encoding from the JSON record `value` to bytes
- * in `out`. The first fault stays, and what is done behind it does no harm:
- * only loops have to look. */
+ * A table lists the fields of each stream in order; the same functions read and
+ * write them. Decoding converts `in` to JSON in `out`, encoding converts the JSON
+ * record `value` to bytes in `out`. Only the first fault is stored. After a fault,
+ * the functions may continue, because their output is not used; only loops check
+ * for a fault, so that they end. */
 
 typedef struct {
     const char *name;
@@ -231,12 +231,12 @@ typedef struct {
     size_t at, end;
     Json value;
     Bytes *out;
-    bool framed; /* inside an AMS frame, whose lengths are not in the value */
+    bool framed; /* inside an AMS frame, whose value omits the lengths */
     /* From the context of the case. */
     const Type *type;
     uint64_t count, stride, base;
     bool based;
-    /* What is wrong, and where. */
+    /* Class and offset of the first fault. */
     const char *fault;
     size_t fault_at;
 } Codec;
@@ -244,7 +244,7 @@ typedef struct {
 static size_t here(const Codec *c) { return c->encoding ? c->out->size : c->at; }
 static size_t left(const Codec *c) { return c->end - c->at; }
 
-/* The field of that name, or without a name the item itself. */
+/* The field with this name; without a name, the current item of a list. */
 static Json field(const Codec *c, const char *name) {
     return name ? member(c->value, name) : c->value;
 }
@@ -274,7 +274,7 @@ static void put(Codec *c, size_t size, uint64_t raw) {
     for (size_t i = 0; i < size; i++) append_byte(c->out, (unsigned)(raw >> 8 * i & 0xff));
 }
 
-/* Only what decides: no decimal reading of a float, no CP1252 of a text. */
+/* Appends a value without readable forms: a float has `bits`, but no decimal. */
 static void show(Codec *c, const char *name, const Type *type, uint64_t raw) {
     uint64_t half = UINT64_C(1) << (8 * type->size - 1);
     start(c, name, "{\"type\":\"");
@@ -316,7 +316,7 @@ static bool read_typed(Json v, const Type *type, uint64_t *raw) {
     if (real)
         return strncmp(text, "0x", 2) == 0 && *end == '"' && strspn(digits, HEX) == 2 * type->size;
     if (type->kind == SIGNED) largest = largest / 2 + negative;
-    /* No sign but that one, no needless zero, and no negative zero. */
+    /* Reject a plus sign, leading zeros and a negative zero. */
     if (errno != 0 || !isdigit((unsigned char)*digits) || *end != '"' || *raw > largest
         || (*digits == '0' && (negative || end != digits + 1))
         || (negative && type->kind != SIGNED))
@@ -338,14 +338,14 @@ static uint64_t number(Codec *c, const char *name, const Type *type) {
     return raw;
 }
 
-/* A number that counts something else, and therefore is not in the value. */
+/* The number of the bytes or items that follow, which the value omits. */
 static uint64_t counter(Codec *c, uint64_t counted) {
     if (!c->encoding) return get(c, 4);
     put(c, 4, counted);
     return counted;
 }
 
-/* Bytes to the end of the stream, behind their own length if they have one. */
+/* Bytes up to the end of the stream; if `counted`, after their length. */
 static void bytes(Codec *c, const char *name, bool counted) {
     size_t at = here(c);
     uint64_t length = counted ? counter(c, 0) : left(c);
@@ -361,8 +361,8 @@ static void bytes(Codec *c, const char *name, bool counted) {
     c->at = c->end;
 }
 
-/* A list is gone through by `for (List l = open_list(...); more(c, &l);)`. In
- * the loop an item is read or written as a field without a name. */
+/* `for (List l = open_list(...); more(c, &l);)` iterates over a list. In the loop,
+ * an item is read or written as a field without a name. */
 typedef struct {
     Json outer, item;
     size_t count;
@@ -388,8 +388,8 @@ static bool more(Codec *c, List *l) {
     return another;
 }
 
-/* UNS32 items behind their number. A number for which there is no room is
- * found here, before anybody believes it. */
+/* UNS32 items after their number. A number of more items than the stream contains
+ * is rejected before any item is read. */
 static void counted_numbers(Codec *c, const char *name) {
     size_t at = here(c);
     uint64_t count = counter(c, c->encoding ? list_length(field(c, name)) : 0);
@@ -397,10 +397,10 @@ static void counted_numbers(Codec *c, const char *name) {
     for (List l = open_list(c, name, (size_t)count); more(c, &l);) number(c, NULL, UNS32);
 }
 
-/* REQUEST ends with a NUL, behind which only NULs may follow; in OPEN_REQUEST
- * that NUL may be missing. REPLY ends at its first NUL or with its room, and
- * anything may follow. FILLED is a REPLY of 32 bytes, filled with NULs. PREFIX
- * has one NUL, and more fields behind it. PART has no NUL at all. */
+/* A REQUEST ends with a NUL, after which only NULs may follow; in an OPEN_REQUEST,
+ * this NUL may be missing. A REPLY ends at its first NUL or at the end of its room,
+ * and any bytes may follow the NUL. FILLED is a REPLY of 32 bytes, padded with NULs.
+ * A PREFIX ends with a NUL, and other fields follow. A PART has no NUL. */
 typedef enum { REQUEST, OPEN_REQUEST, REPLY, FILLED, PREFIX, PART } Rule;
 
 static void read_text(Codec *c, const char *name, Rule rule, size_t room) {
@@ -423,8 +423,8 @@ static void read_text(Codec *c, const char *name, Rule rule, size_t room) {
     c->at += room;
 }
 
-/* As it was read, tail and open end included: one of the forms that the
- * vectors list, and nothing is lost. A text with neither is canonical. */
+/* Writes a text as it was read, including `tail` and `open`, so that no bytes are
+ * lost. A text without `tail` and `open` is canonical: it ends with one NUL. */
 static void write_text(Codec *c, const char *name, Rule rule) {
     Json v = field(c, name), type = member(v, "type"), tail = member(v, "tail");
     bool open = member(v, "open") && *member(v, "open") == 't';
@@ -439,9 +439,9 @@ static void write_text(Codec *c, const char *name, Rule rule) {
         fail(c, "mismatch", at);
 }
 
-/* As many elements of the context's type as its dimensions say. They never say
- * how long a STRING is: those of an array have the same room each, at least one
- * byte; a single one takes what is there, even if that is nothing. */
+/* The elements of a value, with the type and the dimensions of the context, which
+ * does not contain the size of a STRING. All STRINGs of an array have the same size
+ * of at least one byte; a single STRING has all remaining bytes, possibly none. */
 static void elements(Codec *c, const char *name) {
     bool string = c->type->kind == TEXT;
     size_t room = c->type->size, at = here(c), of = 0;
@@ -472,13 +472,13 @@ typedef struct {
 #define U32(n) N(UNS32, n)
 #define F(f, n) { .form = f, .name = n }
 #define S(n, r, from, to) { .form = STRING, .name = n, .rule = r, .least = from, .most = to }
-/* The rest may be missing, behind a number of at least that. */
+/* The remaining fields may be missing if the preceding number is at least `from`. */
 #define OPTIONAL(from) { .form = MAYBE, .least = from }
 #define OWN(function) ROW({ .form = SPECIAL, .special = function })
 #define LAST { .form = END }
 #define ROW(...) (const Field[]) { __VA_ARGS__, LAST }
 
-/* A text takes the rest of the stream, unless its rule says else. */
+/* A text has the rest of the stream, except with the rules FILLED and PREFIX. */
 static void read_text_field(Codec *c, const Field *f) {
     size_t room = f->rule == FILLED ? f->most : left(c);
     const unsigned char *nul = left(c) > 0 ? memchr(c->in + c->at, 0, left(c)) : NULL;
@@ -528,7 +528,7 @@ static void record(Codec *c, const char *name, const Field *f) {
     c->value = outer;
 }
 
-/* ---- Streams that are more than a row of fields ------------------------- */
+/* ---- Streams that need functions of their own --------------------------- */
 
 #define ADDRESSED U32("index_group"), U32("index_offset")
 
@@ -543,7 +543,7 @@ static void object_descriptors(Codec *c) {
     while (more(c, &l)) record(c, NULL, OBJECT_DESCRIPTOR);
 }
 
-/* No document says how wide it is: the stream's length does, or the type. */
+/* The width is not documented: the length of the stream or the type determines it. */
 static void element_length(Codec *c) {
     Json named = member(field(c, "length"), "type");
     const Type *type = UNS32;
@@ -552,8 +552,8 @@ static void element_length(Codec *c) {
     number(c, "length", type);
 }
 
-/* A piece of a variable's name: `V.` and a word, or a word alone. The same
- * look at it finds its end when reading, and what it must not have within. */
+/* A piece of a variable's name: `V.` and a word, or only a word. The same loop finds
+ * the end of the word when decoding, and an invalid character when encoding. */
 static void path_piece(Codec *c, const char *name, const char *prefix) {
     size_t at = here(c), from = strlen(prefix), length = from;
     if (c->encoding) write_text(c, name, PART);
@@ -604,7 +604,7 @@ static void path_part(Codec *c) {
     }
 }
 
-/* How many parts and indices there are shows only when they have been read. */
+/* The numbers of parts and indices are known only after reading them. */
 static void variable_path(Codec *c) {
     path_piece(c, "kind", "V.");
     for (List parts = open_list(c, "parts", SIZE_MAX); more(c, &parts);) {
@@ -613,7 +613,7 @@ static void variable_path(Codec *c) {
     }
 }
 
-/* What follows from an address is shown, and compared where a value has it. */
+/* A part of an address: added when decoding, and compared, if given, when encoding. */
 static void derived(Codec *c, const char *name, const char *word) {
     if (!c->encoding) {
         start(c, name, "{\"type\":\"NAME\",\"value\":\"");
@@ -634,8 +634,8 @@ static void index_group(Codec *c) {
     bool logical = group >> 20 == 1, com = table == 1 || table == 2;
     if (c->based && (group < c->base || group - c->base > 255 || group >> 8 != c->base >> 8))
         fail(c, "out-of-range", 0);
-    /* Only COM has object access, only SDA and GEO have classes, and spindles
-     * no logical address: any other sum is nobody's, and stays a number. */
+    /* Only COM has object access, only SDA and GEO have classes, and spindles have
+     * no logical address. Any other group is undocumented and has only its number. */
     bool known = group >> 20 <= 1 && (com ? class == 0 && (access == 2 || access == 3)
                                           : table >= 3 && table <= 9 && class <= 5 && access == 2);
     if (c->fault || !known || (!com && class == 5 && logical)) return;
@@ -663,7 +663,7 @@ static void index_offset(Codec *c) {
     show(c, "element", UNS16, offset % c->stride);
 }
 
-/* ---- All streams, by the rows of the vectors' table --------------------- */
+/* ---- All streams, with their fields as in the table of the vectors ------ */
 
 #define DESCRIBED U32("handle"), U32("type"), U32("access"), U32("size"), F(LIST, "dimensions")
 
@@ -678,7 +678,7 @@ static void ams_frame(Codec *c);
 static const struct Stream {
     const char *name;
     const Field *fields;
-    size_t most; /* bytes in all; 0: as many as there are */
+    size_t most; /* maximum length in bytes; 0: no limit */
 } STREAMS[] = {
     { "read-request", ROW(ADDRESSED, U32("length")), 0 },
     { "read-reply", ROW(U32("result"), OPTIONAL(1), F(DATA, "data")), 0 },
@@ -723,7 +723,7 @@ static const struct Stream {
     { "index-offset", OWN(index_offset), 0 },
 };
 
-/* State flags and command of the first streams, and their names in a frame. */
+/* State flags and command of the first six streams, and their names in a frame. */
 static const struct {
     uint32_t flags_and_command;
     const char *name;
@@ -747,7 +747,7 @@ static void ams_frame(Codec *c) {
     if (!c->encoding && (get_u32(head + 2) != c->end - 6 || get_u32(head + 26) != left(c)))
         fail(c, "mismatch", get_u32(head + 26) != left(c) ? 26 : 2);
     bool none = c->encoding ? !field(c, name) : left(c) == 0;
-    if (get_u32(head + 30) == 0 || !none) /* an error may come alone */
+    if (get_u32(head + 30) == 0 || !none) /* an error reply may have no data */
         known ? record(c, name, STREAMS[i].fields) : bytes(c, name, false);
     if (c->encoding) {
         set_u32(c->out, 2, c->out->size - 6);
@@ -769,8 +769,8 @@ static bool decode(Codec *c, const struct Stream *stream, const Bytes *in, Bytes
     return !c->fault;
 }
 
-/* What cannot be read back is not written either: so one place, the decoder,
- * knows every limit. */
+/* Decodes the encoded bytes again, so that only the decoder has to check the
+ * limits. */
 static bool encode(Codec *c, const struct Stream *stream, Json value, Bytes *out) {
     Bytes again = { NULL, 0, 0 };
     c->encoding = true;
@@ -794,14 +794,14 @@ static bool answer_hello(Bytes *answer) {
     return true;
 }
 
-/* False if there is something in it that this codec does not know. */
+/* Reads the context; returns false if this codec does not support it. */
 static bool read_context(Codec *c, const struct Stream *stream, Json context) {
     Json type = member(context, "type"), stride = member(context, "stride");
     Json base = member(context, "base");
     for (size_t i = 0; i < COUNT_OF(TYPES) - 1; i++)
         if (string_is(type, TYPES[i].name)) c->type = &TYPES[i];
     c->count = 1;
-    /* Capped at more than any stream has, so that no product overflows. */
+    /* Limit the count to more items than any stream has, so that no product overflows. */
     for (Json d = first_item(member(context, "dimensions")); d; d = next_item(d)) {
         uint64_t size = read_number(d);
         c->count = size > UINT32_MAX || c->count * size > UINT32_MAX ? UINT32_MAX : c->count * size;
@@ -850,7 +850,7 @@ static void answer_case(Json request, Bytes *answer) {
     free(out.data);
 }
 
-/* False behind `bye`. */
+/* Answers a line; returns false after `bye`. */
 static bool answer_line(const Bytes *line, Bytes *answer) {
     const char *text = (const char *)line->data;
     bool whole = line->size <= LONGEST_LINE;
@@ -861,7 +861,7 @@ static bool answer_line(const Bytes *line, Bytes *answer) {
     size_t digits = seq ? strspn(seq, DIGITS) : 0;
     if (string_is(cmd, "bye")) return false;
     if (string_is(cmd, "hello")) return answer_hello(answer);
-    /* The number goes back as it came. */
+    /* Repeat the digits of the number unchanged. */
     print(answer, "{\"seq\":");
     append(answer, digits > 0 ? seq : "null", digits > 0 ? digits : 4);
     print(answer, ",");
@@ -873,8 +873,8 @@ static bool answer_line(const Bytes *line, Bytes *answer) {
     return true;
 }
 
-/* A line with a NUL in place of its end; of one that is too long only so much
- * that it shows. False at the end of the input. */
+/* Reads a line and replaces its line end by a NUL. Stores only the beginning of a
+ * line that is too long. Returns false at the end of the input. */
 static bool read_line(Bytes *line) {
     int c = getchar();
     if (c == EOF) return false;
@@ -891,7 +891,7 @@ int main(void) {
         if (!answer_line(&line, &answer)) break;
         append_byte(&answer, '\n');
         fwrite(answer.data, 1, answer.size, stdout);
-        /* The suite waits: an answer that stays in a buffer is none. */
+        /* Flush the buffer, because the suite waits for the answer. */
         if (fflush(stdout) != 0) return EXIT_FAILURE;
     }
     free(line.data);

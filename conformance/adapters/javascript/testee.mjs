@@ -1,8 +1,8 @@
-// A testee for Node 18 or later, without a package: reads cases from stdin, one JSON object a line, and answers each
-// on stdout (see ../README.md). To test a codec of your own, keep the loop at the end and replace decode and encode.
+// A testee for Node 18 or later, without packages: reads cases from stdin, one JSON object per line, and
+// answers on stdout (see ../README.md). To test your own codec, replace decode() and encode().
 import { isDeepStrictEqual } from "node:util";
 
-// As soon as there can be neither a value nor bytes, what is answered instead is thrown.
+// An answer other than a value or bytes is thrown as an error.
 const end = (answer) => { throw Object.assign(new Error(JSON.stringify(answer)), { answer }); };
 const must = (holds, kind, at) => holds || end({ reject: { class: kind, at } });
 const support = (holds, what) => holds || end({ unsupported: { what } });
@@ -19,14 +19,14 @@ const readerOf = (bytes) => ({
 const hex = (bytes) => bytes.toString("hex").replace(/..(?=.)/g, "$& ");
 function unhex(text) {
   const digits = text.replaceAll(" ", "");
-  const bytes = Buffer.from(digits, "hex"); // ends silently at the first character that is no digit
+  const bytes = Buffer.from(digits, "hex"); // stops without an error at an invalid digit
   if (bytes.length * 2 !== digits.length) throw new TypeError("no hex");
   return bytes;
 }
 
-// A codec is a pair: get(reader, context) gives a value, put(value, context) gives bytes. No put checks a limit, for
-// encode() decodes what it has made. Values name their types, so one write() does for all that is not put together.
-// Of a value only what decides is given: `bits` of a float without its decimal, `hex` of a text without characters.
+// A codec is a pair: get(reader, context) returns a value, put(value, context) returns bytes. No put checks
+// limits, because encode() decodes its result again. A value contains its type, so write() encodes
+// all values except records. Values omit readable forms: a float has only `bits`, a text has only `hex`.
 const codec = (get, put = write) => ({ get, put });
 
 const TYPES = new Map(Object.entries({
@@ -39,7 +39,7 @@ const fit = (form, size, whole) => (form === "signed" ? BigInt.asIntN : BigInt.a
 const number = (type) => codec((reader) => {
   const { form, size } = TYPES.get(type);
   const bits = "0x" + Buffer.from(reader.take(size)).reverse().toString("hex"); // least significant byte first
-  // A float stays bits: a NaN that passes through a JavaScript number may lose its payload.
+  // Keep the bits of a float: a conversion to a JavaScript number may change the payload of a NaN.
   return form === "float" ? { type, bits } : as(type, fit(form, size, BigInt(bits)));
 });
 function write(value) {
@@ -52,7 +52,7 @@ function write(value) {
   const { form, size } = must(TYPES.get(type), "unexpected");
   const digits = form === "float" ? value.bits : value.value;
   must(/^(0x[0-9a-f]+|-?[0-9]+)$/.test(digits), "unexpected");
-  const whole = BigInt(digits); // a Number would round what has more than 53 bits
+  const whole = BigInt(digits); // a Number would round integers of more than 53 bits
   must(fit(form, size, whole) === whole, "out-of-range");
   return Buffer.from(fit("unsigned", size, whole).toString(16).padStart(size * 2, "0"), "hex").reverse();
 }
@@ -61,7 +61,7 @@ const [uns08, uns16, uns32, boolean, real64] = ["UNS08", "UNS16", "UNS32", "BOOL
 const as = (type, value) => ({ type, value: String(value) });
 const netId = codec((reader) => as("NETID", reader.take(6).join(".")));
 const notZero = codec((reader) => must(reader.bytes.some(Boolean), "out-of-range", 0) && uns32.get(reader));
-const widths = { 1: uns08, 2: uns16, 4: uns32 }; // a length in bytes tells its type by its own length
+const widths = { 1: uns08, 2: uns16, 4: uns32 }; // the size of the stream is the size of the number
 const anyUnsigned = codec((reader) => must(widths[reader.left], "bad-length", 0).get(reader));
 
 function readText(bytes) {
@@ -72,7 +72,7 @@ function readText(bytes) {
 }
 const onlyNuls = (tail = "") => /^[0 ]*$/.test(tail);
 
-// What takes the rest of the stream, from `least` to `most` bytes
+// A field that contains the rest of the stream, from `least` to `most` bytes
 const rest = (least, most, read, put) => codec((reader) => {
   must(reader.left >= least, "truncated", reader.at);
   must(reader.left <= most, "too-long", reader.at + most);
@@ -80,18 +80,18 @@ const rest = (least, most, read, put) => codec((reader) => {
 }, put);
 const bytes = (least, most) => rest(least, most, (all) => ({ type: "BYTES", hex: hex(all) }));
 const text = (least, most) => rest(least, most, readText);
-// The text of a request: behind its NUL only more of them may follow. `mayLack` tells where there need not be one.
+// The text of a request: only NULs may follow its NUL. `mayLack` returns whether the NUL may be missing.
 const request = (least, most, mayLack = () => false) => rest(least, most, (all) => {
   const value = readText(all);
   must(!value.open || mayLack(all), "missing-nul");
   must(onlyNuls(value.tail), "trailing");
   return value;
 });
-const text32 = codec((reader) => { // STRING(32) of a descriptor, filled up with NULs
+const text32 = codec((reader) => { // STRING(32) of a descriptor, padded with NULs
   const { tail, ...value } = readText(reader.take(32));
   return onlyNuls(tail) ? value : { ...value, tail };
 }, (value) => (value.open || value.tail ? write(value) : Buffer.concat([write(value), Buffer.alloc(32)], 32)));
-const textBefore = codec((reader) => { // the name in front of a value, which begins behind its NUL
+const textBefore = codec((reader) => { // the name before a value ends with its first NUL
   const nul = reader.bytes.subarray(reader.at, reader.at + 256).indexOf(0);
   must(nul >= 0, reader.left < 256 ? "missing-nul" : "too-long", reader.at);
   return readText(reader.take(nul + 1));
@@ -103,7 +103,7 @@ const record = (fields, most = Infinity) => codec((reader, context) => {
 }, (value, context) => Buffer.concat(Object.entries(fields).map(([name, { put }]) => put(value[name], context))));
 const counted = codec((reader) => {
   const count = reader.take(4).readUInt32LE();
-  must(count * 4 <= reader.left, "too-many", reader.at - 4); // before any memory is taken for them
+  must(count * 4 <= reader.left, "too-many", reader.at - 4); // check this before allocating the list
   return Array.from({ length: count }, () => uns32.get(reader));
 }, (list) => write([as("UNS32", list.length), list]));
 const measured = codec((reader) => ({ type: "BYTES", hex: hex(reader.take(reader.take(4).readUInt32LE())) }),
@@ -112,7 +112,7 @@ const measured = codec((reader) => ({ type: "BYTES", hex: hex(reader.take(reader
 const typed = codec((reader, { type, dimensions }) => {
   support(Array.isArray(dimensions) && (type === "STRING" || TYPES.has(type)), "context");
   const count = dimensions.reduce((product, dimension) => product * dimension, 1);
-  const size = TYPES.get(type)?.size ?? Math.floor(reader.left / Math.max(count, 1)); // texts share evenly
+  const size = TYPES.get(type)?.size ?? Math.floor(reader.left / Math.max(count, 1)); // all texts have the same size
   must(count * size === reader.left && (size > 0 || count < 2), "bad-length", reader.at);
   return Array.from({ length: count }, () => TYPES.has(type) ? number(type).get(reader) : readText(reader.take(size)));
 });
@@ -126,7 +126,7 @@ const descriptors = codec((reader) => {
 }, (list) => Buffer.concat(list.map((value) => descriptor.put(value))));
 
 const CLASSES = ["position-controller", "interpolator", "decoder", "hld", "path-preparation", "spindle"];
-const ATTRIBUTES = ["content", "name", "type", "length", "unit", "write-flag", "object-address"]; // from table 3 on
+const ATTRIBUTES = ["content", "name", "type", "length", "unit", "write-flag", "object-address"]; // tables 3 to 9
 function wordsOf(group) {
   const [high, kind, table] = [group >>> 16, (group >>> 12) & 15, (group >>> 8) & 15];
   const [access, addressing] = [{ 2: "element", 3: "object" }[high & ~16], high & 16 ? "logical" : "index"];
@@ -138,7 +138,7 @@ function wordsOf(group) {
 }
 const indexGroup = codec((reader, { base }) => {
   const group = reader.take(4).readUInt32LE();
-  // A channel, axis or spindle that was added to the base must not have carried into the rest of the group.
+  // The number of the channel, axis or spindle is added to the base, and must change only its lowest byte.
   must(base === undefined || (group >= Number(base) && group >>> 8 === Number(base) >>> 8), "out-of-range", 0);
   const words = Object.entries(wordsOf(group)).map(([key, word]) => [key, as("NAME", word)]);
   if (words.length > 0) words.push(["instance", as("UNS08", group & 255)]);
@@ -165,11 +165,11 @@ const variablePath = rest(1, 255, (all) => {
 
 const address = { index_group: uns32, index_offset: uns32 };
 const wholeReply = record({ result: uns32, data: measured });
-const dataReply = codec((reader) => { // what has failed may end behind its result
+const dataReply = codec((reader) => { // an error reply may end after its result
   const failed = reader.left === 4 && reader.bytes.readUInt32LE(reader.at) !== 0;
   return failed ? { result: uns32.get(reader) } : wholeReply.get(reader);
 }, (value) => (value.data ? wholeReply.put(value) : write(value.result)));
-const SERVICES = { // under their command and state flags
+const SERVICES = { // by command and state flags
   "2 4": ["read_request", record({ ...address, length: uns32 })], "2 5": ["read_reply", dataReply],
   "3 4": ["write_request", record({ ...address, data: measured })], "3 5": ["write_reply", record({ result: uns32 })],
   "9 4": ["read_write_request", record({ ...address, read_length: uns32, data: measured })],
@@ -223,7 +223,7 @@ const STREAMS = new Map(Object.entries({
   "program-stream": record({ data: bytes(1, 992) }), "index-group": indexGroup, "index-offset": indexOffset,
 }));
 
-function essence(value) { // what decides, in a form that can be compared
+function essence(value) { // the exact value without readable forms, to be compared
   if (Array.isArray(value)) return value.map(essence);
   must(typeof value === "object", "unexpected");
   if (typeof value.type !== "string") // a record, which may have a field called `type`
@@ -242,7 +242,7 @@ function encode(codec, value, context) {
   return must(isDeepStrictEqual(essence(decode(codec, bytes, context)), essence(value)), "mismatch") && bytes;
 }
 
-function packets(text) { // as many whole lines as fit; LF, CR LF or CR ends a line of the text
+function packets(text) { // each has as many whole lines as fit; LF, CR LF or CR ends a line
   const lines = text.toString("latin1").split(/\r\n|[\r\n]/);
   if (lines.at(-1) === "") lines.pop();
   const packets = [];
@@ -259,7 +259,7 @@ const OPS = {
   encode: (stream, context, { value }) => ({ hex: encode(stream, value, context).toString("hex") }),
   packets: (stream, context, { hex }) => ({ packets: packets(unhex(hex)) }),
 };
-const EDITIONS = ["en-1.05", "de-1.051"]; // no stream differs between them
+const EDITIONS = ["en-1.05", "de-1.051"]; // the streams do not depend on the edition
 const testee = { name: "javascript-adapter", version: "1.0.0", language: "JavaScript" };
 const capabilities = { ops: Object.keys(OPS), streams: [...STREAMS.keys()], editions: EDITIONS };
 
@@ -275,13 +275,13 @@ function answer(line) {
     support(EDITIONS.includes(edition), "edition");
     return { seq, ok: OPS[op](STREAMS.get(stream), context, asked) };
   } catch (error) {
-    const shape = error instanceof TypeError && asked?.op === "encode"; // a value that put() cannot go through
+    const shape = error instanceof TypeError && asked?.op === "encode"; // put() failed at the value
     const other = shape ? { reject: { class: "unexpected" } } : { error: { message: String(error) } };
     return { seq: asked?.seq ?? null, ...(error.answer ?? other) };
   }
 }
 
-async function* lines(input) { // not readline, which ends a line at U+2028 too, and JSON may have that in a text
+async function* lines(input) { // not readline, which also splits at U+2028, which JSON texts may contain
   let pieces = [];
   for await (const chunk of input) {
     let start = 0;

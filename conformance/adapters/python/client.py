@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""What `ads-cnc run --client` tells a client, put to the client in cnc.py. See ../CLIENTS.md.
+"""Executes the actions of `ads-cnc run --client` with the client in cnc.py. See ../CLIENTS.md.
 
     ads-cnc run --client "python3 client.py"
 
-It stays and is spoken with; told what to do by ADS_CNC_DO alone, it does that and ends.
+It executes the actions that it reads from stdin. If ADS_CNC_DO contains an action, it executes only that
+action and exits.
 """
 import json
 import os

@@ -1,4 +1,4 @@
-"""A client of a CNC, made from the manuals with the standard library alone: somebody's, to be judged."""
+"""An example of a client to be judged, written from the manuals with Python's standard library only."""
 import re
 import socket
 import struct
@@ -15,11 +15,11 @@ SDA, COM = 552, 553
 
 
 class Refused(Exception):
-    """The CNC's answer is an error number."""
+    """The reply of the CNC contains an error number."""
 
 
 class Wrong(Exception):
-    """What came is no answer, or the action cannot be done."""
+    """The reply is invalid, or the action cannot be executed."""
 
 
 def check(kept, why):
@@ -106,7 +106,7 @@ class Cnc:
 
 
 def kind_of(name):
-    """`SGN16[2,3]`: the type, and how many there are."""
+    """Splits a type such as `SGN16[2,3]` into its name and the number of elements."""
     name, inside = re.fullmatch(r"(\w+)(?:\[(.*)\])?", name).groups()
     count = 1
     for size in (inside or "1").split(","):
@@ -174,7 +174,7 @@ def stream(cnc, channel, file):
                 cnc.ask(WRITE, COM, 0x120100 + int(channel), 0x90, packet)
                 break
             except Refused as refused:
-                # Full or busy is for the time being; the others never change.
+                # These errors are permanent; any other error may mean that the CNC is busy now.
                 if refused.args[0] in (0x701, 0x702, 0x703, 0x704, 0x705) or tries == 99:
                     raise
                 time.sleep(0.02)

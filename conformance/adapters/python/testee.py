@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A codec for the byte streams of an ISG/TwinCAT CNC, and the loop that has it tested.
+"""A codec for the byte streams of an ISG/TwinCAT CNC, as a testee of `ads-cnc run --testee`.
 
-Python's standard library is enough. To test your own codec, keep `answer` and let `work` call it.
+It needs only Python's standard library. To test your own codec, keep `answer` and call your codec in `work`.
 """
 import itertools
 import json
@@ -11,13 +11,13 @@ import struct
 import sys
 
 class Refused(Exception):
-    """These bytes, or this value, cannot be: the class of the fault."""
+    """The bytes or the value are invalid; the argument is the class of the error."""
 
 class Unsupported(Exception):
-    """What was asked for is not here."""
+    """This testee does not support the part of the case that the argument names."""
 
-# Fields: functions from bytes to a value, as JSON has it, and the bytes behind it. Every rule
-# stands here and none in `write`, because what was written is read again before it leaves.
+# Fields: each function takes bytes, and returns a value as in the JSON and the bytes after it. Only these
+# functions check the rules; `write` checks none, because `encode` decodes the encoded bytes again.
 
 FORMS = {"BOOLEAN": "B", "UNS08": "B", "SGN08": "b", "UNS16": "<H", "SGN16": "<h", "UNS32": "<I", "SGN32": "<i",
          "REAL32": "<I", "REAL64": "<Q", "BOOL": "B", "BYTE": "B", "WORD": "<H", "DWORD": "<I", "LWORD": "<Q",
@@ -36,9 +36,9 @@ def take(data, size):
 
 def numbers(data, count, kind):
     form = struct.Struct(FORMS[kind])
-    items, data = take(data, count * form.size)  # before a list is made of so many
+    items, data = take(data, count * form.size)  # check the length before building the list
     found = [item for item, in form.iter_unpack(items)]
-    if "REAL" in kind:  # stays bits: on the way through a float some NaNs would change
+    if "REAL" in kind:  # keep the bits: a conversion to float would change some NaNs
         return [{"type": kind, "bits": "0x%0*x" % (2 * form.size, item)} for item in found], data
     return [leaf(kind, item) for item in found], data
 
@@ -50,17 +50,17 @@ def number(kind, least=None):
         return value, data
     return read
 
-def counted(data):  # as many as the number in front of them says
+def counted(data):  # items after a field that contains their number
     count, data = UNS32(data)
     return numbers(data, int(count["value"]), "UNS32")
 
-def elements(context):  # of which type, and how many, is not among the bytes
+def elements(context):  # the context contains their type and number
     kind, count = context.get("type"), math.prod(context.get("dimensions", []))
     if kind != "STRING" and kind not in FORMS:
         raise Unsupported("context")
     return lambda data: (texts(data, count), b"") if kind == "STRING" else numbers(data, count, kind)
 
-def texts(data, count):  # of an array: the same share of the bytes each, and at least one
+def texts(data, count):  # the texts of an array have the same size, at least one byte
     size = len(data) // max(count, 1)
     if size * count != len(data) or count > 1 and not size:
         raise Refused("bad-length")
@@ -83,7 +83,7 @@ def string(data, nul=b"", tail=b""):
     return dict(value, open=True) if not nul else dict(value, tail=tail.hex(" ")) if tail else value
 
 def text(least=0, most=math.inf, closed=False, padded=False):
-    """Ends at its first NUL or, unless `closed`, with the stream. `padded`: only NULs follow."""
+    """A text ends at its first NUL or, unless `closed`, with the stream. `padded`: only NULs may follow."""
     def read(data):
         found, nul, tail = within(data, least, most).partition(b"\0")
         if closed and not nul or padded and tail.strip(b"\0"):
@@ -94,9 +94,9 @@ def text(least=0, most=math.inf, closed=False, padded=False):
 def text32(data):
     field, data = take(data, 32)
     found, nul, tail = field.partition(b"\0")
-    return string(found, nul, tail.strip(b"\0") and tail), data  # no tail if it is all zeros
+    return string(found, nul, tail.strip(b"\0") and tail), data  # omit a tail that consists of NULs
 
-def name_before(data):  # in front of a value: it takes its NUL and no more
+def name_before(data):  # the name before a value ends with its first NUL
     name, data = take(data, data.find(b"\0") + 1 or len(data))
     return text(1, 256, closed=True)(name)[0], data
 
@@ -106,7 +106,7 @@ def descriptors(data):
 def write(value):
     if isinstance(value, list):
         return b"".join(map(write, value))
-    if isinstance(value["type"], dict):  # a field of that name: the only records in a list
+    if isinstance(value["type"], dict):  # a field called `type`: only descriptors are records in a list
         return DESCRIPTOR.put(value)
     if value["type"] == "NETID":
         return bytes(map(int, value["value"].split(".")))
@@ -115,10 +115,10 @@ def write(value):
     nul = "00" if value["type"] == "STRING" and "open" not in value else ""
     return bytes.fromhex(value["hex"] + nul + value.get("tail", ""))
 
-# Streams: `get` reads all the bytes to a value, `put` writes a value.
+# Streams: `get` decodes all bytes to a value, `put` encodes a value.
 
 class Record:
-    """Fields in their order. `ends`: behind which values the stream may end; texts fill `width`."""
+    """Fields in order. The stream may end after the fields in `value` if `ends(value)`. `width`: size of texts."""
     def __init__(self, most=math.inf, ends=lambda value: False, width=0, **fields):
         self.most, self.ends, self.width, self.fields = most, ends, width, fields
 
@@ -142,7 +142,7 @@ class Record:
         return stream
 
 class Frame:
-    """What goes over TCP. Both lengths count what follows; the value does without them."""
+    """An AMS/TCP frame. Its value omits the lengths in both headers, because the data determines them."""
     SERVICES = {("2", "4"): "read_request", ("3", "4"): "write_request", ("9", "4"): "read_write_request",
                 ("2", "5"): "read_reply", ("3", "5"): "write_reply", ("9", "5"): "read_write_reply"}
 
@@ -153,7 +153,7 @@ class Frame:
             raise Refused("mismatch")
         value = {"ams_tcp_header": tcp, "ams_header": ams}
         service = self.SERVICES.get((ams["command"]["value"], ams["state_flags"]["value"]))
-        if data or ams["error"]["value"] == "0":  # an error may come alone
+        if data or ams["error"]["value"] == "0":  # an error reply may have no data
             value[service or "data"] = STREAMS[service].get(data) if service else raw()(data)[0]
         return value
 
@@ -165,7 +165,7 @@ class Frame:
         return STREAMS["ams_tcp_header"].put(tcp) + STREAMS["ams_header"].put(ams) + data
 
 class Path:
-    """A variable's name taken apart, such as V.G.NP[0].V[1]."""
+    """The name of a variable, such as V.G.NP[0].V[1], split into its parts."""
     PART = rb"\.([^.\[\]\0]+)((?:\[[0-9]+\])*)"
     def get(self, data):
         found = re.fullmatch(rb"(V\.[^.\[\]\0]+)((?:%s)+)" % self.PART, within(data, 0, 255))
@@ -180,7 +180,7 @@ class Path:
             b"[%d]" % int(index["value"]) for index in part["indices"]) for part in value["parts"])
 
 class Group(Record):
-    """An index group taken apart; one that is not documented stays a number."""
+    """An index group, with its parts if it is documented."""
     CLASSES = ["position-controller", "interpolator", "decoder", "hld", "path-preparation", "spindle"]
     ATTRIBUTES = ["content", "name", "type", "length", "unit", "write-flag", "object-address"]
     def __init__(self, context):
@@ -195,7 +195,7 @@ class Group(Record):
         access, logical, block, table = group >> 16 & ~16, group >> 20 & 1, group >> 12 & 15, group >> 8 & 15
         if access in (2, 3) and block == 0 and table in (1, 2):
             words = {"task": "COM", "table": ["channel", "axis"][table - 1]}
-        elif access == 2 and 3 <= table <= 9 and block <= 5 - logical:  # spindles: by index only
+        elif access == 2 and 3 <= table <= 9 and block <= 5 - logical:  # spindles have no logical address
             words = {"task": "SDA/GEO", "class": self.CLASSES[block], "attribute": self.ATTRIBUTES[table - 3]}
         else:
             return value
@@ -204,7 +204,7 @@ class Group(Record):
         return dict(value, **named, instance=leaf("UNS08", group & 255))
 
 class Offset(Record):
-    """An index offset taken apart: the stride is not among the bytes."""
+    """An index offset, split into axis and element; the context contains the stride."""
     def __init__(self, context):
         super().__init__(offset=UNS32)
         if context.get("stride") not in ("0x1000", "0x10000"):
@@ -228,7 +228,7 @@ DESCRIPTOR = Record(id=UNS32, size=UNS32, write_access=UNS16, not_assigned=UNS16
 COUNT = Record(count=UNS32)
 REPLY = Record(result=UNS32, data=sized, ends=lambda value: value and value["result"]["value"] != "0")
 
-STREAMS = dict(  # with - in place of _; those that need the context are functions of it
+STREAMS = dict(  # names with _ instead of -; a stream that needs the context is a function of it
     ams_tcp_header=Record(reserved=UNS16, length=UNS32),
     ams_header=Record(target_net_id=net_id, target_port=UNS16, source_net_id=net_id, source_port=UNS16,
                       command=UNS16, state_flags=UNS16, data_length=UNS32, error=UNS32, invoke_id=UNS32),
@@ -242,7 +242,7 @@ STREAMS = dict(  # with - in place of _; those that need the context are functio
     element_length=Record(length=lambda data: number({1: "UNS08", 2: "UNS16"}.get(len(data), "UNS32"))(data)),
     dynamic_count=COUNT, dynamic_index=Record(index=number("UNS32", 1)), dynamic_value=Record(value=number("REAL64")),
     dynamic_name=Record(name=text(1, 96)), dynamic_name_request=Record(name=text(1, 96, padded=True)),
-    variable_kind=Record(kind=lambda data: REQUEST(data) if data else text()(data)),  # may be absent
+    variable_kind=Record(kind=lambda data: REQUEST(data) if data else text()(data)),  # may be empty
     variable_count=COUNT, variable_index_kind=Record(index=UNS32, kind=REQUEST),
     variable_description=Record(2048, **DESCRIPTION, name=text(1, 256)),
     variable_description_by_name=Record(2048, **DESCRIPTION), variable_handle_read=Record(2048, **HANDLE),
@@ -257,17 +257,17 @@ def encode(stream, value):
     try:
         data = stream.put(value)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, struct.error):
-        raise Refused("mismatch") from None  # no value of this stream is built like that
+        raise Refused("mismatch") from None  # the value does not have the structure of the stream
     if stream.get(data) != value:
         raise Refused("mismatch")
     return data
 
-OPS, EDITIONS = ["decode", "encode"], ["en-1.05", "de-1.051"]  # both have the same streams
+OPS, EDITIONS = ["decode", "encode"], ["en-1.05", "de-1.051"]  # the streams do not depend on the edition
 NAMES = [name.replace("_", "-") for name in STREAMS]
 HELLO = {"protocol": 1, "testee": {"name": "example", "version": "1.0", "language": "Python"},
          "capabilities": {"ops": OPS, "streams": NAMES, "editions": EDITIONS}}
 
-def deciding(part):  # what decides: not the decimals of a float, nor how a text reads
+def deciding(part):  # removes the readable `value` if `bits` or `hex` is present
     return {name: part[name] for name in part if name != "value" or not {"bits", "hex"} & set(part)}
 
 def work(case):
@@ -292,7 +292,7 @@ def answer(line):
         return {"seq": seq, "reject": {"class": fault.args[0]}}
     except Unsupported as fault:
         return {"seq": seq, "unsupported": {"what": fault.args[0]}}
-    except Exception as fault:  # whatever it is, there is a next line
+    except Exception as fault:  # answer any other error, too, to continue with the next line
         return {"seq": seq, "error": {"message": repr(fault)}}
 
 if __name__ == "__main__":

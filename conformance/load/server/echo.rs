@@ -1,5 +1,6 @@
-//! The baseline: a server that returns the bytes of a reply for each number of bytes of a request,
-//! whatever they contain. Like the simulated CNC, it has a thread for each connection.
+//! The baseline of the comparison, an echo server: for every `request_len` received bytes, whatever
+//! they contain, it sends the bytes of one reply. Like the simulated CNC, it has a thread for each
+//! connection.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{SocketAddr, TcpListener, TcpStream};

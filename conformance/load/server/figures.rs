@@ -34,7 +34,8 @@ impl Figures {
         Self { name: name.to_owned(), rates, medians, nanos, cpu }
     }
 
-    /// A row, with the ratios of the other server's slices to those of this server in the same rounds.
+    /// A row of the table for this server. Each ratio is that of a slice of `other` to the slice of
+    /// this server in the same round.
     pub(crate) fn row(&self, other: &Self) -> String {
         let rates = Spread::of(self.rates.clone());
         let ratio = |others: &[f64], own: &[f64]| match std::ptr::eq(self, other) {
@@ -53,7 +54,8 @@ impl Figures {
     }
 }
 
-/// The smallest number that this share of the numbers does not exceed; the numbers are sorted.
+/// The percentile of the sorted numbers: the smallest number that `share` of the numbers (0 to 1)
+/// does not exceed.
 fn ranked(nanos: &[u32], share: f64) -> u32 {
     let rank = (nanos.len() as f64 * share).ceil() as usize;
     nanos[rank.clamp(1, nanos.len()) - 1]

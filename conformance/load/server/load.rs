@@ -31,8 +31,8 @@ pub(crate) struct Slice {
     pub(crate) nanos: Vec<u32>,
 }
 
-/// Sends requests for a slice of time. Checks every reply; a wrong one is an error. An echo server
-/// repeats the same reply, so that all its replies are to request 0.
+/// Sends requests for a slice of time. Checks every reply; a wrong reply is an error. An echo
+/// server repeats the same reply, which has the number of request 0.
 pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) -> Result<Slice> {
     let clients = (0..load.clients).map(|_| Client::connect(addr, work, is_echo));
     let clients = clients.collect::<Result<Vec<_>>>()?;
@@ -57,7 +57,7 @@ pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) ->
     Ok(all)
 }
 
-/// The number of replies to `depth` requests that are sent in one write.
+/// Sends `depth` requests in one write, and returns the number of replies.
 pub(crate) fn answered_of_burst(addr: SocketAddr, work: &Work, depth: usize) -> Result<usize> {
     let mut client = Client::connect(addr, work, false)?;
     client.ask(depth)?;
@@ -124,7 +124,7 @@ impl<'a> Client<'a> {
                 let nano = now.duration_since(sent).as_nanos();
                 nanos.push(u32::try_from(nano).unwrap_or(u32::MAX));
             }
-            // A later reply has a latency, but does not count for the rate.
+            // A reply after the end of the slice counts for the latency, but not for the rate.
             if now.duration_since(begin) < load.time {
                 in_time += u32::try_from(replies)?;
             }

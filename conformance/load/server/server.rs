@@ -77,7 +77,7 @@ impl Server {
         Ok(server)
     }
 
-    /// Whether the server repeats the same reply.
+    /// Whether the server is the echo server, which repeats the same reply.
     pub(crate) fn is_echo(&self) -> bool {
         self.name == ECHO
     }

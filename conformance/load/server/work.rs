@@ -94,7 +94,7 @@ impl Work {
         frame(AmsHeader { invoke_id, ..self.header }, &self.payload, out)
     }
 
-    /// The bytes of a right reply.
+    /// The bytes of the correct reply.
     pub(crate) fn reply(&self, invoke_id: u32) -> Result<Vec<u8>> {
         let (result, data) = (AdsError::NO_ERROR, Some(self.expected.as_slice()));
         let payload = encode_reply(self.service, result, data)?;
@@ -103,8 +103,8 @@ impl Work {
         Ok(out)
     }
 
-    /// Checks that the first received frame is the right reply to the request with this number; returns
-    /// its length, or `None` if the frame is incomplete.
+    /// Checks that the first received frame is the correct reply to the request with this number;
+    /// returns its length, or `None` if the frame is incomplete.
     pub(crate) fn check(&self, received: &[u8], invoke_id: u32) -> Result<Option<usize>> {
         let Some((frame, len)) = FrameRef::split(received, DATA_MAX)? else { return Ok(None) };
         let (header, payload) = (frame.header(), frame.data());

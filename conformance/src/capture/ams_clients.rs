@@ -9,17 +9,17 @@ use super::link::AmsFrame;
 use super::table::{CONNECTIONS_MAX, ConnectionEvent, Ending, SegmentDirection};
 use super::tcp::Mark;
 
-/// Offset of the numbers of conversations, to distinguish them from TCP connections, whose numbers
-/// begin at 1.
+/// Added to the number of a conversation without TCP, so that it differs from the number of each
+/// TCP connection. The TCP connections are numbered from 1.
 const NUMBERS: u64 = 1 << 63;
 
-/// The conversation of all clients on one machine with all CNCs.
+/// The conversation of all clients on one machine (one AMS Net ID) with all CNCs.
 #[derive(Debug)]
 struct AmsClient {
-    /// Number of the last frame, and of its packet.
+    /// Number of the last frame of the conversation, and number of its packet.
     last: u64,
     packet: u64,
-    /// Number of bytes sent by the machine and to it.
+    /// Number of bytes sent by the machine (index 0) and to the machine (index 1).
     sent: [u64; 2],
     /// The direction of the first request.
     way: SegmentDirection,

@@ -29,7 +29,7 @@ pub(super) struct Packet<'p> {
     pub(super) bytes: &'p [u8],
     /// Number of bytes that were not captured.
     pub(super) missing: usize,
-    /// Whether the suite is the client, as it notes in its captures.
+    /// Whether the suite is the client, according to the comment that it writes to its captures.
     pub(super) is_of_suite: bool,
 }
 
@@ -48,7 +48,7 @@ pub enum FileError {
     /// An error of the system.
     #[error("{0}")]
     Io(#[from] std::io::Error),
-    /// The file has another format.
+    /// The file has an unsupported format.
     #[error("neither pcap nor pcapng nor NetMon 2.x")]
     Format,
     /// The file has another version of the NetMon format: major and minor.
@@ -213,7 +213,7 @@ impl Interfaces {
         each: &mut impl FnMut(Packet<'_>),
     ) {
         self.packets = self.packets.saturating_add(1);
-        // Only count a packet of an interface without a description; -1 is no link type.
+        // A packet whose interface has no description is only counted: -1 is not a link type.
         let link = self.all.get(interface).map_or(Linktype(-1), |interface| interface.link);
         let original = usize::try_from(original).unwrap_or(usize::MAX);
         let missing = original.saturating_sub(bytes.len());

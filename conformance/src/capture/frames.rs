@@ -30,7 +30,7 @@ pub(super) enum FramePiece {
 pub(super) struct Span {
     pub(super) first: Mark,
     pub(super) last: Mark,
-    /// Offset of the byte after the frame, in this direction.
+    /// Offset of the byte after the frame, from the beginning of its direction.
     pub(super) end: u64,
 }
 
@@ -38,9 +38,10 @@ pub(super) struct Span {
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     bytes: Vec<u8>,
-    /// The location in the capture of the bytes from each offset in the buffer on.
+    /// For each segment in the buffer, the offset of its first byte in the buffer, and its location
+    /// in the capture.
     marks: VecDeque<(usize, Mark)>,
-    /// Offset of the first byte of the buffer, in this direction.
+    /// Offset of the first byte of the buffer, from the beginning of the direction.
     place: u64,
     /// Whether synchronization was lost, so that a frame may begin at any offset.
     is_lost: bool,
@@ -55,7 +56,7 @@ impl Frames {
         self.bytes.capacity().saturating_add(marks)
     }
 
-    /// Handles a direction whose beginning was not captured.
+    /// Searches for the first frame, because the beginning of the direction was not captured.
     pub(super) const fn begin_anywhere(&mut self) {
         self.is_lost = true;
     }
@@ -195,7 +196,8 @@ impl Frames {
 const SHOWN: usize = 64;
 
 /// Length of a message between a client and its local router (open port, close port, router
-/// notification), if this is the header of one. All of them are shorter than an AMS header.
+/// notification); `None` if `tcp` is not the header of such a message. Such a message is shorter
+/// than an AMS header.
 fn router(tcp: &[u8]) -> Option<usize> {
     let header = AmsTcpHeader::decode(tcp).ok()?;
     let length = usize::try_from(header.length).ok().filter(|length| *length < AMS_HEADER_LEN)?;
@@ -208,7 +210,8 @@ pub(super) fn is_cnc(port: AmsPort) -> bool {
     Task::from_port(port).is_some()
 }
 
-/// Whether a frame is a reply; if the flags are invalid, the ports decide.
+/// Whether a frame is a reply, according to its state flags; if they are invalid, according to its
+/// ports.
 pub(super) fn is_reply(header: &AmsHeader) -> bool {
     match header.state_flags {
         StateFlags::REQUEST => false,
@@ -219,7 +222,8 @@ pub(super) fn is_reply(header: &AmsHeader) -> bool {
     }
 }
 
-/// Whether a frame may begin here: both lengths agree, command and flags are known.
+/// Whether `bytes` may be the beginning of a frame: the lengths in the two headers agree, and the
+/// command and the state flags are known.
 fn is_plausible(bytes: &[u8]) -> bool {
     let header = bytes.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN);
     let Some(Ok(header)) = header.map(AmsHeader::decode) else { return false };

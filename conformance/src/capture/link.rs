@@ -104,7 +104,8 @@ fn of_ethercat(payload: &[u8]) -> PacketContent<'_> {
 
 fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
     let Some((from, to, missing)) = read.net.as_ref().and_then(|net| ends(net, missing)) else {
-        // A packet that ends inside the IP header is unreadable instead of another protocol.
+        // A packet that ends inside the IP header is unreadable; it need not contain another
+        // protocol.
         return if read.stop_err.is_some() {
             PacketContent::Unreadable
         } else {
@@ -137,7 +138,8 @@ fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
     }
 }
 
-/// Both addresses, and the number of bytes of the IP packet that were not captured.
+/// The source address, the destination address and the number of bytes of the IP packet that were
+/// not captured.
 fn ends(net: &LaxNetSlice<'_>, missing: usize) -> Option<(IpAddr, IpAddr, usize)> {
     // With segmentation offload, the length in the header is 0, because the network card sets it.
     let lost = |told: usize, there: usize| match told {

@@ -102,7 +102,7 @@ pub enum CapturePiece {
         /// Number of missing bytes; 0 if unknown.
         length: u64,
     },
-    /// Bytes that are not a frame, or only the beginning of a frame; the number of bytes.
+    /// The number of bytes that are not a frame, or that are only the beginning of a frame.
     Rest(usize),
 }
 

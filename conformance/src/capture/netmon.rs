@@ -44,7 +44,8 @@ const PACKET_HEADER_LEN: usize = 16;
 const TABLES: usize = 24;
 const TABLES_END: usize = 72;
 
-/// Offset of the numbers of unsupported link types.
+/// Added to the number of an unsupported NetMon link type, so that the sum is not a link type of
+/// pcap.
 const NETMON_LINKS: i32 = 0x1_0000;
 
 /// Units of time per second.
@@ -127,7 +128,7 @@ impl<R: Read> Input<R> {
         Ok(read == buf.len())
     }
 
-    /// The header of the file; `None` if the file ends in it.
+    /// The header of the file; `None` if the file ends inside the header.
     fn header(&mut self) -> Result<Option<Header>, FileError> {
         let mut bytes = [0; HEADER_LEN];
         let rest = bytes.get_mut(MAGIC.len()..).unwrap_or_default();
@@ -191,7 +192,7 @@ impl<R: Read> Input<R> {
         Ok((time, link_type(link), original))
     }
 
-    /// The offsets in the frame table; `None` if the file ends in it.
+    /// The offsets in the frame table; `None` if the file ends before the end of the frame table.
     fn frame_table(&mut self, (offset, length): (u64, u64)) -> Option<Offsets> {
         let mut chunk = [0; TABLE_CHUNK];
         while self.offset < offset {

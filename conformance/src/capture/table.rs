@@ -46,7 +46,8 @@ pub(super) enum ConnectionEvent {
     Skipped(usize),
     /// A connection whose beginning was not captured.
     Joined(u64),
-    /// A conversation whose beginning was not captured, but every frame since then.
+    /// A conversation whose beginning was not captured, although every frame after the start of the
+    /// capture was.
     Running(u64),
     /// A frame that was incomplete when the connection or the capture ended.
     Unfinished,
@@ -59,7 +60,8 @@ pub(super) enum ConnectionEvent {
 pub(super) struct Ending {
     pub(super) connection: u64,
     pub(super) last: u64,
-    /// The direction without any captured segment, if any; even acknowledgements are missing.
+    /// The direction of which no segment was captured, not even an acknowledgement; `None` if the
+    /// capture contains segments of both directions.
     pub(super) unseen: Option<SegmentDirection>,
 }
 
@@ -75,7 +77,7 @@ struct TcpConnection {
     is_whole: bool,
     /// Whether [`ConnectionEvent::Joined`] must still be emitted.
     joined: bool,
-    /// Number of the last segment, and of its packet.
+    /// Number of the last segment of the connection, and number of its packet.
     last: u64,
     packet: u64,
 }
@@ -165,8 +167,7 @@ impl ConnectionTable {
         if over || self.buffered > BUFFERED_MAX {
             self.end(key, out);
         } else if !connection.is_ams {
-            // Emit no events before the first AMS frame; store a gap until then as a missing
-            // beginning.
+            // Before the first AMS frame, emit no events and treat a gap as a missing beginning.
             let lost =
                 out.iter().skip(events).any(|event| matches!(event, ConnectionEvent::Gap(..)));
             connection.joined |= lost && std::mem::take(&mut connection.is_whole);
@@ -234,7 +235,8 @@ impl TcpConnection {
         usize::from(self.ends.first() != Some(&from))
     }
 
-    /// Whether a SYN belongs to this connection: a repeated one, or that of the other side.
+    /// Whether a SYN belongs to this connection: it is a retransmitted SYN, or the SYN of the other
+    /// side.
     fn is_same(&self, segment: &TcpSegment<'_>) -> bool {
         let half = self.halves.get(self.side(segment.from));
         half.is_none_or(|half| half.is_new() || half.begins_with(segment.sequence))

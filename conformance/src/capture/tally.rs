@@ -27,7 +27,7 @@ const SHOWN: usize = 8;
 pub struct CaptureTally {
     /// Packets in the file.
     pub packets: u64,
-    /// Those of connections in which the suite is the client.
+    /// Packets of connections in which the suite is the client.
     pub of_suite: u64,
     /// IP fragments.
     pub fragments: u64,
@@ -210,7 +210,7 @@ fn asked(exchange: &Exchange) -> String {
     let spec = function.spec();
     let mut fields = Vec::new();
     if let Some(stream) = spec.request {
-        // `mistake` already describes an error.
+        // Ignore the error of the walk, because `mistake` has already described it.
         let _fault = stream.walk(call.data, |segment| {
             if fields.len() < FIELDS_MAX {
                 fields.extend(shown(segment.field.name(), segment.bytes));
@@ -245,7 +245,7 @@ fn shown(field: &str, bytes: &[u8]) -> Option<String> {
     }
 }
 
-/// The error in the call of a function; `None` if the call may be of another function.
+/// Describes the error in a call of `function`; `None` if the call may not be meant for `function`.
 fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Option<String> {
     let spec = function.spec();
     let is_com = |port: AmsPort| port == AmsPort::COM;

@@ -15,11 +15,12 @@ const SEGMENTS_MAX: usize = 4096;
 /// connection.
 const WINDOW: u32 = 0x4000_0000;
 
-/// Number of segments after a gap until acknowledged bytes count as missing; a capture made on several
-/// processors may be out of order.
+/// Number of segments after a gap until acknowledged bytes count as missing; packets that are
+/// captured on several processors may be out of order.
 const REORDERED_SEGMENTS_MAX: u32 = 64;
 
-/// Number of bytes that may have been captured before the preceding SYN.
+/// Maximum number of bytes of a connection that may be captured before its SYN; a SYN at a larger
+/// distance opens another connection.
 const BEFORE_SYN: u32 = 0x1_0000;
 
 /// The location of bytes in the capture.
@@ -66,7 +67,8 @@ pub(super) struct DirectionState {
     /// Segments that wait for earlier bytes, by offset.
     ahead: BTreeMap<u64, EarlySegment>,
     buffered: usize,
-    /// Offset acknowledged by the other side; `acknowledged_by` is the segment that did so.
+    /// Offset acknowledged by the other side; `acknowledged_by` is the location of the segment with
+    /// this acknowledgement.
     acknowledged: u64,
     acknowledged_by: Option<Mark>,
     waiting: u32,
@@ -94,7 +96,8 @@ impl DirectionState {
         self.seen
     }
 
-    /// Whether `sequence` may be that of its SYN: a retransmitted SYN, or one captured late.
+    /// Whether `sequence` may be the sequence number of the SYN of this direction, which may be a
+    /// retransmitted SYN or a SYN captured late.
     pub(super) fn begins_with(&self, sequence: u32) -> bool {
         match (self.begin, self.next) {
             (Some(begin), _) => begin == sequence,
@@ -237,7 +240,7 @@ impl DirectionState {
     fn advance(&mut self, length: usize) {
         let length = u64::try_from(length).unwrap_or(u64::MAX);
         self.offset = self.offset.saturating_add(length);
-        // Sequence numbers are modulo 2^32, so the length can be reduced, too.
+        // Sequence numbers are modulo 2^32, so the low 32 bits of the length are sufficient.
         let low = u32::try_from(length & u64::from(u32::MAX)).unwrap_or(0);
         self.next = self.next.map(|next| next.wrapping_add(low));
     }

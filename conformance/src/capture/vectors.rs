@@ -37,7 +37,8 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// Creates a collector that keeps captured texts, or replaces each letter.
+    /// Creates a collector that keeps captured texts if `keep_texts`, and replaces each of their
+    /// letters otherwise.
     pub fn new(keep_texts: bool) -> Self {
         Self { keep_texts, vectors: BTreeMap::new() }
     }
@@ -296,7 +297,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     });
     for (start, end, is_name) in places {
         let Some(text) = scrubbed.get_mut(start..end) else { continue };
-        // The name of a variable begins with its kind.
+        // The name of a variable begins with `V.` and its kind, which the manual defines.
         let kind = is_name && text.get(..2) == Some(b"V.");
         let skip = if kind { text.iter().skip(2).position(|byte| *byte == b'.') } else { None };
         let skip = skip.map_or(0, |at| at.saturating_add(2));

@@ -1,6 +1,7 @@
 //! The command line in a report that repeats a run.
 
-/// Options with a value that select or order cases or write reports.
+/// Options with a value that [`again`] removes, because they select or order cases or write
+/// reports.
 const LEFT_OUT: [&str; 11] = [
     "--seed",
     "--only",
@@ -14,10 +15,11 @@ const LEFT_OUT: [&str; 11] = [
     "--capture",
     "--waivers",
 ];
-/// Options without a value that only affect the output.
+/// Options without a value that [`again`] removes, because they affect only the output.
 const FLAGS_LEFT_OUT: [&str; 4] = ["-v", "--verbose", "-q", "--quiet"];
 
-/// The command line of these arguments, without the options that select, order or report.
+/// Returns the command line of `ads-cnc run` with these arguments, without the options that select
+/// or order cases, write reports or affect only the output.
 pub(super) fn again(arguments: impl IntoIterator<Item = String>) -> String {
     let mut words = vec!["ads-cnc".to_owned(), "run".to_owned()];
     let mut arguments = arguments.into_iter();

@@ -93,7 +93,7 @@ Exit codes: 0 listed; 2 wrong usage; 3 no reply, no match, a channel that does n
 maximum or the deadline was reached; 4 rejected for safety; 70 internal error. Requests that the CNC
 rejects are noted on stderr, and their results are omitted.";
 
-/// The help text states these limits.
+/// The help text contains these limits: if one changes, change the help text, too.
 const _: () = assert!(
     OBJECTS_MAX == 100_000
         && REQUESTS_MAX == 1_000_000

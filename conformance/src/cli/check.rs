@@ -200,7 +200,8 @@ impl CheckArguments {
         self.write(&report, &checked, &extracted)
     }
 
-    /// Reads the connections of the default port; if they contain no AMS frame, all others.
+    /// Reads the connections at the selected ports. If no port is selected, reads the connections
+    /// at the default port, or all connections if those contain no AMS frame.
     fn read(&self, notes: &mut Vec<String>) -> Result<Checked, String> {
         let explained =
             |error: capture::FileError| compressed(&self.file).unwrap_or_else(|| error.to_string());
@@ -247,7 +248,8 @@ impl CheckArguments {
         let display = self.display.display();
         self.reports.write(report, |out| {
             if display.detail == Detail::Quiet {
-                // A pass says nothing about the part that was not captured.
+                // Without this note, a pass could be taken to include the parts that were not
+                // captured or not judged.
                 let missing = checked.tally.missing().into_iter().chain(unjudged(report));
                 missing.into_iter().try_for_each(|line| writeln!(out, "note: {line}"))?;
                 return report::print(report, display, out);
@@ -291,7 +293,8 @@ pub(super) fn compressed(file: &Path) -> Option<String> {
     Some(format!("the file is compressed; unpack it first: {unpack}"))
 }
 
-/// Parses the destination of the vectors; stdout is taken by the report.
+/// Parses the destination of the vectors, which cannot be stdout because the report is written
+/// there.
 fn vectors_file(text: &str) -> Result<PathBuf, String> {
     match text {
         "-" => Err("expected a file or a folder: stdout is used for the report".to_owned()),

@@ -46,7 +46,7 @@ enum Instruction {
 const ABORT_EXIT_CODE: i32 = 134;
 
 impl ClientArguments {
-    /// Answers until `bye` or the end of stdin.
+    /// Executes the instructions of the suite until `bye` or the end of stdin.
     pub(super) fn execute(&self) -> Exit {
         if self.list_defects {
             return written(list());
@@ -111,7 +111,7 @@ fn answer(fault: Option<clients::ClientFault>) -> io::Result<()> {
     Ok(())
 }
 
-/// Executes an action and returns the result; some defects exit or hang here.
+/// Executes an action and returns the result; with some defects, it exits or hangs instead.
 fn done(
     fault: Option<clients::ClientFault>,
     place: &CncAddress,

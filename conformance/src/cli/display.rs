@@ -17,8 +17,8 @@ impl Color {
     pub(super) fn is_on(self) -> bool {
         let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        // Older consoles of Windows print escape sequences as text; newer ones and emulators set a
-        // variable.
+        // Older consoles of Windows print escape sequences as text; newer consoles and terminal
+        // emulators set one of these variables.
         let takes = !cfg!(windows) || ["WT_SESSION", "ANSICON", "TERM"].into_iter().any(set);
         match self {
             Self::Always => true,

@@ -146,8 +146,8 @@ fn is_ethernet(bytes: &[u8]) -> bool {
     of_ip(12) || (bytes.get(12..14) == Some(&[0x81, 0]) && of_ip(16))
 }
 
-/// The known index group that results from reading the decimal digits of an unknown one as hex:
-/// the user may have omitted 0x.
+/// Reads the decimal digits of an unknown index group as hex, because the user may have omitted 0x,
+/// and returns the result if it is a known index group.
 fn meant_as_hex(group: u32) -> Option<IndexGroup> {
     let is_known = |group: u32| IndexGroup::new(group).parts().is_some();
     let meant = u32::from_str_radix(&group.to_string(), 16).ok()?;
@@ -226,7 +226,7 @@ impl Explain {
         }
     }
 
-    /// The bytes; `None` to explain an address only.
+    /// The bytes to explain; `None` if only an address is to be explained.
     fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
         let text = match (&self.file, self.hex_bytes.as_slice()) {
             (Some(file), _) => {

@@ -20,7 +20,8 @@ impl std::str::FromStr for Filter {
              as ads_cnc_conformance::simulator=debug"
                 .to_owned()
         };
-        // The parser accepts any word as the name of a module.
+        // Check the words here, because the parser of the filter accepts any word as the name of a
+        // module.
         let is_level = |word: &str| word.parse::<tracing::level_filters::LevelFilter>().is_ok();
         let words = text.split(',');
         let known = |word: &str| {

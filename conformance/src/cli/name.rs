@@ -87,10 +87,11 @@ impl NameArgs {
         if let Some(axes) = self.axes(target, model) {
             return Some(axes);
         }
-        // A name with its axis has four parts.
+        // A V.A name without its axis has three parts; the axis is the fourth part.
         let lacks_axis =
             name.starts_with("V.A.") && name.split('.').count() == 3 && self.axis.is_none();
-        // The numbers of parameters always resemble each other: similarity gives no hint.
+        // Parameter names contain numbers, which always resemble each other: do not suggest similar
+        // names.
         if (is_variable || is_absent)
             && !lacks_axis
             && let Some(found) = self.look_for(target, model, is_absent)
@@ -121,7 +122,8 @@ impl NameArgs {
     }
 }
 
-/// What to say about channels that the CNC does not have.
+/// The message about channels that the CNC does not have (`absent`), with the channels that it has
+/// (`there`).
 pub(super) fn no_channel(absent: &[Channel], there: &[Channel]) -> String {
     let [absent, there] = [(absent, " or "), (there, ", ")].map(|(channels, between)| {
         let numbers = channels.iter().map(|one| one.number().to_string());
@@ -133,7 +135,7 @@ pub(super) fn no_channel(absent: &[Channel], there: &[Channel]) -> String {
 /// Maximum number of axes of a channel that are queried for a variable.
 const AXES_MAX: u32 = 32;
 
-/// Time limit for the search for names similar to an unknown one.
+/// Time limit for the search for names that are similar to an unknown name.
 const COMPARING_MAX: Duration = Duration::from_secs(5);
 
 fn is_like_variable(name: &str) -> bool {
@@ -141,7 +143,8 @@ fn is_like_variable(name: &str) -> bool {
 }
 
 impl NameArgs {
-    /// The axes that have the variable, if the given one does not.
+    /// Lists the axes of the channel that have the variable, as advice if the axis of --axis does
+    /// not have it.
     fn axes(&self, target: &TargetArgs, model: &ModelArgs) -> Option<String> {
         if self.axis.is_none() || target.capture().is_some() {
             return None;
@@ -159,7 +162,8 @@ impl NameArgs {
         Some(format!("axes of channel {number} with {}: {axes}", self.name))
     }
 
-    /// The channels of the CNC if the given one does not exist, otherwise the most similar names.
+    /// Lists the channels of the CNC if it does not have the channel of --channel, otherwise the
+    /// names that are most similar to the unknown name.
     fn look_for(&self, target: &TargetArgs, model: &ModelArgs, objects: bool) -> Option<String> {
         // A second session would overwrite the capture of the first one.
         if target.capture().is_some() {

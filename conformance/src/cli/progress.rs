@@ -11,7 +11,8 @@ use crate::text::plural;
 
 /// Minimum time between two updates of the line on a terminal.
 pub(super) const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
-/// Maximum number of characters: the remainder of a wrapped line would stay on the screen.
+/// Maximum number of characters of the line. A longer line would wrap, and a part of it would stay
+/// on the screen.
 pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, overwritten in place on a terminal.
@@ -39,7 +40,7 @@ impl ProgressLine {
         self.last.elapsed() >= every
     }
 
-    /// Replaces the progress line on a terminal; elsewhere writes a new line.
+    /// Replaces the progress line if stderr is a terminal, otherwise writes a new line.
     pub(super) fn show(&mut self, text: &str) {
         self.last = Instant::now();
         let line = self.fitted(text);
@@ -73,7 +74,7 @@ impl Drop for ProgressLine {
     }
 }
 
-/// Number of characters that [`Watch`] has on the last line of the terminal.
+/// Number of characters that [`Watch`] has written to the last line of the terminal.
 static SHOWN: AtomicUsize = AtomicUsize::new(0);
 
 /// Clears the line of [`Watch`], before another text is written.
@@ -84,7 +85,7 @@ pub(super) fn clear() {
     }
 }
 
-/// A shorter run shows no progress.
+/// A run that is shorter than this duration shows no progress.
 const SHORT_RUN: Duration = Duration::from_secs(1);
 
 /// Time between two lines if stderr is not a terminal.
@@ -136,7 +137,8 @@ impl Drop for Watch {
 
 pub(super) fn progress_text(counts: Counts, unit: &str, elapsed: Duration) -> String {
     let Counts { all, done, failed, requests } = counts;
-    // Their number is unknown until the peer has introduced itself.
+    // `all` is 0 until the program under test has introduced itself, because the number of cases
+    // depends on the program.
     let mut text = match all {
         0 if requests == 0 => "waiting for the first message".to_owned(),
         _ => format!("{done} of {all} {unit}"),

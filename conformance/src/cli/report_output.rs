@@ -17,7 +17,7 @@ use crate::text::{did_you_mean, utf8};
 /// The heading of these options in the help.
 pub(super) const HEADING: &str = "Reports";
 
-/// A waiver, as the file of --waivers contains it.
+/// An example of a waiver in the file of --waivers.
 pub(super) const WAIVER: &str = "  [[waiver]]
   test = \"var-descriptions\"   # the ID of a case
   requirement = \"VAR-8\"
@@ -120,7 +120,7 @@ impl Reports {
     /// Removes the reports of an earlier run, because this run produced none.
     pub(super) fn remove(&self) {
         let files = self.json().into_iter().chain(self.forms.files());
-        // Keep a device, a pipe or a link to them.
+        // Remove only regular files, but no device, pipe or symbolic link.
         let is_file = |file: &&Path| fs::symlink_metadata(file).is_ok_and(|it| it.is_file());
         for file in files.filter(is_file) {
             if let Err(error) = fs::remove_file(file) {
@@ -130,7 +130,8 @@ impl Reports {
         }
     }
 
-    /// Writes the reports; `print` shows the result on stdout, unless a report goes there.
+    /// Writes the reports, and the result with `print` to stdout unless a report is written to
+    /// stdout.
     pub(super) fn write(
         &self,
         report: &Report,
@@ -140,7 +141,7 @@ impl Reports {
         let json = self.json();
         let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
         let written = written.and_then(|()| self.forms.write(report));
-        // A report on stdout is the only output there.
+        // If a report is written to stdout, write nothing else to it.
         let quiet = json.is_some_and(is_stdout) || self.forms.has_stdout();
         let shown = if quiet { Ok(()) } else { show(print) };
         written.and(shown).map_or_else(lost, |()| report.exit())
@@ -156,7 +157,7 @@ fn writable(file: &Path) -> Result<(), String> {
     let opened = OpenOptions::new().create(true).append(true).open(file);
     opened.map_err(|error| format!("{}: {error}", file.display()))?;
     if !was_there {
-        // Leave no empty file, because the run may not finish.
+        // Remove the empty file that the check created, because the run may not finish.
         let _gone = fs::remove_file(file);
     }
     Ok(())
@@ -184,7 +185,7 @@ pub(super) fn write(
 /// Writes to stdout; a broken pipe is not an error.
 pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
-    // The exit code still depends on the result, not on the reader of stdout.
+    // Ignore a closed pipe: the exit code must depend on the result, not on the reader of stdout.
     make(&mut out).and_then(|()| out.flush()).or_else(|error| match error.kind() {
         io::ErrorKind::BrokenPipe => Ok(()),
         _ => Err(error),

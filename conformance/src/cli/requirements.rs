@@ -93,8 +93,8 @@ impl Requirements {
     }
 }
 
-/// Whether the word names a row: its area, ID, a case or vector of it, or a stream or function that it
-/// defines.
+/// Whether the word is the area or the ID of the requirement in this row, the ID of one of its
+/// cases or vectors, or the name of a stream or function that the requirement defines.
 fn is_named(row: &RequirementRow, word: &str) -> bool {
     let has = |ids: &[String], prefix: &str| {
         ids.iter().any(|id| word.eq_ignore_ascii_case(&format!("{prefix}{id}")))
@@ -106,7 +106,7 @@ fn is_named(row: &RequirementRow, word: &str) -> bool {
         || has(&row.rejected, "vec-")
 }
 
-/// The message for a word that names no row.
+/// The message for a word that does not match any row.
 fn no_such(word: &str, rows: &[RequirementRow]) -> String {
     let ids = rows.iter().flat_map(|row| {
         let area = row.id.split('-').next().unwrap_or(&row.id);
@@ -126,7 +126,7 @@ fn clauses(name: &str) -> Vec<&'static str> {
     streams.flat_map(clauses_of).chain(functions).collect()
 }
 
-/// The name of the function's type.
+/// The name of the variant of [`Function`], for example `ReadByName`.
 fn id(function: Function) -> String {
     format!("{function:?}")
 }

@@ -305,7 +305,7 @@ impl Run {
                 return Exit::Internal;
             }
         };
-        // While waiting for a client, the address is printed first, and then the deadline.
+        // A run that waits for a client prints no time limit: its first line contains the address.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
         let is_default = self.deadline.is_default();
         if asks && !is_default && !self.client.waits() && !self.display.is_quiet() {
@@ -341,7 +341,8 @@ impl Run {
         }
     }
 
-    /// The profile of the file, or the default one; --edition changes either.
+    /// The profile in the file of --profile, or the default profile, with the edition of --edition
+    /// if set.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
         let without = if self.is_simulated() {
@@ -422,7 +423,7 @@ impl Run {
             unmet.map(|(_, why)| why.to_owned())
         };
         let mut listed = list::of_plan(&plan, unmet);
-        // Without a seed the order is arbitrary.
+        // Without --seed, the order of the cases is random.
         if self.seed.is_none() {
             list::sort(&mut listed);
         }
@@ -458,7 +459,7 @@ impl Run {
         Ok(Report::new(about, &outcomes, &left_out))
     }
 
-    /// Why cases were not run, if enough others had failed.
+    /// The reason why cases were not run, if the run ended early because of --max-fail.
     fn ended(&self, outcomes: &[CaseOutcome]) -> Option<String> {
         let unrun = outcomes.iter().filter(|one| one.note.as_deref() == Some(ENOUGH)).count();
         let most = plural(self.max_fail.filter(|_| unrun > 0)?, "failed case");
@@ -486,7 +487,8 @@ impl Run {
     }
 
     fn write(&self, report: &Report) -> Exit {
-        // A device is described on stderr before its cases: do not repeat this on a terminal.
+        // The description of a device was printed on stderr: do not repeat it if stdout is a
+        // terminal, too.
         let found_shown = io::stdout().is_terminal() && io::stderr().is_terminal();
         let display = DisplayOptions { found_shown, ..self.display.display() };
         self.reports.write(report, |out| report::print(report, display, out))

@@ -135,7 +135,7 @@ fn wait_for_client(
 ) -> Result<OfClient, String> {
     let (addr, net_id) = (server.addr(), server.net_id());
     let mut told = false;
-    // The first call comes when the server listens.
+    // `listen` calls this closure for the first time when the server accepts connections.
     let go_on = || {
         if !told {
             print_error(format_args!(

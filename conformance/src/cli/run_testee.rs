@@ -19,7 +19,7 @@ use crate::report::TargetReport;
 use crate::testee::{JudgedTestee, ProtocolFinding, Terms, TesteeProcess, check_protocol, judge};
 use crate::text::shorten;
 
-/// Maximum number of bytes of stderr in a report, which shows its end.
+/// Maximum number of bytes of stderr in a report; of a longer stderr, the report contains the end.
 const STDERR_SHOWN: usize = 4000;
 
 /// Maximum number of characters of a name in a report.

@@ -44,7 +44,7 @@ that sends no complete request within 10 s, and a frame that is not complete wit
 Exit codes: 0 ended by a signal; 2 wrong usage, an invalid model, or an address that cannot be
 listened on; 70 internal error.";
 
-/// The help text states these limits.
+/// The help text contains these limits: if one changes, change the help text, too.
 const _: () = assert!(CONNECTIONS_MAX == 64 && CONNECTION_BYTES_MAX <= 192 * 1024);
 const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 
@@ -200,7 +200,7 @@ fn start(addr: SocketAddr, cnc: Faulty, options: ServerOptions) -> Result<Server
     server.map_err(|error| format!("cannot serve on {addr}: {error}"))
 }
 
-/// The message for an address of this option that cannot be listened on.
+/// The error message if the tool cannot listen on the address of this option.
 pub(super) fn cannot_listen(option: &str, addr: SocketAddr, error: &io::Error) -> String {
     let next = match error.kind() {
         io::ErrorKind::AddrInUse => format!(

@@ -121,8 +121,8 @@ impl Set {
         Ok(judge(&ty, &bytes, new.as_deref()))
     }
 
-    /// The error in the name or the value of a write that no file permits; `None` if the device does not
-    /// show one.
+    /// If --allow-write is not set, reads the description of the object from the device to find an
+    /// error in the name or the value; `None` if no such error is found.
     fn wrong(&self, question: &Lookup) -> Option<ToolError> {
         if self.target.has_file() {
             return None;
@@ -162,14 +162,16 @@ impl Set {
         }
         let checked = session.check_write(&object.address);
         if checked.is_err() && session.is_dry() {
-            // The gate shows the value of a rejected write, which is known only with a type.
+            // The error of a rejected write contains the value, which can be parsed only if the
+            // type is known.
             let value = parse(&object.ty, &self.value).unwrap_or_default();
             return session.write(&object.address, &value);
         }
         checked
     }
 
-    /// Connects; for the simulated CNC, also in a dry run, the gate allows exactly this write.
+    /// Connects to the target. The gate of the simulated CNC allows exactly this write, also in a
+    /// dry run.
     fn open(&self, alone: Option<&Object>) -> Result<Session, ToolError> {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
@@ -200,9 +202,9 @@ impl Set {
     }
 }
 
-/// What is written.
+/// The new value of an object, and its value before the write.
 struct NewValue {
-    /// The value before; `None` if it cannot be read.
+    /// The value before the write; `None` if it cannot be read.
     old: Option<Vec<u8>>,
     ty: Type,
     bytes: Vec<u8>,
@@ -223,7 +225,7 @@ fn check(object: &Object) -> Result<(), ToolError> {
     }
 }
 
-/// Compares the value read back with the written one; a text up to its end.
+/// Compares the value read back with the written value; compares a text only up to its NUL.
 fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let Some(new) = new else {
         print_error("the value was written, but the CNC rejects reading it back");

@@ -91,7 +91,7 @@ pub(super) struct TargetArgs {
     #[arg(skip)]
     malformed: bool,
 
-    /// Whether the suite sends the requests; a capture says so.
+    /// Whether the suite sends the requests; if so, a capture contains a comment about it.
     #[arg(skip)]
     is_of_suite: bool,
 
@@ -109,7 +109,7 @@ pub(super) struct DeadlineArgs {
     deadline: u64,
 }
 
-/// The default in seconds. A run at two requests per second takes less.
+/// The default deadline in seconds, which is longer than a run with two requests per second takes.
 const DEADLINE: u64 = 4 * 3600;
 
 impl DeadlineArgs {
@@ -165,7 +165,7 @@ impl TargetArgs {
         self
     }
 
-    /// The target of the suite's requests.
+    /// Marks the target as one to which the suite sends the requests.
     pub(super) fn of_suite(self) -> Self {
         Self { is_of_suite: true, ..self }
     }
@@ -180,8 +180,8 @@ impl TargetArgs {
         self.open_or(default_cnc)
     }
 
-    /// Connects to the device, or starts this CNC. Without a file for --allow-write, the gate of the
-    /// simulated CNC allows this entry only.
+    /// Connects to the device, or starts the simulated CNC that `cnc` creates. Without a file for
+    /// --allow-write, the gate of the simulated CNC allows this entry only.
     pub(super) fn open_to_write(
         &self,
         entry: Entry,
@@ -197,8 +197,8 @@ impl TargetArgs {
         }
     }
 
-    /// Checks a write with the gate of a device before connecting. A dry run shows the rejected write
-    /// instead.
+    /// Checks a write to a device with the gate before connecting. A dry run does not check it
+    /// here, because it shows the rejected write later.
     pub(super) fn ask_gate(
         &self,
         check: impl FnOnce(&Session) -> Result<(), ToolError>,
@@ -217,7 +217,7 @@ impl TargetArgs {
         allowed.map_err(|error| ToolError::Usage(error.to_string()))
     }
 
-    /// The gate in front of the device.
+    /// The gate that checks each request before it is sent to the target.
     pub(super) fn gate(&self) -> Result<Gate, ToolError> {
         let gate = Gate::queries().with_allowed(self.allowed()?);
         match (self.device()?, self.malformed) {
@@ -231,7 +231,7 @@ impl TargetArgs {
         }
     }
 
-    /// Connects to the device, or starts this CNC.
+    /// Connects to the device, or starts the simulated CNC that `cnc` creates.
     pub(super) fn open_or(
         &self,
         cnc: impl FnOnce() -> Result<Cnc, ToolError>,
@@ -295,8 +295,8 @@ impl TargetArgs {
         Ok(Some(capture))
     }
 
-    /// Prints an error with advice, and returns the exit code after the session. An incomplete
-    /// capture is an error.
+    /// Prints the error of the command, if any, with advice, and returns the exit code of the
+    /// process. An incomplete capture is an error, too.
     pub(super) fn end(
         &self,
         done: Result<Exit, ToolError>,

@@ -27,7 +27,7 @@ pub(super) struct TesteeArguments {
 }
 
 impl TesteeArguments {
-    /// Answers until `bye` or the end of stdin.
+    /// Answers the requests of the suite until `bye` or the end of stdin.
     pub(super) fn execute(&self) -> Exit {
         let defect = match find_defect(self.defect.as_deref()) {
             Ok(defect) => defect,
@@ -108,7 +108,7 @@ fn misbehave(miniature: Miniature, own: &CodecTestee) -> io::Result<()> {
     Ok(())
 }
 
-/// Hangs until it is killed, or for a limited time.
+/// Hangs until the process is killed, for at most a minute.
 fn stay() -> ! {
     std::thread::sleep(std::time::Duration::from_secs(60));
     std::process::exit(i32::from(Exit::Internal.code()))

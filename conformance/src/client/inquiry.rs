@@ -114,7 +114,7 @@ impl Client {
         if let Err(fault) = &reply {
             if let ExchangeError::Malformed(error) = fault {
                 // An error in the reply's stream violates the requirement of the reply; any other
-                // error violates that of the headers.
+                // error violates the requirement of the headers.
                 let own = error.field().stream() == Some(R::STREAM);
                 let requirement = if own { R::CLAUSE } else { ADS_5 };
                 inquired.violations.push(Violation { requirement, what: error.to_string() });

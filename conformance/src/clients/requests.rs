@@ -75,7 +75,8 @@ impl RequestJudge {
         let port = header.target.port;
         let has_task = Task::from_port(port).is_some();
         check(GEN_4.into(), has_task, "port 551, 552 or 553", &port);
-        // A client that repeats an invoke ID cannot tell a late reply from the next one.
+        // A client that repeats an invoke ID cannot distinguish a late reply to one request from the
+        // reply to the next.
         let before = self.before.replace((exchange.connection, header.invoke_id));
         let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
         self.rules.request_headers(exchange, &header, is_repeated);

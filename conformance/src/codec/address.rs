@@ -49,7 +49,7 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Re
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }
 
-/// The group with this base and the number of `group`, encoded from both.
+/// Encodes the group that has this base and the number by which `group` exceeds the base.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Refused> {
     let lacks = || Refused::Unsupported(format!("{base} is not the base of {group}"));
     let number = group.get().checked_sub(base.get()).ok_or_else(lacks)?;
@@ -110,12 +110,13 @@ pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, R
     let stride = stride(context)?;
     let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
     let again = IndexOffset::for_axis(stride, axis, element)?;
-    // Both have at most 16 bits; otherwise encoding the parts would have given another offset.
+    // Axis and element have at most 16 bits; otherwise encoding them would give another offset.
     let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }
 
-/// Encodes a group from its parts, if given, and checks that they match the number.
+/// Encodes a group from its number. If the fields also contain its parts, checks that the parts
+/// encode to the same number.
 pub(super) fn encode_group(of: FieldReader<'_>) -> Result<Vec<u8>, Refused> {
     let number = of.number("index_group")?;
     let group = if of.has("task") { parts(of)?.index_group() } else { IndexGroup::new(number) };

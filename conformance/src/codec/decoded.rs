@@ -8,7 +8,7 @@ use ads_cnc_vectors::Fields;
 pub struct Decoded {
     /// The fields by name, without counters.
     pub fields: Fields,
-    /// The bytes of the fields, encoded again.
+    /// The bytes that result from encoding the decoded value again.
     pub bytes: Vec<u8>,
 }
 

@@ -9,7 +9,8 @@ use super::field_reader::{bits, hex, integer, invalid, text};
 use super::fields::{data, element};
 use crate::text::plural;
 
-/// Whether a field has a type: a value always has one, a content only if the context names one.
+/// Whether the elements of a field have a type: a value always has a type, a content only if the
+/// context contains a type.
 fn is_typed(field: &str, context: &Context) -> bool {
     let has_type = context.kind.is_some() && context.dimensions.is_some();
     field == "value" || field == "content" && has_type

@@ -37,7 +37,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
         ("ams_tcp_header", Value::Record(collect(vec![("reserved", uns16(0))]))),
         ("ams_header", Value::Record(ams_header)),
     ]);
-    // Bytes after the frame are an error of the service's stream.
+    // If bytes follow the frame, report the error of the service's stream, which then is too long.
     let rest = bytes.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
     if let Some((name, value)) = service(context, &header, rest)? {
         fields.insert(name, value);
@@ -49,7 +49,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
     Ok(Decoded { fields, bytes })
 }
 
-/// The error of an incomplete frame: that of the first incomplete part.
+/// The error of an incomplete frame, which is the error of its first incomplete part.
 fn cut(context: &Context, bytes: &[u8]) -> Refused {
     let parts = || -> Result<(), Refused> {
         let (tcp, rest) = bytes.split_at(bytes.len().min(AMS_TCP_HEADER_LEN));
@@ -58,7 +58,8 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
         service(context, &AmsHeader::decode(header)?, data)?;
         Ok(())
     };
-    // For another command, only the length in the header shows that its data is truncated.
+    // The data of other commands has no stream: only the length in the header shows that the data
+    // is truncated.
     let rest = || Refused::InvalidFields("fewer bytes of data than the header requires".to_owned());
     parts().err().unwrap_or_else(rest)
 }

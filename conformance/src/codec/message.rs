@@ -13,7 +13,7 @@ use crate::text::{did_you_mean, hex::compact, shorten};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
 pub enum TesteeCommand {
-    /// The first line.
+    /// The first line to the testee.
     Hello { protocol: u32 },
     Case {
         /// Number of the case in this run.
@@ -21,23 +21,23 @@ pub enum TesteeCommand {
         #[serde(flatten)]
         question: Box<Question>,
     },
-    /// The last line.
+    /// The last line to the testee.
     Bye,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
-    /// `decode`, `encode`, `packets`, `check`, or an unknown op.
+    /// The op: `decode`, `encode`, `packets`, `check`, or any other word to test an unknown op.
     pub op: String,
     pub stream: String,
     /// The edition, such as `en-1.05`.
     pub edition: String,
-    /// The facts that the bytes do not contain.
+    /// The facts that the testee needs, but that the bytes do not contain.
     #[serde(default)]
     pub context: Known,
     #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
     pub hex: Option<Vec<u8>>,
-    /// The fields of a value.
+    /// The fields of the value to encode.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Fields>,
     /// The packets of an NC program.
@@ -174,7 +174,7 @@ pub enum Answer {
     Ok(Output),
     /// The input is invalid.
     Reject(Rejection),
-    /// The testee does not implement this.
+    /// The testee does not implement a part of the question.
     Unsupported {
         /// The unsupported part of the question: `op`, `stream`, `edition`, `context`.
         what: String,
@@ -269,7 +269,8 @@ fn weight(value: &Value) -> usize {
     .saturating_add(NODE)
 }
 
-/// All keys of an answer, of which exactly one must be present.
+/// The keys of an answer line: `seq`, and the four kinds of answers, of which exactly one must be
+/// present.
 #[derive(Deserialize)]
 struct Keys {
     seq: Option<u64>,

@@ -1,4 +1,4 @@
-//! The name of a variable, split into its parts, and encoded from them.
+//! Splits the name of a variable into its parts, and encodes it from them.
 
 use ads_cnc::text::CncStr;
 use ads_cnc::{Kind, PathPart, TextRef, U32List, VariablePath};

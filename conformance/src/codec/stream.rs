@@ -58,7 +58,7 @@ where
     Ok(from_fields::<T>(context, fields)?.encode_to_vec()?)
 }
 
-/// The fields of a value, without counters.
+/// Converts a value to fields, without counters.
 pub(super) fn to_fields<T>(context: &Context, value: &T) -> Result<Fields, Refused>
 where
     T: for<'a> Decode<'a> + Serialize,
@@ -110,7 +110,7 @@ fn records_of(layout: &Layout) -> &'static str {
 }
 
 fn record(layout: &Layout, context: &Context, json: &Json) -> Result<Fields, Refused> {
-    // A type with a single field may be serialized as this field.
+    // The Rust type of a stream with a single field may be serialized as the value of this field.
     let single = match layout.fields {
         [row] if json.get(row.name).is_none() => Some(json),
         _ => None,
@@ -193,7 +193,7 @@ fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json,
         FieldType::NetId => {
             to_value(tagged.value.as_deref().unwrap_or_default().parse::<AmsNetId>()?)
         }
-        // The codec stores the width of the number.
+        // The Rust type contains the width of the number as the name of its variant.
         FieldType::Unsigned => match tagged.kind {
             Type::Uns08 | Type::Uns16 => Ok(json!({ (tagged.kind.name()): tagged.integer() })),
             _ => Ok(json!({ "UNS32": tagged.integer() })),

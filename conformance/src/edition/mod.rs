@@ -1,9 +1,9 @@
 //! Differences between the editions of the manual and between versions of the CNC.
 //!
-//! - The editions differ in the kinds of variables of the channel interface, and in those
-//!   accessible by name only (VAR-18, E-15): [`Edition::permits`].
-//! - The versions differ in V.P, V.L and V.S on that interface (VAR-19), the description by name,
-//!   and the Service Interface (SVC-11): [`CncVersion::has`].
+//! - The editions differ in the kinds of variables of the channel interface, and in the kinds that
+//!   are accessible by name only (VAR-18, E-15): [`Edition::permits`].
+//! - The versions differ in three features: V.P, V.L and V.S on the channel interface (VAR-19), the
+//!   description by name, and the Service Interface (SVC-11): [`CncVersion::has`].
 //!
 //! A client calls these functions before it sends a request, and a server before it answers one. The
 //! codec itself rejects no kind.
@@ -17,7 +17,7 @@
 //! let version = Some(CncVersion::new("V3.1.3115")?);
 //! let may = |edition: Edition, function| edition.permits(function, name.kind(), version);
 //!
-//! // No handle for a variable of this kind, but it can be read by its name.
+//! // A variable of this kind has no handle, but can be read by its name.
 //! assert_eq!(may(Edition::German, Function::HandleByName).to_string(), "no (VAR-18)");
 //! assert_eq!(may(Edition::German, Function::ReadByName).to_string(), "yes (VAR-19)");
 //! // The English edition does not have the kind on this interface.
@@ -63,11 +63,11 @@ pub enum Edition {
     German,
 }
 
-/// The kinds that a request by index can carry.
+/// The kinds that a request by index can contain.
 const INDEXED: &[Kind<'static>] = &[Kind::V_E, Kind::V_G, Kind::V_A];
 const KIND_REQUIREMENT: &str = VAR_1.as_str();
 
-/// The kinds that are by name only in either edition.
+/// The kinds that are accessible by name only in at least one edition.
 const BY_NAME_ONLY: &[Kind<'static>] = &[Kind::V_CYC, Kind::V_P, Kind::V_L, Kind::V_S];
 const BY_NAME_ONLY_REQUIREMENT: &str = VAR_18.as_str();
 
@@ -120,16 +120,17 @@ impl Edition {
     }
 
     /// Whether a function of the channel or axis interface may be called for variables of a kind.
-    /// The kind is that in the request or in the name, or that of the variable with the handle.
+    /// `kind` is the kind in the request or in the name, or the kind of the variable with the
+    /// handle.
     ///
     /// Without a version, the newest CNC is assumed. A function without kinds is always available.
-    /// The requirement in the result is that of the function, except for:
+    /// The requirement in the result is the requirement of the function, except in these cases:
     ///
     /// | case | available | requirement |
     /// |---|---|---|
-    /// | a handle of a kind that is by name only | no | VAR-18 |
+    /// | a handle of a kind that is accessible by name only | no | VAR-18 |
     /// | V.P, V.L, V.S in `ads-de`, by name | by [version](CncVersion::has) | VAR-19 |
-    /// | V.P, V.L, V.S in `ads-en`, which has them only in section 3 | no, assumed | VAR-19 |
+    /// | V.P, V.L, V.S in `ads-en`, where only section 3 describes these kinds | no, assumed | VAR-19 |
     /// | number or description by index of another kind than V.E, V.G, V.A | no, assumed (E-39) | VAR-1 |
     /// | the number of variables of all kinds: [`Kind::ALL`] | yes | VAR-1 |
     /// | description by name, 0x4C | by [version](CncVersion::has); that it has V.CYC, V.P, V.L, V.S is assumed | VAR-28 |

@@ -15,11 +15,11 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Support {
-    /// Whether it is available.
+    /// Whether the feature is available.
     pub available: bool,
-    /// The requirement that decides this.
+    /// The requirement that determines whether the feature is available.
     pub requirement: &'static str,
-    /// Whether this is assumed: the requirement does not document it, and a CNC may differ.
+    /// Whether `available` is assumed: the requirement does not document it, and a CNC may differ.
     pub assumed: bool,
 }
 

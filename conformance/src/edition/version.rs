@@ -65,7 +65,7 @@ impl CncVersion {
         Ok(Self { major, minor, build, patch })
     }
 
-    /// Creates a version from its numbers; `patch` is 0 if there is no fourth number.
+    /// Creates a version from its numbers; `patch` is 0 if the version has only three numbers.
     pub const fn from_parts(major: u16, minor: u16, build: u16, patch: u16) -> Self {
         Self { major, minor, build, patch }
     }
@@ -85,14 +85,14 @@ impl CncVersion {
         self.build
     }
 
-    /// The fourth number; 0 if there is none.
+    /// The fourth number; 0 if the version has only three numbers.
     pub const fn patch(self) -> u16 {
         self.patch
     }
 
-    /// The major number, and the minor number if later numbers are counted separately for it:
-    /// V2.11, V3.1, V4. That V4 is a single branch across minor numbers is assumed, from V4.18.0
-    /// and V4.29.0.
+    /// The branch: the major number, and up to V3 also the minor number, because V2.11 and V3.1
+    /// count their builds separately. It is assumed from V4.18.0 and V4.29.0 that V4 is a single
+    /// branch across all minor numbers.
     const fn branch(self) -> (u16, u16) {
         match self.major {
             0..=3 => (self.major, self.minor),
@@ -102,14 +102,14 @@ impl CncVersion {
 
     /// Whether a CNC of this version has a feature.
     ///
-    /// | this version, compared with those in [`Feature::since`] | available | |
+    /// | this version, compared with the versions in [`Feature::since`] | available | |
     /// |---|---|---|
-    /// | before the first one of its branch | no | |
-    /// | the last one of its branch, or later | yes | |
-    /// | in between: one of them, or a later patch of its build | yes | |
-    /// | in between: another build | no | assumed: otherwise the later one would not be printed |
-    /// | of a branch after all of them | yes | assumed |
-    /// | of another branch without any of them | no | assumed |
+    /// | before the first listed version of its branch | no | |
+    /// | the last listed version of its branch, or later | yes | |
+    /// | between both: a listed version, or a later patch of the same build | yes | |
+    /// | between both: any other build | no | assumed: otherwise, a later version would not be listed |
+    /// | of a branch later than each listed version | yes | assumed |
+    /// | of any other branch without a listed version | no | assumed |
     ///
     /// ```
     /// use ads_cnc_conformance::edition::{CncVersion, Feature};
@@ -196,7 +196,8 @@ impl Feature {
         }
     }
 
-    /// The first versions with the feature that the manual prints, in ascending order.
+    /// The versions that the manual prints as the first versions with the feature, in ascending
+    /// order.
     pub const fn since(self) -> &'static [CncVersion] {
         const fn v(major: u16, minor: u16, build: u16, patch: u16) -> CncVersion {
             CncVersion::from_parts(major, minor, build, patch)

@@ -13,7 +13,7 @@ use super::part;
 use crate::edition::Feature;
 use crate::value_format::ValueFormat;
 
-/// Data of a service at an address.
+/// Explains the data of a service at an address.
 pub(super) fn of_place(
     place: &ServiceAddress,
     bytes: &[u8],
@@ -22,7 +22,7 @@ pub(super) fn of_place(
     of_data(place, 0, bytes, values)
 }
 
-/// Data of a service at an address; the data begins at `at` of the input.
+/// Explains the data of a service at an address; the data begins at offset `at` of the input.
 pub(super) fn of_data(
     place: &ServiceAddress,
     at: usize,
@@ -44,9 +44,9 @@ pub(super) fn of_data(
     part
 }
 
-/// An address without data.
+/// Explains an address without data.
 pub(super) fn alone(place: &ServiceAddress) -> ExplainedStream {
-    // Explain a content, which can be read and written, as a read.
+    // A content can be read and written: if the service is unknown, explain the read.
     let reading = ServiceAddress { reply: true, ..*place };
     let found = find(if place.service.is_none() { &reading } else { place });
     ExplainedStream { address: Some(report(place, found)), ..ExplainedStream::default() }
@@ -147,7 +147,7 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
     let effect = match spec.effect {
         Effect::Query => "query",
         Effect::Write => "write",
-        // Show an effect that is not known to be harmless as motion.
+        // Show any other effect as motion, because it is not known to be harmless.
         _ => "motion",
     };
     let numbered = spec.section.starts_with(|first: char| first.is_ascii_digit());

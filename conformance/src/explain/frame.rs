@@ -20,7 +20,7 @@ use crate::wire_service::{reply_stream, request_stream, service_of};
 /// Command, index group and offset of requests, by source, target and invoke ID.
 type PendingRequests = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
 
-/// Whether the bytes begin with a frame, or at least with valid headers of one.
+/// Whether the bytes begin with a frame, or at least with the valid headers of a frame.
 pub fn looks_like_frame(bytes: &[u8]) -> bool {
     match FrameRef::split(bytes, u32::MAX) {
         Ok(Some(_)) => true,
@@ -167,7 +167,8 @@ impl FrameExplainer<'_> {
             }
             return;
         };
-        // An error reply has no data, and a truncated service may have none left.
+        // An error reply has no data, and the data of a truncated service may be missing
+        // completely.
         if (failed || faulty) && inside.is_none_or(|(_, data)| data.is_empty()) {
             return;
         }
@@ -230,7 +231,7 @@ fn halves(bytes: &[u8], at: usize) -> (&[u8], &[u8]) {
     bytes.split_at_checked(at).unwrap_or((bytes, &[]))
 }
 
-/// The data inside a service's stream, as far as present, and its offset.
+/// The data in the stream of a service, as far as present, after its offset in the stream.
 fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
     let data = ads_cnc::layout::Field::by_name(stream, "data")?.spec()?;
     let at = super::model::size(data.offset);
@@ -249,7 +250,7 @@ fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     number
 }
 
-/// The codec's error for a request whose streams are valid by themselves.
+/// The error with which the codec rejects a request although each of its streams is valid.
 fn refused(
     place: &ServiceAddress,
     port: AmsPort,
@@ -268,7 +269,7 @@ fn refused(
         Err(DispatchError::Stream(error)) => {
             Some(format!("the codec rejects the request: {error}"))
         }
-        // The address already explains a missing function.
+        // The explanation of the address already contains the reason if there is no function.
         _ => None,
     }
 }

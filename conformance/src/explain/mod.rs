@@ -2,7 +2,7 @@
 //!
 //! [`explain`] accepts any bytes and never fails: errors are part of the [`Explanation`], which
 //! contains all fields up to an error, the error itself and the unread bytes. The fields are those
-//! of [`ads_cnc::layout`]; there is no second table.
+//! of the tables in [`ads_cnc::layout`].
 //!
 //! ```
 //! use ads_cnc::layout::Stream;
@@ -60,7 +60,8 @@ pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     Explanation::new(bytes.len(), parts)
 }
 
-/// The names of the streams that match all of the bytes: suggestions if no stream is specified.
+/// The names of the streams as which all bytes can be parsed, as suggestions if no stream is
+/// specified.
 pub fn candidates(bytes: &[u8]) -> Vec<&'static str> {
     let takes = |stream: &Stream| stream.walk(bytes, |_| ()).is_ok();
     Stream::all().filter(takes).map(|stream| stream.layout().name).collect()

@@ -16,7 +16,7 @@ use crate::value_format::ValueFormat;
 /// The meaning of the bytes, and the types of values in them.
 #[derive(Clone, Debug)]
 pub struct ExplainQuery {
-    /// The bytes are a stream, data of a service, or frames.
+    /// What the bytes are: a stream, data of a service, or frames.
     pub subject: ExplainSubject,
     /// The type of values and contents, which the streams do not contain.
     pub values: ValueFormat,
@@ -38,7 +38,7 @@ pub enum ExplainSubject {
 #[derive(Clone, Copy, Debug)]
 pub struct ServiceAddress {
     pub port: Option<AmsPort>,
-    /// The service; `None` for that of the function at this address.
+    /// The service; `None` for the service of the function at this address.
     pub service: Option<Service>,
     pub group: IndexGroup,
     pub offset: IndexOffset,
@@ -105,7 +105,7 @@ pub struct ExplainedStream {
     pub notes: Vec<String>,
 }
 
-/// A field, or one item of a field with several.
+/// A field, or one item of a field with several items.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplainedField {
     pub offset: usize,
@@ -143,7 +143,7 @@ pub struct ExplainedFault {
     /// The field; `stream` for the whole stream.
     pub field: String,
     pub offset: usize,
-    /// The expected number, in the unit of the class.
+    /// The expected number, whose unit depends on `class`, for example bytes.
     pub expected: Option<u32>,
     pub found: Option<u32>,
     /// The error as text.
@@ -285,7 +285,8 @@ impl ExplainedField {
 }
 
 impl ExplainedFault {
-    /// Converts a codec error; its offset is counted from `base` bytes before the stream.
+    /// Converts an error of the codec, whose offset is counted from `base` bytes before the stream,
+    /// to an offset in the stream.
     pub(super) fn of(error: &Error, base: usize) -> Self {
         let field: Field = error.field();
         let offset = size(error.offset()).saturating_sub(base);

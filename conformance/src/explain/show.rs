@@ -87,7 +87,7 @@ fn show_part(
     if let Some(unread) = &part.unread {
         for (number, chunk) in chunks(&unread.hex).enumerate() {
             let at = unread.offset + number * LINE;
-            // Show the field whose bytes are missing.
+            // Name the field whose bytes are missing.
             let mut cut = part.faults.iter().filter(|fault| fault.offset == at);
             let name =
                 cut.next().map(|fault| fault.field.as_str()).filter(|name| *name != "stream");

@@ -54,7 +54,7 @@ fn is_value(stream: Stream, field: &str) -> bool {
     field == "value" || stream == Stream::Content
 }
 
-/// A number or NetId, with its meaning.
+/// Adds the value of a number or NetId, and its meaning.
 fn interpret(row: &mut ExplainedField, stream: Stream, ty: Type, bytes: &[u8]) {
     match (ty, bytes) {
         (Type::NetId, _) => {
@@ -121,7 +121,8 @@ fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     }
 }
 
-/// A value or content: by its type if known, else as every possible type.
+/// Adds a value or content, decoded with its type if the type is known, otherwise as every type of
+/// its size.
 fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values: &ValueFormat) {
     let Some(ty) = values.ty else {
         row.value = plural(all.len(), "byte");
@@ -134,7 +135,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
         part.rows.push(row);
         return;
     };
-    // With indices, the value is one element of an unknown variable.
+    // After indices, the value is a single element of the variable.
     let one = part.rows.iter().any(|before| before.field == "indices");
     let dimensions = if one { &[][..] } else { values.dimensions.as_slice() };
     match typed::elements(ty, dimensions, all) {
@@ -172,7 +173,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
     }
 }
 
-/// A few bytes as each type of their size.
+/// Formats a few bytes as each type of their size.
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {
         let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));

@@ -300,7 +300,7 @@ const OF_ANSWERS: &[Operator] = &[
     }),
 ];
 
-/// The defects of all functions.
+/// The generated defects of all functions, except those of data streaming.
 pub(super) fn seeds() -> impl Iterator<Item = Seed> {
     // The defects of streaming are written by hand: a CNC may reject a packet temporarily, and the
     // suite cannot read a packet back.

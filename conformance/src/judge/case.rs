@@ -32,7 +32,7 @@ impl Case {
         }
     }
 
-    /// Whether `word` is its ID, the ID of its vector or its stream.
+    /// Whether `word` is the ID of the case, the ID of its vector, or the name of its stream.
     pub(crate) fn is_called(&self, word: &str) -> bool {
         let vector = self.stream().and_then(|_| Some(self.id.split_once('-')?.1));
         let names = [Some(self.id.as_str()), vector, self.stream()];
@@ -72,11 +72,11 @@ impl fmt::Display for CaseSubject {
 pub enum Needs {
     /// Well-formed queries.
     Queries,
-    /// Malformed requests, for a target that cannot move only.
+    /// Malformed requests, which are sent only to a target that cannot move.
     Malformed,
     /// Writes of values that may be written; each is restored.
     Writes,
-    /// Malformed writes, for a target that cannot move only.
+    /// Malformed writes, which are sent only to a target that cannot move.
     MalformedWrites,
     /// A target whose profile claims the manuals' printed examples.
     PrintedExamples,
@@ -97,7 +97,7 @@ pub enum Body {
     Vector(&'static Vector),
     /// By splitting an NC text into packets, or checking its packets.
     Sequence(&'static Sequence),
-    /// By checking a testee's answers in all other cases.
+    /// By checking the protocol in a testee's answers in all other cases.
     Protocol,
     /// By checking a client's requests and actions.
     Client,

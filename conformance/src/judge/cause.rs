@@ -1,9 +1,10 @@
-//! Attributes failures to their cause: the clause that is broken fails, and what only follows from it is
-//! inconclusive.
+//! Attributes failed checks to their cause: the check of the violated clause fails, and a check that fails
+//! only as a consequence becomes inconclusive.
 //!
-//! A wrong size in a description makes every comparison with that size fail. Only the first function of
-//! the chain shows which clause is broken, so a failed check of a later function does not count against
-//! its own clause while an earlier one of the same variable or object fails.
+//! For example, a wrong size in a description makes every comparison with that size fail. The first failing
+//! function of a chain shows which clause is violated. Therefore, while a check of an earlier function
+//! fails for a variable or object, a failed check of a later function for the same variable or object does
+//! not count against its own clause.
 
 use std::collections::HashSet;
 
@@ -15,25 +16,26 @@ use super::chain::{before, can_explain, defines, follows, is_of_functions, origi
 use super::root::{Check, Root, checks, is_broken, is_deviation, is_of_device, roots};
 use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
 
-/// Clauses whose checks look for one error only, such as reversed bytes. No error of another clause looks
-/// like it, so they always fail.
+/// Clauses whose checks detect one specific error, such as reversed bytes. A violation of another clause
+/// does not cause this error, so a failed check of these clauses always counts as a failure.
 const SPECIFIC: [ClauseId; 7] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, ADS_7];
 
-/// Clauses of every function: an error of the function itself looks like an error of these.
+/// Clauses that apply to every function: an error of the function itself also makes a check of these
+/// clauses fail.
 const GENERAL: [ClauseId; 5] = [ADS_1, ADS_3, GEN_5, GEN_6, OBJ_1];
 
 fn is_one_of(clause: &str, list: &[ClauseId]) -> bool {
     list.iter().any(|one| one.as_str() == clause)
 }
 
-/// What explains the failures of a run.
+/// The possible causes of the failed checks of a run.
 struct Causes<'a> {
     roots: Vec<Root<'a>>,
-    /// The clause of the service that all of them use.
+    /// The clause of the service that the functions of all roots use, if the service is the cause.
     service: Option<&'static str>,
-    /// Whether all failures are of one chain.
+    /// Whether the functions of all roots belong to one chain.
     is_one_chain: bool,
-    /// The clause of a request that fails for several functions, and these.
+    /// The clause of a request stream that fails for several functions, and these functions.
     request: Option<(&'static str, Vec<Function>)>,
 }
 
@@ -46,11 +48,12 @@ impl<'a> Causes<'a> {
     }
 }
 
-/// Number of chains that must fail for their service to be the cause: each service has functions of three.
+/// Number of chains that must fail before their service is considered the cause: functions of three
+/// chains use each service.
 const CHAINS_OF_SERVICE: usize = 3;
 
-/// The clause of the service, if functions of all chains fail, all of them of this service, and its clause
-/// fails too.
+/// The clause of the service, if functions of `CHAINS_OF_SERVICE` chains fail, all failing functions use
+/// this service, and a check of the clause fails too.
 fn service_of(roots: &[Root<'_>], broken: &[Check<'_>]) -> Option<&'static str> {
     let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
     let service = roots.first()?.function.spec().service;
@@ -64,7 +67,8 @@ fn service_of(roots: &[Root<'_>], broken: &[Check<'_>]) -> Option<&'static str> 
     (origins.len() >= CHAINS_OF_SERVICE && is_alone && fails).then_some(clause)
 }
 
-/// The clause of a request that several functions have, if it fails for several of them, and these.
+/// The clause of a request stream that several functions share, if it fails for more than one of
+/// them, and the functions for which it fails.
 fn request_of(roots: &[Root<'_>]) -> Option<(&'static str, Vec<Function>)> {
     let request = |root: &Root<'_>| root.function.spec().request;
     let by_clause = |root: &&Root<'_>| {
@@ -79,7 +83,7 @@ fn request_of(roots: &[Root<'_>]) -> Option<(&'static str, Vec<Function>)> {
     })
 }
 
-/// The clause whose failure explains this one.
+/// The clause whose failure explains the failure of `check`; `None` if no other failure explains it.
 fn cause(
     check: Check<'_>,
     Causes { roots, service, is_one_chain, request }: &Causes<'_>,
@@ -89,7 +93,8 @@ fn cause(
         return None;
     }
     if clause == SVC_1.as_str() {
-        // A type of the interface's variables is wrong too if the function returns other variables wrong.
+        // If the same function also fails for variables outside the Service Interface, the function
+        // is the cause.
         let is_of_all =
             |root: &&Root<'_>| root.is_not_of_services() && function == Some(root.function);
         return roots.iter().find(is_of_all).map(|root| root.check.clause());
@@ -143,8 +148,9 @@ fn cause(
     found.map(|root| root.check.clause()).filter(|found| *found != clause)
 }
 
-/// Of the clauses that a check can fail for, the one that another check of the same functions and subject
-/// shows broken, if no check shows this clause broken. `alone`: the checks that can fail for one clause only.
+/// Finds the violated clause if `check` judges several clauses at once: the one for which a check of
+/// a single clause, with the same functions and subject, fails too. `None` if a check of a single
+/// clause fails for the clause of `check` itself. `alone`: the failed checks of a single clause.
 fn single_out(check: Check<'_>, alone: &[Check<'_>]) -> Option<&'static str> {
     let clause = check.clause();
     if alone.iter().any(|one| one.clause() == clause) || is_one_of(clause, &GENERAL) {
@@ -168,8 +174,8 @@ fn single_out(check: Check<'_>, alone: &[Check<'_>]) -> Option<&'static str> {
     check.judgement.together.iter().copied().find(explains)
 }
 
-/// The clause that fails at the end of a chain of causes; `None` if none does, so that the check fails
-/// itself.
+/// Follows the causes from `cause` to a clause with a failed check that has no cause. `None` if there
+/// is no such clause: then the check counts as failed by itself.
 fn settle(
     cause: &'static str,
     clauses: &[&'static str],
@@ -192,8 +198,8 @@ fn settle(
     None
 }
 
-/// Makes a failed check inconclusive if it only follows from another failure: that of an earlier function, of
-/// a service, of a shared request, or of another clause that the same check can fail for. A warning or a
+/// Makes a failed check inconclusive if it only follows from another failure: of an earlier function,
+/// of a service, of a shared request, or of another clause that the same check judges. A warning or a
 /// difference that follows from a failure keeps its verdict.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     let broken: Vec<Check<'_>> = checks(outcomes, is_broken).collect();
@@ -230,7 +236,7 @@ pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     }
 }
 
-/// Marks the checks that have a cause.
+/// Stores the cause in each check that has one, and changes the verdict of the check accordingly.
 fn follow(
     verdict: &mut RequirementVerdict,
     mut cause: impl FnMut(Verdict) -> Option<&'static str>,
@@ -360,7 +366,7 @@ mod tests {
         }
     }
 
-    /// A clause of no function does not follow if its check is about no function.
+    /// A check without a function, for a clause that defines no function, does not follow from a failure.
     #[test]
     fn a_clause_without_a_function_does_not_follow() {
         let count = ("count", COM_1, Function::CountObjects, "");
@@ -389,7 +395,7 @@ mod tests {
         let follows = follows_from(ADS_1);
         assert_eq!(attributed(&all), [follows, follows, follows, FAILS]);
         assert_eq!(attributed(&all[..3]), [FAILS, FAILS, FAILS]);
-        // Two functions may be wrong by themselves.
+        // Functions of only two chains fail, so each function may be wrong by itself.
         let two = [all[0], all[1], ("ads", ADS_1, Function::ReadObject, "")];
         assert_eq!(attributed(&two), [FAILS, FAILS, follows_from(COM_1)]);
     }
@@ -404,7 +410,8 @@ mod tests {
         ];
         let follows = follows_from(VAR_3);
         assert_eq!(attributed(&all), [follows, FAILS, follows, FAILS]);
-        // The request of one function alone explains nothing of another.
+        // If the clause of the request fails for one function only, it does not explain a failure of
+        // another function.
         assert_eq!(attributed(&all[..3])[2], FAILS);
     }
 
@@ -433,7 +440,7 @@ mod tests {
         assert_eq!(attribute_one(&mut [both]), [None]);
     }
 
-    /// An accepted request explains no failure of a later function.
+    /// A request that was accepted although it must be rejected explains no failure of a later function.
     #[test]
     fn a_missing_rejection_explains_no_later_function() {
         let mut accepted = outcome(("far", VAR_2, Function::CountVariables, "V.E.a"));

@@ -1,13 +1,13 @@
-//! The chains of functions, and the clauses that define a function. A function takes its requests, or the
-//! expectations of its replies, from the replies of earlier ones in its chain.
+//! The chains of functions, and the clauses that define a function. In a chain, the replies of earlier
+//! functions determine the requests of a later function, or the expected values in its replies.
 
 use std::collections::HashSet;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 
-/// The functions whose replies the requests of `function`, or the expectations of its reply, are taken
-/// from.
+/// The functions whose replies determine the requests of `function`, or the expected values in its
+/// replies.
 const fn sources(function: Function) -> &'static [Function] {
     use Function::*;
     match function {
@@ -38,12 +38,13 @@ pub(super) fn before(function: Function) -> HashSet<Function> {
     all
 }
 
-/// Whether the requests or expectations of `function` depend on the replies of `earlier`.
+/// Whether the requests of `function`, or the expected values in its replies, depend on the replies of
+/// `earlier`.
 pub(crate) fn follows(function: Function, earlier: Function) -> bool {
     before(function).contains(&earlier)
 }
 
-/// The function that a chain begins with.
+/// The first function of the chain of `function`.
 pub(super) fn origin(function: Function) -> Function {
     let mut first = function;
     while let [source, ..] = sources(first) {
@@ -65,14 +66,15 @@ pub(super) fn defines(clause: &str, function: Function) -> bool {
     spec.clause == clause || streams.any(|stream| clauses_of(stream).any(|one| one == clause))
 }
 
-/// Whether only functions have the clause, so that a failure of it shows a function broken.
+/// Whether the clause belongs to an area whose clauses define functions, so that its failure shows that a
+/// function is wrong.
 pub(super) fn is_of_functions(clause: &str) -> bool {
     let area = clause.split_once('-').map_or(clause, |(area, _)| area);
     !matches!(area, "GEN" | "ADR" | "ADS" | "OBJ")
 }
 
-/// Whether the first clause can be the cause of a failure of the second: not if both define the same
-/// function, or the second one an earlier function.
+/// Whether a failure of the clause `cause` can be the cause of a failure of `clause`: not if both clauses
+/// define the same function, or if `clause` defines an earlier function than `cause`.
 pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
     // All clauses of streaming are about one function.
     let is_of = |clause: &str, function| {
@@ -80,7 +82,8 @@ pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
             || clause.starts_with("STM") && function == Function::WriteProgramStream
     };
     let homes = |clause| Function::ALL.iter().filter(move |one| is_of(clause, **one));
-    // An address is no cause if the function itself fails.
+    // A clause that defines no function, such as one about addresses, is not the cause if a clause that
+    // defines a function fails.
     (homes(cause).next().is_some() || homes(clause).next().is_none())
         && homes(cause).all(|home| !homes(clause).any(|one| one == home || follows(*home, *one)))
 }

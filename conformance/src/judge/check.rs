@@ -14,7 +14,7 @@ pub type Step<T = ()> = Result<T, Stop>;
 /// Why a case ends early.
 #[derive(Clone, Debug)]
 pub enum Stop {
-    /// A check failed, and the case cannot continue without it.
+    /// A check failed, and the case cannot continue after this failure.
     Judged,
     /// The target does not have what the case needs.
     NotApplicable(String),
@@ -101,7 +101,7 @@ impl<T> IfPresent<T> for Step<T> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
     pub id: &'static str,
-    /// The level, if it differs from the catalogue's.
+    /// The level; `None` if the ID is not in the catalogue.
     pub level: Option<Level>,
 }
 
@@ -177,9 +177,9 @@ pub struct Judgement {
     pub evidence: Option<Evidence>,
     /// The number of further checks with the same verdict, which are not stored.
     pub more: usize,
-    /// The other clauses that the same check can fail for.
+    /// The other clauses that the same check judges: its failure does not show which clause is violated.
     pub together: Vec<&'static str>,
-    /// The clause whose failure caused this one, if any.
+    /// The clause whose failure caused this check to fail, if any.
     pub follows: Option<&'static str>,
 }
 
@@ -214,7 +214,7 @@ impl Rule {
     /// The rule of the protocol between the suite and a client, which is not in the catalogue.
     pub(crate) const CLIENT: Self = Self { id: CLIENT, level: Some(Level::Must) };
 
-    /// The rule of an ID that is not a constant, from the codec's tables or a vector.
+    /// The rule for an ID that is given as text, by the codec's tables or a vector.
     pub(crate) fn of(id: &'static str) -> Self {
         let clause = clause(id);
         let id = clause.map_or(id, |clause| clause.requirement.id.as_str());

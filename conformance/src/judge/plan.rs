@@ -130,7 +130,8 @@ impl Selection {
             requirement(id).is_none_or(|requirement| has(edition, &requirement.sources))
         };
         match all.iter().copied().filter(has).collect::<Vec<_>>() {
-            // All requirements of the case, so that the case is listed with the reason.
+            // The edition has no selected requirement of the case. All are returned, so that the plan
+            // lists the case with the reason.
             none if none.is_empty() => all,
             some => some,
         }
@@ -170,8 +171,8 @@ impl Plan {
                 Some(judged) if judged.is_empty() => continue,
                 Some(judged) => {
                     left_out.push(left(&outcome.case, judged));
-                    // A violation of the client protocol is always kept: the other verdicts prove
-                    // nothing then.
+                    // A violation of the client protocol is always kept, because it makes the other
+                    // verdicts meaningless.
                     outcome.verdicts.retain(|one| {
                         judged.contains(&one.requirement)
                             || one.verdict == Verdict::HarnessError

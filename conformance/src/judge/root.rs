@@ -11,8 +11,8 @@ pub(super) const fn is_broken(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Fail | Verdict::Vacuous)
 }
 
-/// Whether a check with this verdict deviates from a clause without failing the run. No other check follows
-/// from it.
+/// Whether a check with this verdict deviates from a clause without failing the run. Such a check is not
+/// the cause of another failure.
 pub(super) const fn is_deviation(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Warning | Verdict::Differs)
 }
@@ -22,7 +22,7 @@ pub(super) fn is_of_device(case: &Case) -> bool {
     matches!(case.subject, CaseSubject::Target | CaseSubject::CapturedCnc)
 }
 
-/// The checks of a device with these verdicts.
+/// The checks in the cases of a device for whose verdict `wanted` returns true.
 pub(super) fn checks(
     outcomes: &[CaseOutcome],
     wanted: fn(Verdict) -> bool,
@@ -55,8 +55,9 @@ impl<'a> Check<'a> {
         self.judgement.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref())
     }
 
-    /// The variable or object; `None` for several, or for none in particular. Failures that are not stored
-    /// are about others.
+    /// The variable or object that all failures of the check are about; `None` if they are about
+    /// several or about no particular one. Failures that were counted but not stored may be about
+    /// other ones.
     fn subject(self) -> Option<&'a str> {
         self.first_subject().filter(|_| self.judgement.more == 0)
     }
@@ -66,8 +67,8 @@ impl<'a> Check<'a> {
         self.judgement.evidence.as_ref().map_or(&[], |evidence| &evidence.compared)
     }
 
-    /// Whether this check can explain all failures of the other one by its subject: one of them may be
-    /// about all.
+    /// Whether the subject of this check permits that it explains all failures of `other`: both
+    /// checks have the same subject, or one of the checks is not about a particular subject.
     pub(super) fn is_about_all_of(self, other: Self) -> bool {
         match (self.subject(), other.first_subject()) {
             (Some(_), _) if other.judgement.more > 0 => false,
@@ -76,20 +77,21 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Whether the two can have the same subject.
+    /// Whether the two checks can have the same subject.
     fn may_share_subject(self, other: Self) -> bool {
         let (one, other) = (self.subject(), other.subject());
         one.is_none() || other.is_none() || one == other
     }
 
-    /// Whether both are the same check, by other clauses.
+    /// Whether `self` and `other` are the results of one check, recorded for different clauses.
     pub(super) fn is_same_as(self, other: Self) -> bool {
         let (one, two) = (self.judgement, other.judgement);
         self.case.id == other.case.id && one.expected == two.expected && one.found == two.found
     }
 }
 
-/// A broken check of a function by a clause that defines it, with no broken one before it.
+/// A failed check of a function, for a clause that defines this function. It is a possible cause of the
+/// failures of later functions.
 #[derive(Clone, Copy)]
 pub(super) struct Root<'a> {
     pub(super) function: Function,
@@ -103,22 +105,23 @@ impl<'a> Root<'a> {
         is_root.then_some(Self { function, check })
     }
 
-    /// Whether it is about several variables, one of them not of the Service Interface.
+    /// Whether the check fails for several variables, of which at least one is outside the Service
+    /// Interface.
     pub(super) fn is_not_of_services(&self) -> bool {
         let is_other = |name: &str| !name.contains(".SERVICE.");
         self.check.judgement.more > 0 && self.check.first_subject().is_some_and(is_other)
     }
 
-    /// Whether it can explain a check of a later function: not if a request was accepted that must be
-    /// rejected, nor if it compares more replies than that check.
+    /// Whether this root can explain the failed `check` of a later function. It cannot if the target
+    /// accepted a request that it must reject, or if the root compares more replies than `check`.
     pub(super) fn explains_later(&self, check: Check<'_>) -> bool {
         let evidence = self.check.judgement.evidence.as_ref();
         !evidence.is_some_and(|evidence| evidence.is_rejection)
             && self.check.compared().len() <= check.compared().len().max(1)
     }
 
-    /// Whether a check that compares several replies fails because the function of this one is broken, which
-    /// this one shows by fewer replies.
+    /// Whether this root explains the failure of `check`, which compares the replies of several
+    /// functions: the root shows with fewer of these replies that one of these functions is wrong.
     pub(super) fn explains_comparison(&self, check: Check<'_>) -> bool {
         let (mine, compared) = (self.check.compared(), check.compared());
         let mut homes = before(self.function);
@@ -131,10 +134,10 @@ impl<'a> Root<'a> {
     }
 }
 
-/// The roots of all failures.
+/// The roots that no other root explains.
 pub(super) fn roots<'a>(broken: &[Check<'a>]) -> Vec<Root<'a>> {
     let mut all: Vec<Root<'_>> = broken.iter().filter_map(|check| Root::of(*check)).collect();
-    // Only a check that compares fewer replies explains a comparison.
+    // A root that compares fewer replies comes first, because only such a root explains a comparison.
     all.sort_by_key(|root| root.check.compared().len());
     let mut simplest: Vec<Root<'_>> = Vec::new();
     for root in all {

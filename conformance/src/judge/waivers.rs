@@ -15,8 +15,9 @@
 //! # Ok::<(), ads_cnc_conformance::judge::WaiverError>(())
 //! ```
 //!
-//! A waiver is stale if it has expired, if no case that ran matches it, or if the verdict differs. A
-//! stale waiver makes the run end with exit code 5. A waiver whose case was not run is not stale.
+//! A waiver is stale if it has expired, if no case has its ID and requirement, or if the verdict
+//! differs. A stale waiver makes the run end with exit code 5. A waiver is not stale if its case exists
+//! but was not run.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -69,7 +70,7 @@ pub enum WaiverState {
     NotRun,
     /// The waiver has expired. Stale.
     Expired,
-    /// No case with this ID and requirement was run. Stale.
+    /// No case has this ID and requirement, not even a case that was not run. Stale.
     Unmatched,
     /// The verdict differs from the waived one. Stale.
     Otherwise,

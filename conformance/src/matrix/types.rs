@@ -52,7 +52,7 @@ mod tests {
     use super::*;
     use ads_cnc_vectors::requirements;
 
-    /// Fails if a new stream of the codec is missing here.
+    /// Fails if `of_stream` returns no types for a stream of the codec.
     #[test]
     fn every_stream_has_types() {
         for stream in Stream::all() {

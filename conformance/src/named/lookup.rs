@@ -20,9 +20,9 @@ pub struct Lookup {
     pub axis: Option<ChannelAxis>,
     /// The lists of objects to search, if several have the name.
     pub lists: Option<Pattern>,
-    /// The index offset, if a list has the name several times.
+    /// The index offset of the wanted object, if a list has several objects with the name.
     pub offset: Option<u32>,
-    /// The type, instead of the type in the description.
+    /// The type to use instead of the type in the CNC's description.
     pub ty: Option<DataType>,
 }
 

@@ -44,7 +44,8 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError>
     }
 }
 
-/// The object without any request, if its name determines its address; the type is that of `lookup`.
+/// Returns the object without sending a request, if its name determines its address, and `None`
+/// otherwise. The type is that of `lookup`.
 ///
 /// # Errors
 /// If the name cannot be encoded.

@@ -29,7 +29,7 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
     number.starts_with(|digit: char| digit.is_ascii_digit()).then_some(DynamicKind::P)
 }
 
-/// The error in a name, and the part of the name before it.
+/// Describes the error in a name, and quotes the part of the name before the error.
 fn told(name: &str, error: &ads_cnc::Error) -> String {
     let error_text = error.to_string();
     let what = match error.kind() {
@@ -49,7 +49,7 @@ fn told(name: &str, error: &ads_cnc::Error) -> String {
     }
 }
 
-/// The object, from its name only.
+/// The object with the address that its name determines; sends no request.
 pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
     let Lookup { name, channel, axis, ty, .. } = lookup;
     let text: CncString = name.parse().map_err(ToolError::Unsendable)?;
@@ -128,7 +128,7 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Too
     Ok(Object { ty, access, handle, ..object })
 }
 
-/// The used part of a description.
+/// The fields of a description that [`find`] uses.
 struct DescribedVariable {
     ty: Type,
     access: ReportedAccess,
@@ -180,7 +180,7 @@ fn listed(
                 return Ok(Some(DescribedVariable {
                     ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
                     access: ReportedAccess::of_variable(variable.access),
-                    // The handle belongs to another axis.
+                    // The search ignores the axis in the name, so the handle may belong to another axis.
                     handle: Some(variable.handle).filter(|_| !of_axis),
                 }));
             }

@@ -46,7 +46,7 @@ impl List {
     /// The number of the channel to which the list, or its axis, belongs.
     pub(crate) fn channel(&self) -> Option<u8> {
         match *self {
-            // The channel of a spindle is its index.
+            // For a spindle, the field `channel` is the index of the spindle.
             Self::Platform | Self::Axis(_) | Self::Class { class: Class::Spindle, .. } => None,
             Self::Class { channel, .. } => channel,
             Self::Channel(channel)
@@ -55,7 +55,8 @@ impl List {
         }
     }
 
-    /// The elements of an instance, given by the channel and the axis of its request.
+    /// The list of the elements of an instance; `channel` and `axis` are those of the request for the
+    /// instance.
     pub(crate) fn of_instance(class: Class, channel: u32, axis: u32) -> Self {
         let is_of_channel = class == Class::Spindle || channel > 0;
         let channel = u8::try_from(channel).ok().filter(|_| is_of_channel);

@@ -1,17 +1,17 @@
 //! The readable values of a CNC: objects of the COM task, elements of SDA and GEO, variables and
 //! parameters.
 //!
-//! [`walk`] finds all of them with as few requests as possible. A list ends as the table shows; the
-//! request after its last entry is rejected:
+//! [`walk`] finds all values with as few requests as possible. The table shows the requests for each
+//! list, and the condition at which the list ends:
 //!
 //! | list | requests | ends |
 //! |---|---|---|
-//! | channels | number of objects, by rank and by number | when the numbers found are as many as the ranks; without ranks after [`GAP`] consecutive rejected numbers |
-//! | channels named by the caller | number of objects of each | after the last one |
+//! | channels | number of objects, by rank and by number | when as many channel numbers as ranks are found; if no rank is found, after [`GAP`] consecutive rejected numbers |
+//! | channels named by the caller | number of objects of each channel | after the last named channel |
 //! | objects | descriptors, [`RANGE`] in a request; one by one after such a request was rejected | at their number, or after [`GAP`] consecutive rejections |
 //! | platform axes | number of objects | at the first rejection |
 //! | position controller, HLD of the platform | axes, starting at 1 | at the first rejection |
-//! | HLD of the first channel | axes, starting at 1, if the platform has none (E-30) | at the first rejection |
+//! | HLD of the first channel | axes, starting at 1, if the HLD of the platform has no axes (E-30) | at the first rejection |
 //! | interpolator, decoder, path preparation, HLD | each channel found | after the last channel |
 //! | axes of a channel in these classes, except the HLD | axes, starting at 1 | at the first rejection |
 //! | spindles | spindles, starting at 0 | at the first rejection |

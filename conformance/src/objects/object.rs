@@ -87,8 +87,8 @@ impl Object {
         self.ty.name == "STRING"
     }
 
-    /// Whether the object belongs to the axis with this index. The offsets of a channel's axes have a
-    /// stride that only the descriptors show.
+    /// Whether the object belongs to the axis with this index. The manuals contradict each other about
+    /// the stride between the index offsets of two axes, so both strides are tried (ADR-8, E-01).
     pub(crate) fn is_of_axis(&self, index: u32) -> bool {
         let Some((_, offset)) = self.address.content() else { return false };
         let strides = [AxisStride::X1000, AxisStride::X10000];
@@ -116,7 +116,7 @@ impl Object {
     }
 }
 
-/// The access that the CNC describes.
+/// The access to a value, as stated in its description or write flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportedAccess {
     /// The value may be read.
@@ -125,7 +125,7 @@ pub enum ReportedAccess {
     ReadWrite,
     /// A code that no manual documents.
     Code(u32),
-    /// Not described.
+    /// The CNC does not state the access.
     Unknown,
 }
 

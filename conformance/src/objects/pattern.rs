@@ -19,7 +19,8 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// A pattern for a part of a name; for the whole name if it has a star or a question mark.
+    /// Creates a pattern that matches any name containing `text`; if `text` has a star or a question mark,
+    /// the pattern must match the whole name.
     pub fn part(text: &str) -> Self {
         if text.contains(['*', '?']) {
             Self::whole(text)

@@ -74,7 +74,7 @@ const WIDTH_MAX: usize = 40;
 /// Minimum width of the values.
 const WIDTH_MIN: usize = 8;
 
-/// A column of a table that is written.
+/// A column as it is written: its index in the row, its heading and its width.
 struct Shown<'h> {
     place: usize,
     head: &'h str,
@@ -96,7 +96,7 @@ fn total(columns: &[Shown<'_>], width: impl Fn(&Shown<'_>) -> usize) -> usize {
 
 /// Writes rows with headings, each column as wide as its longest cell, up to `WIDTH_MAX`. On a
 /// terminal of this width, values are truncated so that a row fits on a line. If that is not enough, the
-/// last columns are omitted, except names and values; returns their headings.
+/// last columns are omitted, except names and values. Returns the headings of the omitted columns.
 pub fn table<'h>(
     heads: &[&'h str],
     rows: impl Iterator<Item = Vec<String>> + Clone,

@@ -20,9 +20,9 @@ use crate::session::{Session, ToolError};
 /// The address of a value. A variable has several addresses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ValueAddress {
-    /// A variable by its handle, or with indices one of its elements.
+    /// A variable, addressed by its handle; if there are indices, the element with these indices.
     Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
-    /// A variable by its name; for an element, the name has indices.
+    /// A variable, addressed by its name; the name of an element ends with its indices.
     Name { channel: Channel, name: CncString },
     /// A variable of an axis, on the axis interface.
     Axis { channel: Channel, axis: ChannelAxis, name: CncString },
@@ -113,10 +113,10 @@ impl ValueAddress {
         }
     }
 
-    /// The error for an address without a request.
+    /// The error if no request can be encoded for this address.
     fn no_request(&self, error: Error) -> ToolError {
         match (self, error.kind()) {
-            // Of the functions of COM, only the program stream is in the groups of contents.
+            // The program stream is the only function of COM in an index group for contents.
             (Self::Object { .. }, ErrorKind::Function) => {
                 ToolError::Unable("use ads-cnc stream for the program stream".to_owned())
             }

@@ -65,7 +65,7 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// The line and what is wrong in it: an unknown key, or an invalid value.
+    /// An unknown key or an invalid value, with its line.
     pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
         let file: ProfileFile = toml::from_str(text)
             .map_err(|error| ProfileFileError { file: None, why: toml_error(&error) })?;
@@ -84,7 +84,7 @@ impl Profile {
 }
 
 impl Profile {
-    /// [`EXAMPLE`] with this profile's claims of ports, channels, axes and spindles.
+    /// Returns [`EXAMPLE`], with the ports, channels, axes and spindles that this profile claims.
     pub fn filled(&self) -> String {
         let places: Vec<[u32; 2]> =
             self.empty_places.iter().map(|&(channel, place)| [channel, place]).collect();
@@ -168,7 +168,8 @@ impl From<ProfileFile> for Profile {
     }
 }
 
-/// Deserializes a value and checks it; done here so that the error has the line of the value.
+/// Deserializes and checks a value. The check is part of the deserialization, so that its error
+/// contains the line of the value.
 fn checked<'de, D, T, U>(
     value: D,
     check: impl FnOnce(T) -> Result<U, String>,
@@ -337,7 +338,7 @@ mod tests {
     fn the_example_is_the_device() {
         let profile = Profile::from_toml(EXAMPLE).unwrap();
         assert_eq!(format!("{profile:?}"), format!("{:?}", Profile::DEVICE));
-        // Lines that are commented out have the default values too.
+        // Lines that are commented out must be valid, too.
         let is_key = |rest: &str| rest.contains(" = ") || rest.starts_with(['\"', ']']);
         let shown = |line: &'static str| {
             let rest = line.strip_prefix('#').map(str::trim_start);

@@ -1,4 +1,5 @@
-//! The profile of a target: what it claims must work; what it does not claim is not applicable.
+//! The profile of a target, which lists the claims of the target. A claimed feature must work; a
+//! feature that is not claimed is not tested (not applicable).
 
 mod file;
 
@@ -91,7 +92,7 @@ impl Section {
             Some("2.2") => Self::Elements,
             Some("str") => Self::Streaming,
             Some(section) if section.starts_with('3') => Self::Parameters,
-            // Functions that are documented online only are about variables.
+            // Functions that are documented online only concern variables.
             _ => Self::Variables,
         }
     }
@@ -114,7 +115,7 @@ const LISTED: &[Cow<'static, str>] =
 const PORTS: &[u16] = &[AmsPort::GEO.0, AmsPort::SDA.0, AmsPort::COM.0];
 
 impl Profile {
-    /// The profile of an unknown device, before it is queried: it has at least a first channel.
+    /// The profile of an unknown device before it is queried. It claims the first channel only.
     pub const DEVICE: Self = Self {
         name: Cow::Borrowed("device"),
         edition: Edition::English,
@@ -141,7 +142,7 @@ impl Profile {
     /// use ads_cnc_conformance::profile::{Claim, Profile};
     ///
     /// assert_eq!(Profile::DEVICE.claims(Function::ReadByName), Claim::Yes);
-    /// // No manual and not every version has this function.
+    /// // Only some versions have this function, and no manual describes it.
     /// assert_eq!(Profile::DEVICE.claims(Function::DescribeByName), Claim::Open);
     /// let newest = Profile { cnc_version: "V4.29.0".parse().ok(), ..Profile::DEVICE };
     /// assert_eq!(newest.claims(Function::DescribeByName), Claim::Yes);

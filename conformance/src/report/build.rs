@@ -33,7 +33,7 @@ pub struct RunInfo {
     pub edition: Option<Edition>,
     /// The seed of the order of cases.
     pub seed: u32,
-    /// The selection; empty for all.
+    /// The selection (--only); empty if all cases were selected.
     pub only: Vec<String>,
     pub target: TargetReport,
     /// For a capture: its content, and the parts that were not judged.
@@ -81,7 +81,8 @@ impl Report {
             outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
         let mut tally = VerdictTally::default();
         for one in cases.iter().flat_map(|case| &case.requirements) {
-            // A pass of the protocol does not judge any requirement.
+            // A pass of the protocol with a testee or client judges no requirement of the
+            // catalogue.
             if one.verdict != Verdict::Pass || requirement(&one.requirement).is_some() {
                 tally.add(one.verdict, one.waived);
             }
@@ -211,8 +212,8 @@ fn totals(requirements: &[RequirementReport]) -> Totals {
     totals
 }
 
-/// The verdict on a requirement in all cases: without a case it is "not observed", or "not run" if
-/// it was not selected.
+/// The verdict on a requirement over all cases. If no case judges the requirement, the verdict is
+/// "not observed", or "not run" if the requirement was not selected.
 fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> RequirementReport {
     let all = cases.iter().flat_map(|case| &case.requirements);
     let mine: Vec<_> = all.filter(|one| one.requirement == id).collect();
@@ -222,7 +223,8 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The gravest verdict; a waived verdict does not hide another one.
+/// The gravest verdict, and whether it is waived. A waived verdict does not hide a verdict that is
+/// not waived and fails the run.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(_, waived)| !waived).map(|(verdict, _)| verdict);
     let open = gravest(open).filter(|verdict| verdict.fails_run());
@@ -341,7 +343,8 @@ impl From<&Evidence> for EvidenceReport {
     }
 }
 
-/// The text of a requirement, or of its parts of this level.
+/// The texts of the parts of a requirement with this level, after the text of the requirement
+/// itself if it has this level or no such part.
 fn text(requirement: &Requirement, level: Option<Level>) -> String {
     let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
     let parts = parts.map(|part| part.text.as_str());

@@ -25,7 +25,7 @@ pub struct BytesReport {
     pub faults: Vec<String>,
 }
 
-/// One field, or one item of a field with several.
+/// One field, or one item of a field with several items.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldReport {
@@ -160,7 +160,7 @@ fn with_headers_of_answer(request: &[u8], frame: &[u8]) -> Option<Vec<u8>> {
         AmsHeader::decode(frame.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN)?).ok()
     };
     let (asked, answered) = (header(request)?, header(frame)?);
-    // If the lengths are consistent, another frame may follow.
+    // Compare only the first frame: if its lengths are consistent, another frame may follow.
     let whole = FrameRef::split(frame, u32::MAX).ok().flatten().map(|(_, len)| len);
     let frame = whole.and_then(|whole| frame.get(..whole)).unwrap_or(frame);
     let expected = AmsHeader {
@@ -179,7 +179,7 @@ fn with_headers_of_answer(request: &[u8], frame: &[u8]) -> Option<Vec<u8>> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ShownField<'r> {
     Field(&'r FieldReport),
-    /// The number of omitted items of the field above.
+    /// The number of omitted items of the preceding field.
     More(usize),
 }
 

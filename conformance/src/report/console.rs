@@ -50,8 +50,8 @@ pub fn print(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> i
     tail(report, display, out)
 }
 
-/// The failure of a testee or client that did not answer its first line, so that nothing was
-/// judged.
+/// The failure of a testee or client that did not answer `hello`, the first line of the protocol,
+/// so that nothing was judged.
 fn unanswered(report: &Report) -> Option<&FailureReport> {
     let mut all = report.cases.iter().flat_map(|case| &case.failures);
     all.find(|one| [TESTEE, CLIENT].contains(&one.requirement.as_str()) && one.expected == HELLO)
@@ -358,7 +358,7 @@ fn tail(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Re
     last_line(report, display, out)
 }
 
-/// The last line, after the reasons for an exit code that no verdict explains.
+/// Writes the last line, after the reasons for an exit code that no verdict explains.
 fn last_line(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     for waiver in report.waivers.iter().filter(|waiver| waiver.state.is_stale()) {
         let WaiverReport { test, requirement, state, .. } = waiver;
@@ -387,7 +387,8 @@ fn last_line(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> i
     writeln!(out, "{}  {totals}{ended}", display.paint(color, verdict))
 }
 
-/// The requirements that follow from one that this run does not judge.
+/// Writes the requirements whose failure follows from another requirement that this run did not
+/// judge.
 fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.only.is_empty() {
         return Ok(());

@@ -174,7 +174,7 @@ fn escape_evidence(evidence: &mut EvidenceReport) {
         frame_received,
     } = evidence;
     all(subject);
-    // For a capture, the following lines locate the packets.
+    // Keep the line ends: for a capture, the lines after the first one contain the packet numbers.
     *call = escape_lines(call);
     all([result, frame_sent, frame_received]);
     for BytesReport { stream, length: _, fields, faults } in

@@ -19,7 +19,8 @@ use crate::text::{plural, shorten, wrap};
 const GROUPS_MAX: usize = 6;
 /// Maximum number of warnings and differences shown in addition to failures.
 const NOTES_MAX: usize = 3;
-/// Maximum number of lines of bytes in normal detail, and of lines before a wrong byte.
+/// Maximum number of lines of bytes in normal detail, and maximum number of these lines before the
+/// first wrong byte.
 const BYTES_MAX: usize = 9;
 const BEFORE_MARK: usize = 2;
 /// Maximum number of lines of a clause in normal detail.
@@ -35,7 +36,7 @@ pub(super) fn blocks(
     let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =
         all.iter().partition(|group| group.is_failure());
     let verbose = display.detail == Detail::Verbose;
-    // If there are failures, show fewer of the others.
+    // If there are failures, show fewer warnings and differences.
     let shown = if verbose || failed.is_empty() { usize::MAX } else { NOTES_MAX };
     for group in others.iter().take(shown) {
         brief(group, display, out)?;
@@ -115,7 +116,8 @@ pub(super) fn differing_field(text: &str) -> Option<&str> {
     (!path.contains(' ') && difference.contains(" is expected")).then_some(path)
 }
 
-/// The first field whose value differs from the expected one, if both have the same fields.
+/// Describes the first field whose value differs from the expected value, if the received and the
+/// expected bytes have the same fields.
 fn differing(evidence: &EvidenceReport) -> Option<String> {
     let (received, expected) = evidence.received.as_ref().zip(evidence.expected.as_ref())?;
     if !received.faults.is_empty() || received.fields.len() != expected.fields.len() {
@@ -193,7 +195,7 @@ pub(super) fn list<'n>(names: impl IntoIterator<Item = &'n str>, most: usize) ->
     if more > 0 { format!("{names} and {more} more") } else { names }
 }
 
-/// A check that did not pass, and its requirements.
+/// Prints a check that did not pass, and its requirements.
 pub(super) fn finding(
     subject: CaseSubject,
     all: &[&FailureReport],
@@ -205,7 +207,7 @@ pub(super) fn finding(
     }
     writeln!(out, "  expected  {}", failure.expected)?;
     writeln!(out, "  found     {}", failure.found)?;
-    // The clause that is the cause shows the bytes.
+    // If the check follows from another clause, the finding of that clause shows the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
         let display = DisplayOptions { detail: Detail::Verbose, ..DisplayOptions::default() };
         bytes(evidence, frames_shown(failure, subject), display, out)?;
@@ -234,7 +236,8 @@ fn sources(failure: &FailureReport) -> String {
     }
 }
 
-/// Whether the request and the reply are shown by their headers instead of their data.
+/// Whether the request and the reply are shown as whole frames with headers instead of only their
+/// data.
 fn frames_shown(failure: &FailureReport, subject: CaseSubject) -> [bool; 2] {
     let is_of_frames = failure.is_of_frames();
     // A client is judged by its requests.

@@ -40,7 +40,7 @@ pub struct FoundReport {
 #[serde(deny_unknown_fields)]
 pub struct FoundChannel {
     pub number: u32,
-    /// Number of axis indices of the channel, with or without an axis.
+    /// Number of axis indices of the channel, including indices without an axis.
     pub axes: u32,
 }
 
@@ -66,7 +66,7 @@ fn joined(texts: impl Iterator<Item = String>) -> String {
 /// The found number, with the claimed number if it differs.
 fn claimed(found: u32, claimed: Option<u32>, noun: &str) -> Option<String> {
     Some(match claimed.filter(|claimed| *claimed != found) {
-        // 0 may mean that this was not queried.
+        // 0 may also mean that the number was not queried.
         Some(claimed) if found == 0 => format!("claimed {}", plural(claimed, noun)),
         Some(claimed) => format!("claimed {}, found {found}", plural(claimed, noun)),
         None => plural(found, noun),
@@ -92,7 +92,7 @@ impl FoundReport {
             parts.push(format!("channel {}", joined(channels)));
         }
         let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis");
-        // 0 may mean unknown.
+        // If `platform_axes` is 0, the number of axes may be unknown.
         let axes = axes.filter(|_| self.platform_axes > 0 || self.claimed_axes.is_some());
         let spindles = claimed(self.spindles, self.claimed_spindles, "spindle");
         parts.extend(axes.into_iter().chain(spindles));

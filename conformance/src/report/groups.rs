@@ -42,7 +42,8 @@ impl Report {
     }
 }
 
-/// The groups, the gravest last, otherwise by requirement.
+/// The groups in the order of their verdicts, the gravest last, and then in the order of their
+/// requirements.
 pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
     let places = report.places();
     let place = |id: &str| places.get(id).copied().unwrap_or(usize::MAX);
@@ -56,14 +57,16 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 followers.extend(finding.iter().map(|one| (cause.as_str(), *one, case)));
                 continue;
             }
-            // The rejection is vacuous because the valid sibling fails, too.
+            // The verdict is vacuous because the valid sibling fails, too: the check follows from
+            // the failure of the sibling.
             if first.verdict == Verdict::Vacuous
                 && let Some(cause) = sibling(case).filter(|id| failed.contains(id.as_str()))
             {
                 vacuous.extend(finding.iter().map(|one| (cause.clone(), *one, case)));
                 continue;
             }
-            // A testee that ends or does not answer has one cause for all streams.
+            // If a testee ends or does not answer, the failures of all streams have one cause, so
+            // put them into one group.
             let stream = case.stream.as_deref();
             let lost =
                 stream.and_then(|_| LOST.into_iter().find(|kind| first.found.starts_with(kind)));
@@ -150,7 +153,8 @@ struct GroupKey<'r> {
     field: Option<&'r str>,
 }
 
-/// The first field that differs, or else the kind of the difference.
+/// The name of the first field that differs; if no field differs, the text of the result up to its
+/// first colon.
 fn field(failure: &FailureReport) -> &str {
     let received = failure.evidence.as_ref().and_then(|evidence| evidence.received.as_ref());
     let differs = received.and_then(|bytes| {
@@ -221,7 +225,8 @@ impl<'r> Group<'r> {
         let of_clause = |failure: &FailureReport| failure.requirement == self.requirement();
         let simplest = self.checks.iter().min_by_key(|(case, failure)| {
             let is_vector = case.stream.is_some();
-            // The cases about all replies repeat the requests of others, so they take longer.
+            // Prefer other cases to the cases about all replies, which repeat the requests of the
+            // other cases and therefore take longer.
             let is_of_replies = case.id.starts_with("replies-");
             // The first check of a case is the closest to the cause.
             let size = if is_vector { size(failure) } else { 0 };

@@ -40,7 +40,7 @@ pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// The meaning of the result of the run, and the failed requirements.
+/// The meaning of the result of the run in words, and the failed requirements.
 fn meaning(report: &Report) -> (String, Vec<FailedView>) {
     let failed: Vec<FailedView> = report
         .subjects

@@ -92,7 +92,7 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(out, "\n### Not passed\n")?;
     let (mut length, mut shown) = (0_usize, 0_usize);
-    // The gravest first, because not all may fit.
+    // Begin with the gravest group, because not all groups may fit into a comment.
     for group in groups.iter().rev() {
         let mut text = Vec::new();
         block(report, group, DisplayOptions::default(), &mut text)?;

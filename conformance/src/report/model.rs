@@ -43,7 +43,7 @@ pub struct Report {
     pub editions: Vec<String>,
     /// The seed of the order of cases.
     pub seed: u32,
-    /// The selection; empty for all.
+    /// The selection (--only); empty if all cases were selected.
     pub only: Vec<String>,
     pub target: TargetReport,
     /// For a capture: its content, and the parts that were not judged.
@@ -263,7 +263,7 @@ impl Report {
     }
 }
 
-/// What is wrong with a report, with its place.
+/// The error in a report, with its position.
 fn in_file(text: &str, error: &serde_json::Error) -> String {
     let words = json_error(text, error);
     match error.is_data() {

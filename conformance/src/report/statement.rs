@@ -87,7 +87,7 @@ fn result(report: &Report) -> String {
     let all: Vec<&RequirementReport> = all.flat_map(|area| &area.requirements).collect();
     let named = |wanted: &[Verdict], waived: bool, most: usize| {
         let mut ids: Vec<&str> = Vec::new();
-        // Several subjects may have the same clause.
+        // Name a clause only once, because several subjects may have the same clause.
         for one in all.iter().filter(|one| wanted.contains(&one.verdict) && one.waived == waived) {
             if !ids.contains(&one.requirement.as_str()) {
                 ids.push(&one.requirement);

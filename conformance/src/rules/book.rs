@@ -30,7 +30,8 @@ impl RuleBook {
         Self::with_memory(is_lost, MemoryBudget::ALL)
     }
 
-    /// For a run, whose cases keep their own knowledge of the target.
+    /// Creates the book of a run. It has less memory, because the cases of a run keep their own
+    /// knowledge of the target.
     pub(crate) fn of_run() -> Self {
         Self::with_memory(true, MemoryBudget::OF_RUN)
     }
@@ -45,7 +46,7 @@ impl RuleBook {
         self.budget.missed
     }
 
-    /// Forgets what is known of all CNCs, because missing requests may have changed any state.
+    /// Forgets the state of all CNCs, because requests that were not observed may have changed it.
     pub(crate) fn forget_cncs(&mut self) {
         self.cncs.clear();
         self.is_lost = true;

@@ -34,7 +34,7 @@ fn name_rule(name: &str) -> Rule {
 
 /// The rules for the length of an element of a type. The tables of dynamic parameters print the sizes
 /// of UNS32 and REAL64, an example prints that of BOOLEAN, and the others are documented online.
-/// Either the type or the length may be wrong.
+/// A failure does not show whether the type or the length is wrong, so the rules of both are returned.
 fn length_rules(data_type: DataType) -> [Rule; 3] {
     let of_size = if data_type == DataType::Boolean { GEN_5.into() } else { online(GEN_5) };
     match data_type {

@@ -22,8 +22,8 @@ pub(super) struct ExchangeJudge<'j> {
 }
 
 impl ExchangeJudge<'_> {
-    /// Judges a client's request for an index or name that does not exist, according to a reply. No
-    /// manual forbids such a request, so the rule is assumed.
+    /// Judges a client's request for an index or name that does not exist according to an earlier reply.
+    /// No manual forbids such a request, so the rule is assumed.
     pub(super) fn judge_nonexistent(
         &mut self,
         observation: &dyn Observation,
@@ -129,7 +129,7 @@ pub(super) struct ObservedParameters {
 #[derive(Debug)]
 pub(super) struct ObservedCount {
     pub(super) number: u32,
-    /// An index after the number for which a request has succeeded since.
+    /// An index greater than `number` for which a request has succeeded since the number was read.
     pub(super) answered_beyond: Option<u32>,
 }
 
@@ -147,7 +147,7 @@ pub(super) struct ChannelVariables {
     /// By name: the description, and the kind and index with which it was requested.
     pub(super) described: BTreeMap<String, (Description, String, u32)>,
     pub(super) handles: BTreeMap<u32, String>,
-    /// The first known name of each handle.
+    /// By name: the first known handle.
     pub(super) names: BTreeMap<String, u32>,
 }
 
@@ -183,7 +183,7 @@ impl fmt::Debug for ObservedStream {
 #[derive(Debug, Default)]
 pub(super) struct Services {
     pub(super) known: BTreeMap<u32, ObservedInterface>,
-    /// Whether requests before the first one observed are possible.
+    /// Whether the CNC may have received requests before the first one observed.
     pub(super) is_lost: bool,
 }
 

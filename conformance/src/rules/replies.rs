@@ -59,7 +59,7 @@ pub(super) fn service<'e>(
     }
 }
 
-/// An error reply may lack the fields that follow a success.
+/// Records a pass of ADS-6 for an error reply that ends before the fields that only a success needs.
 fn short_error(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -121,7 +121,7 @@ pub(super) fn judge(
         }
         Some(Err(error)) => {
             let spec = request.function().spec();
-            // With a wrong count, every later field is in the wrong bytes.
+            // A wrong count shifts every later field, so the clause of the whole stream is judged.
             let field = match error.kind() {
                 ErrorKind::TooMany => spec.reply.map(|stream| stream.layout().clause),
                 _ => error.field().spec().map(|spec| spec.clause),

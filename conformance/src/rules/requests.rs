@@ -55,7 +55,7 @@ pub(super) fn judge(
                 let rule = match error.kind() {
                     ErrorKind::TooMany => VAR_24.into(),
                     ErrorKind::TooLong if function == Function::WriteProgramStream => STM_2.into(),
-                    // The reply does not fit into the requested length; that length is assumed.
+                    // The read length is too small for the reply. The required read length is assumed.
                     ErrorKind::BufferTooSmall => assumed(COM_3),
                     _ => Rule::of(known.unwrap_or(spec.clause)),
                 };

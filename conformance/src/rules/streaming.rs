@@ -72,8 +72,8 @@ impl ExchangeJudge<'_> {
                     CheckEvent::Diagnostic(finding) => {
                         let clause = match finding.kind {
                             DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => STM_8,
-                            // After its end, the next program begins, or the rest of this one
-                            // follows.
+                            // Text after the end of a program may be the next program, and a later
+                            // packet may close an open comment.
                             _ => continue,
                         };
                         record.check(clause, false, "a program that can be streamed", || finding);

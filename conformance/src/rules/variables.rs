@@ -235,7 +235,8 @@ impl ExchangeJudge<'_> {
     ) {
         let text = name.to_string();
         let mut record = self.records.on(Topic::CncVar, observation);
-        // Neither edition has a list of V.CYC; one of them has none of V.P, V.L and V.S.
+        // Both editions exclude V.CYC from requests for handles. Only one edition also excludes V.P,
+        // V.L and V.S, so these kinds are not judged.
         let barred = text.starts_with("V.CYC");
         let expected = "an error number, because V.CYC has no handles";
         record.check(VAR_18, !barred, expected, || format!("{handle:#x}"));

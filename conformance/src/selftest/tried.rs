@@ -15,9 +15,9 @@ pub enum SelfTestGroup {
     Cnc,
     /// Clients with a defect, judged by the scenarios.
     Client,
-    /// Testees that misbehave in every case.
+    /// Miniatures: testees that misbehave in the same way in every case.
     Miniature,
-    /// Valid variants.
+    /// Valid variants of a CNC or a client, and correct miniatures.
     Different,
 }
 

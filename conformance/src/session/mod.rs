@@ -86,7 +86,8 @@ impl Session {
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, cnc).map_err(failed)?;
-        // Without a network, only a busy machine can delay a reply.
+        // The timeout is longer than for a device: only a busy machine can delay a reply, which is no
+        // fault.
         let target =
             Target { timeout: SIMULATED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
@@ -247,10 +248,12 @@ impl Session {
         }
     }
 
-    /// Sends a query that the profile claims, because a device must answer at all to be judged.
+    /// Checks that the device replies to a query that the profile claims. A device that does not reply
+    /// cannot be judged.
     ///
     /// # Errors
-    /// If there is no reply. An ADS error is a reply, and so is a frame of ADS that breaks a rule.
+    /// If there is no reply. An ADS error counts as a reply, and so does an AMS frame that violates a
+    /// rule.
     pub(crate) fn check_reachable(&mut self, profile: &Profile) -> Result<(), ToolError> {
         let request: Request<'_> = match profile.claims(Function::CountObjects) {
             Claim::No => {

@@ -3,13 +3,13 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// The time since the start of the CNC: that of the system's clock, unless stopped, plus the added
-/// time.
+/// The time since the start of the CNC: the time that has passed on the clock of the system, unless
+/// this clock is stopped, plus the time added by `pass`.
 #[derive(Debug)]
 pub(super) struct Clock {
-    /// Start of the system's clock; `None` if stopped.
+    /// The time of the system at the start of the CNC; `None` if this clock is stopped.
     since: Option<Instant>,
-    /// Nanoseconds that were added.
+    /// Nanoseconds added by `pass`.
     passed: AtomicU64,
 }
 

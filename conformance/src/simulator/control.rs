@@ -27,15 +27,15 @@ pub enum ControlError {
         /// Logical number of the axis.
         axis: u32,
     },
-    /// The name is too long, not CP1252, of another kind, or a duplicate.
+    /// The name is too long, cannot be encoded in CP1252, belongs to another kind, or occurs twice.
     #[error("invalid name of a parameter: {0:?}")]
     Name(String),
 }
 
 impl Cnc {
     /// Assigns the axis with a logical number to a place (from 1) of a channel (ADR-13). The axis
-    /// leaves its previous place, and the previous axis of this place no longer has one. With the
-    /// number 0, the place has no axis.
+    /// leaves its previous place, and the previous axis of this place then has no place. The number
+    /// 0 removes the axis from the place.
     ///
     /// Over ADS, a write to an object or element with the meaning axis-number does the same.
     ///
@@ -147,7 +147,7 @@ impl Cnc {
         self.of_channel(channel, |channel| then(&mut channel.program))
     }
 
-    /// Sets the NC program of a channel that sends requests to services; `None` ends it.
+    /// Replaces the NC program of a channel that sends requests to services; `None` removes it.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -238,7 +238,7 @@ mod tests {
         assert_eq!((wcs(2), wcs(3)), (z.clone(), vec![0; 8]));
         cnc.exchange_axis(1, 3, 2).unwrap();
         assert_eq!((wcs(2), wcs(3)), (z.clone(), y));
-        // Assign it to its own place, and then to none.
+        // Assign the axis to the place that it already has, and then remove it from the place.
         cnc.exchange_axis(1, 2, 3).unwrap();
         assert_eq!(wcs(2), z);
         cnc.exchange_axis(1, 2, 0).unwrap();

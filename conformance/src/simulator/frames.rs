@@ -6,7 +6,7 @@ use ads_cnc::ads::FrameRef;
 
 use super::DATA_MAX;
 
-/// Size at which gathered replies are sent; the last reply may exceed it.
+/// Size in bytes at which gathered replies are sent; the last reply may exceed this size.
 pub(super) const GATHERED_MAX: usize = 32 * 1024;
 
 /// The complete frames at the beginning of received bytes.
@@ -22,8 +22,8 @@ impl<'a> Frames<'a> {
         Self { received, rest: received, error: None }
     }
 
-    /// The next frame; `None` after the last complete one, before an invalid one, and if the replies so
-    /// far must be sent first.
+    /// The next frame; `None` after the last complete frame, at an invalid frame, and if the
+    /// gathered replies (`answers`) must be sent first.
     pub(crate) fn next(&mut self, answers: &[u8]) -> Option<FrameRef<'a>> {
         if answers.len() >= GATHERED_MAX {
             return None;
@@ -42,7 +42,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// Number of bytes of the frames before the end.
+    /// Number of bytes of the frames that [`next`](Self::next) has returned.
     ///
     /// # Errors
     /// For an invalid frame, because the beginning of the next frame is unknown.

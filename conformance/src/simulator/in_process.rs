@@ -10,7 +10,7 @@ use ads_cnc::ads::AmsNetId;
 use super::{Received, Responder};
 use crate::net::{LocalPeers, Peer};
 
-/// A CNC that is connected to without sockets.
+/// A CNC to which clients in this process connect without sockets.
 #[derive(Debug)]
 pub struct LocalCnc {
     cnc: Arc<dyn Responder>,

@@ -9,23 +9,23 @@ use super::content;
 use super::model::{Meaning, Model};
 use super::owner::Owner;
 
-/// The owner of a content. Channels have their numbers; axes and places are counted from 1, spindles
-/// from 0.
+/// The owner of a content. Channels are identified by their logical numbers; axes and places are
+/// counted from 1, spindles from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContentOwner {
-    /// COM: the platform.
+    /// The platform, as the owner of COM objects.
     Platform,
-    /// COM: a channel.
+    /// A channel, as the owner of COM objects.
     Channel(u8),
-    /// COM: a platform axis.
+    /// A platform axis, as the owner of COM objects.
     PlatformAxis(u8),
-    /// COM: the axis at a place of a channel.
+    /// The axis at a place of a channel, as the owner of COM objects.
     ChannelAxis { channel: u8, place: u8 },
-    /// A class: a channel.
+    /// A channel, as the owner of the elements of a class.
     OfChannel { class: Class, channel: u8 },
-    /// A class: a platform axis.
+    /// A platform axis, as the owner of the elements of a class.
     OfAxis { class: Class, axis: u8 },
-    /// A class: the axis at a place of a channel.
+    /// The axis at a place of a channel, as the owner of the elements of a class.
     OfPlace { class: Class, channel: u8, place: u8 },
     /// A spindle.
     Spindle(u8),
@@ -46,7 +46,7 @@ pub struct StoredContent {
     index: usize,
 }
 
-/// A variable of a channel by its name in the channel, with its current value.
+/// A variable of a channel, with its name on the channel interface and its current value.
 #[derive(Clone, Debug)]
 pub struct CurrentVariable {
     pub channel: u8,
@@ -65,8 +65,8 @@ pub struct CurrentParameter {
 }
 
 impl Cnc {
-    /// All contents that store the last written value: neither those derived from the configuration
-    /// nor those of places without an axis.
+    /// All contents that store the last written value. Contents that are derived from the
+    /// configuration, such as axis numbers, and contents of places without an axis are excluded.
     pub fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
@@ -102,7 +102,7 @@ impl Cnc {
         }
     }
 
-    /// All variables in lists, except those of the Service Interface.
+    /// All variables that the CNC lists, except those of the Service Interface.
     pub fn current_variables(&self) -> Vec<CurrentVariable> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
@@ -139,7 +139,7 @@ impl Cnc {
         all
     }
 
-    /// The writable variables without a handle of a channel.
+    /// The writable variables of a channel that have no handle.
     pub fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
         let channels = self.model().channels.iter().filter(|channel| channel.number == number);
         let all = channels.flat_map(|channel| channel.variables.list.iter());

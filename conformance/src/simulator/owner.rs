@@ -5,19 +5,19 @@ use ads_cnc::address::Class;
 /// The owner of an object or an element. Numbers are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Owner {
-    /// COM: the platform.
+    /// The platform, as the owner of COM objects.
     Platform,
-    /// COM: a channel.
+    /// A channel, as the owner of COM objects.
     Channel(usize),
-    /// COM: a platform axis.
+    /// A platform axis, as the owner of COM objects.
     Axis(usize),
-    /// COM: the axis at a place of a channel.
+    /// The axis at a place of a channel, as the owner of COM objects.
     Place { channel: usize, place: usize },
-    /// A class: a channel.
+    /// A channel, as the owner of the elements of a class.
     ClassChannel(Class, usize),
-    /// A class: a platform axis.
+    /// A platform axis, as the owner of the elements of a class.
     ClassAxis(Class, usize),
-    /// A class: the axis at a place of a channel.
+    /// The axis at a place of a channel, as the owner of the elements of a class.
     ClassPlace { class: Class, channel: usize, place: usize },
     /// A spindle.
     Spindle(usize),

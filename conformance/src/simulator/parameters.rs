@@ -19,7 +19,7 @@ pub(super) struct ParameterState {
 #[derive(Clone, Debug)]
 pub(super) struct ParameterStates {
     all: Vec<ParameterState>,
-    /// Whether all of them always exist, as usual.
+    /// Whether all parameters always exist, which is the usual case.
     are_always: bool,
 }
 
@@ -47,7 +47,7 @@ impl ParameterStates {
     /// Creates and deletes parameters that are due. A parameter that is created again has its
     /// initial value, even if it was written to before (assumed).
     pub(super) fn advance(&mut self, now: Duration) {
-        // This runs for every request.
+        // Return early, because this function is called for every request.
         if self.are_always {
             return;
         }

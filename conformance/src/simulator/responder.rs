@@ -1,4 +1,4 @@
-//! The trait of everything that answers requests.
+//! The trait of a CNC, or of middleware around a CNC, that answers ADS requests.
 
 use std::fmt;
 use std::sync::Arc;
@@ -27,7 +27,8 @@ pub trait Responder: fmt::Debug + Send + Sync {
         respond(&mut |call| self.answer(call), net_id, frame, answers);
     }
 
-    /// Appends the replies to several frames, in order. A CNC answers all of them at the same time.
+    /// Appends the replies to several frames, in order. A [`Cnc`](super::Cnc) reads its clock only
+    /// once for all of these frames.
     fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
         while let Some(frame) = frames.next(answers) {
             self.respond(net_id, &frame, answers);

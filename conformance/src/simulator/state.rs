@@ -133,7 +133,7 @@ impl CncState {
         found.map(|(place, _)| place).ok_or(AdsError::INVALID_GROUP)
     }
 
-    /// Whether this is the first channel, which includes the platform's objects.
+    /// Whether this is the first active channel, whose list includes the platform's objects.
     pub(super) fn is_first(&self, channel: usize) -> bool {
         self.channels.iter().position(|one| one.active) == Some(channel)
     }
@@ -226,9 +226,9 @@ impl CncState {
         parameters.filter(move |parameter| parameter.is.kind == kind)
     }
 
-    /// Assigns the axis with this logical number to a place of a channel. The axis leaves its previous
-    /// place, and the previous axis of this place no longer has one. With the number 0, the place has no
-    /// axis.
+    /// Assigns the axis with this logical number to a place of a channel. The axis leaves its
+    /// previous place, and the previous axis of this place then has no place. The number 0 removes
+    /// the axis from the place.
     ///
     /// Fails without a change if the axis does not exist, or if the channel has another axis with
     /// the same name, because their variables would have equal names.

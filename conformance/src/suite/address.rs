@@ -44,13 +44,14 @@ pub(super) const FRAME_CASES: &[CaseRow] = &[
 
 fn com_object_access(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        // By its number, with the bit of logical addressing.
+        // `channel` is a channel number, so the index group has the bit of logical addressing.
         let rules = [ADR_1, ADR_3, ADR_4, GEN_4];
         let count = probe.ask(rules, CountObjects::new(channel))?;
         let none = ObjectCount::decode(&count) == Ok(ObjectCount(0));
         let first = ReadDescriptors::new(channel, 1, 1)?;
         let Some(first) = probe.try_ask(first)?.filter(|_| !none) else { continue };
-        // The descriptor, not the content of the element with the same number.
+        // The reply must be the descriptor of the object, not the content of the element with the same
+        // number.
         let described = DescriptorsRef::decode(&first).is_ok_and(|list| list.len() == 1);
         probe.check(ADR_4, described, "a description under 0x30000", || Hex(first));
     }
@@ -213,7 +214,8 @@ fn only_errors_with_data(probe: &mut Probe<'_>) -> Option<Evidence> {
     last.filter(|_| !probe.target.any_success)
 }
 
-/// An error number must not be 0; the manuals require no more.
+/// Checks that all rejections in the run returned an error number other than 0; the manuals do not
+/// require a particular number.
 fn every_refusal(probe: &mut Probe<'_>) -> Step {
     let by_nothing = std::mem::take(&mut probe.target.refusals.by_nothing);
     if probe.target.refusals.by_number > 0 {

@@ -20,7 +20,7 @@ pub struct Unwritable {
     pub read_only: Vec<String>,
 }
 
-/// What the target has under the name of an entry.
+/// The item of the target that an entry names.
 enum Named {
     Writable,
     ReadOnly,
@@ -35,7 +35,7 @@ pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let deadline = target.deadline;
     let mut probe = Probe::new(target).with_deadline(deadline);
     for entry in entries {
-        // A target that has stopped answering says nothing about the remaining names.
+        // The loop ends if the target stops answering: the remaining names may exist.
         let named = match is_in_no_channel(&probe, &entry) {
             true => Ok(Named::Absent("channel")),
             false => look_up(&mut probe, &entry),
@@ -88,7 +88,7 @@ fn look_up(probe: &mut Probe<'_>, entry: &Entry) -> Step<Named> {
                     _ => Named::Writable,
                 }
             }
-            // An object given by its address need not be in a list.
+            // An object that the entry gives by its address need not be in a list.
             _ => Named::Writable,
         },
         Entry::Stream(_) | Entry::Service(_) => Named::Writable,
@@ -106,7 +106,7 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
     if listed.is_some() && whole == text {
         return Ok(Named::Writable);
     }
-    // An element, or a variable by name only.
+    // The name is that of an array element, or of a variable that is accessible by name only.
     let value = probe.value_at(&ValueAddress::Name { channel, name: name.clone() });
     Ok(match value.if_applicable()? {
         Some(None) if listed.is_some() => Named::Absent("element"),
@@ -132,7 +132,7 @@ fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     !channels.is_empty() && !known
 }
 
-/// The channel addressed by its number, as in the lists.
+/// The same channel, addressed by its number as in the lists, even if the entry gives its rank.
 fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     let by_rank = channel.addressing() == Addressing::Index;
     let rank = usize::from(channel.number()).checked_sub(1).filter(|_| by_rank);

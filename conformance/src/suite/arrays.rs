@@ -19,15 +19,15 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read with too few or too many indices returns an error"),
 ];
 
-/// The indices, with the index of one dimension replaced.
+/// Returns the indices `place` with the index of the dimension `axis` replaced.
 fn with(place: &[u32], axis: usize, index: u32) -> Vec<u32> {
     let mut place = place.to_vec();
     place.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
     place
 }
 
-/// A variable that is not an array has no dimension. How several dimensions are indexed is assumed:
-/// if the first element can be read this way, the last of each dimension must be readable too.
+/// Checks that a variable with dimensions has elements. How several dimensions are indexed is assumed, so
+/// the last element of each dimension is read only if the first element can be read.
 fn array_has_elements(probe: &mut Probe<'_>) -> Step {
     each_array(probe, |probe, channel, variable, _| {
         let Description { handle, dimensions, name, .. } = variable;

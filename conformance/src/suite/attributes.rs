@@ -36,7 +36,8 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             let of_type = text(&of_type);
             for (attribute, group) in [(&name, "0x100"), (&unit, "0x400")] {
                 let Some(other) = attribute.as_ref().map(text) else { continue };
-                // A type's name may differ from the manual, but an element's name is not a type.
+                // An unknown type name is not a fault here, unless the name or the unit of the
+                // element is the name of a known type.
                 let is_type = |name| element_type(name).is_some();
                 let swapped = is_type(&other) && !is_type(&of_type);
                 let found = || format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");

@@ -72,7 +72,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
         let first = ChannelAxis::new(1)?;
-        // An axis with described variables has at least one place.
+        // If the channel describes axis variables, at least one axis place must have a handle.
         let mut any = described.is_empty();
         let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {
@@ -87,7 +87,8 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                     || format!("an error, or the 4-byte handle of {name} at place {place}");
                 probe.check(VAR_26, handle.is_ok(), expected, found);
                 let Ok(Handle(handle)) = handle else { continue };
-                // A handle belongs to one place; a place without an axis may return any handle.
+                // Each handle in a description belongs to one place. Other handles are not compared,
+                // because a place without an axis may return any handle.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
                 let other = at_places.insert(handle, place);
                 let other = other.filter(|other| known && *other != place);
@@ -108,11 +109,12 @@ fn handles(probe: &mut Probe<'_>) -> Step {
         }
         let found = || format!("no name has a handle in channel {}", channel.number());
         probe.check(VAR_26, any, "handles by name on the axis interface", found);
-        // No manual states that a variable has only one handle.
+        // No manual states that a variable has only one handle: the handles are compared only if at least
+        // one place returned a handle from a description.
         let handles = described.iter().map(|(_, variable)| variable.handle.0);
         let is_one_number = handles.into_iter().any(|handle| at_places.contains_key(&handle));
         for (_, variable) in &described {
-            // The handle must belong to one of the places, which are counted from 1.
+            // The handle in the description must belong to one of the places, which are counted from 1.
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
             let expected = || format!("a place, counted from 1, with the handle of {name}");

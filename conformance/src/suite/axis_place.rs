@@ -87,7 +87,7 @@ fn at_a_place(
     Ok(())
 }
 
-/// The place and handle of a name at an axis.
+/// The last place of a channel at which a name has a handle from a description.
 fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
@@ -102,7 +102,7 @@ fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     Err(Stop::not_applicable("no axis variable is on the axis interface"))
 }
 
-/// The reply for a place after the last is not specified, but must not be that of an axis.
+/// The reply for a place after the last one is not specified, but must not be that for an existing axis.
 fn too_far(probe: &mut Probe<'_>) -> Step {
     let (channel, AxisHandle { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {

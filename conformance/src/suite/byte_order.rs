@@ -19,7 +19,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "Numbers in descriptors, descriptions and addresses are little-endian"),
 ];
 
-/// A number that is wrong, but right with reversed bytes, violates the byte order.
+/// Checks the numbers of items and the handles: a wrong number that is correct with reversed bytes
+/// violates the byte order.
 fn number_order(probe: &mut Probe<'_>) -> Step {
     for (one, number) in Counted::all(probe)? {
         let from_behind = number.swap_bytes();

@@ -71,7 +71,7 @@ fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         return Ok(());
     }
     for beyond in probe.beyond(number.saturating_add(1)) {
-        // An index has 16 bits.
+        // An index of more than 16 bits cannot be encoded.
         let Ok(beyond) = ReadDescriptors::new(list, beyond, 1) else { continue };
         let what = format!("object {}, after the last of {number}", beyond.first());
         probe.refuses(rules, &what, beyond, last)?;
@@ -135,10 +135,10 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         singles.insert(first, probe.ask(COM_3, request)?);
     }
     for (first, count) in reads {
-        // The maximum number that fits into a frame.
+        // A request for more descriptors than fit into a frame cannot be encoded.
         let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
         let together = probe.ask(COM_3, request)?;
-        // A descriptor that was not read alone is not compared.
+        // A descriptor that was not read alone is not compared: the expected bytes are the received ones.
         let mut parts = together.chunks(DESCRIPTOR_LEN);
         let alone = (first..=number).take(usize_of(count)).map(|number| {
             let part = parts.next().unwrap_or_default();

@@ -17,7 +17,7 @@ use crate::judge::{IfPresent as _, Step, Stop};
 use crate::objects::{List, Walker, active_channels, decoder_of, has_variables};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
-/// The source of the claims, which say what parts of the target are judged.
+/// The source of the claims, which determine the judged parts of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClaimsBy {
     /// The file of `--profile`.
@@ -61,7 +61,7 @@ pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     Discovery { found, time: begun.elapsed() }
 }
 
-/// Continues after a step that a wrong reply ended, and notes the first reason.
+/// Lets the discovery continue after a wrong reply has ended a step, and stores the first reason.
 fn go_on<T>(found: &mut FoundReport, step: Step<T>) -> Step<Option<T>> {
     match step {
         Err(Stop::Inconclusive(why)) => {
@@ -100,7 +100,7 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let profile = &probe.target.profile;
     found.platform_axes = match by {
         ClaimsBy::Queries => profile.platform_axes,
-        // The axes are claimed by the profile, so no request is sent to find them.
+        // The profile claims the platform axes, so only the axes of the position controller are counted.
         ClaimsBy::Profile => controlled_axes(&instances),
     };
     if by == ClaimsBy::Profile {
@@ -146,7 +146,7 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
         Some(ItemKind::Element) => (35, 35),
         None => (0, 30),
     };
-    // Every variable is described once, for its name.
+    // The description of every variable is read once, to learn its name.
     let names = match kind {
         Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
         _ => 0,
@@ -154,7 +154,8 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     u64::from(read).saturating_mul(item).saturating_add(list).saturating_add(names.into())
 }
 
-/// The ports that answer. All of them stay claimed, so that a case fails for a missing port.
+/// The ports at which a task replies. Ports without a reply stay claimed, so that a case fails for a
+/// missing port.
 fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     let channel = Channel::new(1)?;
     let mut there = Vec::new();
@@ -166,7 +167,7 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
         };
         let request = RawCall::new(request)?.with(|call| call.port = task.port());
         let answered = probe.call(&request)?.reply().is_some_and(|reply| reply.ams_error.is_ok());
-        // An error in the AMS header may also be the reply to the query.
+        // A task may reject this query with an error in the AMS header, so ReadDeviceInfo is tried too.
         let answered = answered || {
             let inquired = probe.inquire::<DeviceInfoReply>(task)?;
             matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Rejected(_)))
@@ -251,8 +252,9 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The axis places of all channels but the first. Without a profile, a run does not write to them: no
-/// list says which of them have no axis, and a value written to such a place is lost.
+/// The axis places of all channels but the first. Without a profile, a run does not write to these
+/// places: no list shows which places have no axis, and a value written to a place without an axis is
+/// lost.
 fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
     let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
     Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())

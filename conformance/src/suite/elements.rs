@@ -55,7 +55,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     let (mut alone, mut with_first) = (None, None);
     for instance in probe.instances()? {
         let first = instance.first;
-        // The instance's part of the address may be wrong.
+        // If the request fails, the part of the address that selects the instance may be wrong.
         let of_address: &[ClauseId] = match instance.class {
             Class::Spindle => &[SDA_4, ADR_2],
             class if instance.axis > 0 && OF_PLACES.contains(&class) => &[SDA_4, ADR_7],
@@ -85,13 +85,13 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let name: ElementText = attribute(probe, SDA_4, ReadElementName::new(first))?;
         let name = name.text.text.to_string();
         let found = || format!("{name:?} of {instance}");
-        // The name is not specified for a place without an axis, nor for an instance without further
-        // elements.
+        // The name of an instance is not specified at a place without an axis, nor if the instance has
+        // only element 0.
         let is_bare = count == 0 || probe.is_at_empty_place(&instance);
         let rule = if is_bare { assumed(SDA_4) } else { SDA_4.into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
         let rule = assumed(SDA_4);
-        // The HLDs of several channels have the axes of the platform.
+        // Several channels have the same platform axes in their HLDs, so these names repeat.
         let shared = instance.class == Class::Hld && instance.axis > 0;
         if !shared {
             probe.check(
@@ -103,7 +103,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         }
         ends(probe, &instance, count)?;
     }
-    // Whether the number includes element 0 is assumed, but it must be the same for all instances.
+    // Whether the number of elements includes element 0 is assumed, but all instances must count alike.
     if let Some((with_first, evidence)) = with_first {
         probe.set_evidence(evidence);
         let found = || format!("one more element for {with_first}");
@@ -114,7 +114,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that the last element has a name and the one after it has none.
+/// Checks that the last element has a name, and that no element follows it.
 fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     let (last, beyond) = (instance.first.nth(count), instance.first.nth(count.saturating_add(1)));
     let (Ok(last), Ok(beyond)) = (last, beyond) else { return Ok(()) };
@@ -122,7 +122,7 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
         attribute::<ElementText>(probe, SDA_4, ReadElementName::new(last))?;
     }
     let at_place = OF_PLACES.contains(&instance.class) && instance.axis > 0;
-    // At a place without an axis, the number may be zero like the other contents.
+    // At a place without an axis, the number of elements may be 0, because all contents are zero there.
     let rule = if at_place && count == 0 { assumed(SDA_4) } else { SDA_4.into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
     for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
@@ -131,7 +131,8 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
             probe.refuses(rule, &what, beyond, last)?;
         }
     }
-    // Some offsets of the decoder are functions, not all of which are documented.
+    // Contents of the decoder are not judged: some of its offsets are functions, and not all of these
+    // functions are documented.
     let Some(length) = probe.length_of(last)?.filter(|_| instance.class != Class::Decoder) else {
         return Ok(());
     };
@@ -205,7 +206,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             probe.check(SDA_6, same, "the unit as before", found);
         }
     }
-    // If no type is known, the texts are wrong rather than the types.
+    // If no element has a known type, the texts are wrong rather than the types.
     let found = || format!("{}, none of the manual", plural(types, "type"));
     probe.check(SDA_6, types == 0 || known > 0, "texts", found);
     Ok(())

@@ -114,7 +114,7 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
         probe.check(GEN_6, none, "no decoder in channel 0", found);
     }
     if probe.target.profile.spindles.is_some_and(|spindles| spindles > 0) {
-        // Not applicable if elements are not claimed.
+        // If the profile does not claim the addresses of instances, this check is left out.
         if let Some(zero) = probe.address_of(Class::Spindle, 0, 0).if_applicable()? {
             let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
             let found = || format!("{zero:?}");
@@ -153,8 +153,8 @@ fn is_utf_8(text: &[u8]) -> bool {
     !text.is_ascii() && std::str::from_utf8(text).is_ok()
 }
 
-/// Whether a name with only ASCII characters has a handle in the channel. Otherwise, no name shows
-/// anything about the code page.
+/// Whether the first name with only ASCII characters has a handle in the channel. If it has none, a
+/// missing handle of another name does not show a wrong code page.
 fn finds_plain_names(probe: &mut Probe<'_>, channel: Channel, all: &[Description]) -> Step<bool> {
     let plain = all.iter().find(|one| !depends_on_code_page(one.name.text.as_bytes()));
     let Some(plain) = plain else { return Ok(true) };
@@ -176,7 +176,7 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
             let found = probe.try_ask(by_name)?.is_some();
             let expected = || format!("a handle of {}", variable.name.text);
             probe.check(GEN_3, found, expected, "the name is not found");
-            // Bytes that look like UTF-8 may be intended.
+            // Bytes that are valid UTF-8 may also be intended characters of CP1252.
             let text = Hex(name.to_vec());
             probe.check(assumed(GEN_3), !is_utf_8(name), "one byte per character", text);
         }

@@ -15,7 +15,7 @@ use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    // The first case that reads values: no handle was requested by name before.
+    // This case reads each variable by the handle in its description before it requests a handle by name.
     case("var-described-handle", &[VAR_4, VAR_9, VAR_10], Needs::Queries, described,
         "The name and the handle in a description read the variable"),
     case("var-handle-by-name", &[VAR_9, VAR_10], Needs::Queries, by_name,
@@ -39,7 +39,8 @@ fn described(probe: &mut Probe<'_>) -> Step {
             let by_handle = whole(channel, variable.handle);
             let by_name = ReadByName { channel, name: name_of(&variable) };
             let answered = probe.try_ask(by_handle)?.is_some();
-            // Another case judges a variable that no handle reads.
+            // If the handle requested by name does not read the variable either, another case judges
+            // that.
             if answered || reads_by_own_handle(probe, channel, &variable)? {
                 let expected = || format!("a success for the handle in the description of {what}");
                 probe.check([VAR_4, VAR_10], answered, expected, "an error");

@@ -51,8 +51,7 @@ impl<'p, 's> MalformedRequest<'p, 's> {
         self.call(rules, what, |call| call.data = data.to_vec())
     }
 
-    /// Sends data whose count and indices contradict each other; its length is that required by the
-    /// count.
+    /// Sends data whose length contradicts its count of indices.
     fn of_other_length(&mut self, what: &str, data: &[u8]) -> Step {
         self.data([VAR_24, VAR_11], what, data)
     }
@@ -116,7 +115,7 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
             malformed.data(assumed(VAR_9), what, &data)?;
         }
     }
-    // Longer than the name of any variable.
+    // A name of 256 characters, longer than the name of any variable, that begins with an existing name.
     let longest = variables.iter().max_by_key(|one| one.name.text.as_bytes().len());
     for known in [Some(known), longest].into_iter().flatten() {
         let field = TextRef::from(known.name.text.as_cnc_str());

@@ -52,7 +52,7 @@ use crate::judge::{Body, Case, CaseSubject, codec_cases};
 use crate::rules::reply_cases;
 use row::CaseRow;
 
-/// The cases that have a function, except those made of vectors.
+/// The cases that have a function of their own; other cases are made from vectors.
 const TABLES: &[&[CaseRow]] = &[
     address::CASES,
     ads_services::CASES,

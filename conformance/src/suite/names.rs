@@ -39,7 +39,7 @@ fn paths(probe: &mut Probe<'_>) -> Step {
                 found,
             );
             let Ok(path) = path else { continue };
-            // An array at a leaf is a single variable; its elements are not listed.
+            // An array is listed as a single variable; its elements are not listed.
             let whole = path.elements().is_empty();
             probe.check(VAR_20, whole, "the name of the variable, not of an element", found);
         }
@@ -47,7 +47,7 @@ fn paths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// A variable with a handle, as a counterexample.
+/// The name of a variable that has a handle; a request for this handle must succeed.
 fn known(probe: &mut Probe<'_>) -> Step<CncString> {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
@@ -93,7 +93,7 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         steady.judge(probe, VAR_19, &name.text(), compared, |probe, rules, (before, read, _)| {
             let (expected, found) = (|| Hex(before.clone()), || Hex(read.clone()));
             probe.check(rules, false, expected, found);
-            // Either of the two values may be wrong.
+            // Either the value of the parameter or the value of the variable may be wrong.
             probe.check([DYN_3, VAR_14], false, expected, found);
             let (low, high) = before.split_at(before.len() / 2);
             let is_reversed = before.iter().rev().eq(&read) || [high, low].concat() == read;

@@ -100,8 +100,8 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Channel 1 has the platform's objects: an object in both lists must have the same content under
-/// both channels.
+/// Channel 1 has the platform's objects: an object in the lists of channel 0 and channel 1 must have the
+/// same content under both channels.
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = platform_channel(probe)?.map(ObjectList::from);
@@ -119,7 +119,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         if let Some(other) = other.and_then(|other| other.address.read().ok()) {
             steady.same(probe, COM_4, &what, one, other)?;
         }
-        // The content must also be at the object's offset in the groups of both.
+        // The content must also be readable at the object's offset in the groups of channels 0 and 1.
         for list in iter::once(ObjectList::PLATFORM).chain(first) {
             let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
             let there = ReadObject::new(group, offset, object.size())?;
@@ -146,7 +146,8 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
         let objects = probe.objects()?;
         let named = objects.iter().find(|one| one.address.content() == Some((group, offset)));
-        // An object with another form of address has its content at the printed address too.
+        // If no descriptor has the printed address, the content must still be at this address. Its size
+        // is unknown then, so 8 bytes are read.
         let read = |size| ReadObject::new(group, offset, size);
         let described = named.and_then(|object| read(object.size()).ok());
         let read = described.map_or_else(|| read(8), Ok)?;

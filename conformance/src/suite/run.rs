@@ -68,7 +68,8 @@ pub fn run(
     outcomes
 }
 
-/// The case of the frames, which is added if a frame was wrong and the case was not selected.
+/// The outcome of the case that judges the frames. It is added if a frame was wrong, although the
+/// case was not selected.
 fn broken_frames(target: &mut TargetState) -> Option<CaseOutcome> {
     let is_wrong = target.broken.checks > 0;
     let row = rows().find(|row| row.id == "ads-every-frame").filter(|_| is_wrong)?;
@@ -82,7 +83,7 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
     if interrupt::is_requested() {
         return CaseOutcome::interrupted(case);
     }
-    // Cases about frames judge the frames so far, even if the target no longer answers.
+    // Cases about frames judge the frames exchanged so far, even if the target no longer answers.
     if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
         return CaseOutcome::untried(
             case,
@@ -105,7 +106,7 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
         let note = "no more writes are sent after a value could not be restored";
         return CaseOutcome::untried(case, Verdict::NotRun, note);
     }
-    // A case that began before the deadline restores its values after it.
+    // The deadline ends the requests of a case, but values are restored even after the deadline.
     let mut probe = Probe::new(target).with_deadline(late);
     let begun = caught(|| match (case.body, run) {
         (Body::Probe, Some(run)) => run(&mut probe),

@@ -37,7 +37,8 @@ const OFFSET: u32 = 0x90;
 /// The name of the object.
 const NAME: &str = "mc_program_stream_w";
 
-/// Looks for the object in the lists of channels by name and address. It need not be listed.
+/// Looks for the stream object in the lists of channels, by name and address. The object need not be
+/// listed.
 fn object(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let List::Channel(number) = object.list else { continue };
@@ -51,7 +52,7 @@ fn object(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{} at {group}, {offset}", object.name);
         let expected =
             || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
-        // The object or its descriptor may be wrong.
+        // The address of the object or its descriptor may be wrong.
         let rules = [STM_1, COM_2];
         probe.check(rules, here && named, expected, found);
         probe.check(rules, object.is_writable(), "write access", "none");
@@ -98,8 +99,8 @@ fn repeat(
 /// is never accepted.
 ///
 /// An error number does not show whether a rejection is temporary, nor whether the device empties its
-/// buffer at all. But if two packets with the same total length are accepted by the channel's number,
-/// the buffer has space for this packet.
+/// buffer at all. Therefore, after the timeout, two packets with the same total length are written by the
+/// channel's number: if the device accepts both, its buffer had space for the rejected packet.
 fn write(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -149,7 +150,7 @@ fn longest(probe: &mut Probe<'_>) -> Step {
     write_accepted(probe, &[STM_2], channel, &many)
 }
 
-/// Lengths around multiples of 256.
+/// Writes packets with lengths around multiples of 256.
 fn lengths(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     for len in [4_usize, 127, 128, 255, 256, 257, 511, 512, 513, 767, 768, 769, 991, 992] {
@@ -169,13 +170,14 @@ fn rejected_as_busy(probe: &mut Probe<'_>) -> Step {
             return Ok(());
         }
     }
-    // Without a rejection, the repetition cannot be tested.
+    // The device rejected no packet, so the repetition of a rejected packet was not tested.
     Ok(())
 }
 
 fn too_long(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
-    // A target that rejects every packet says nothing about the maximum length.
+    // A packet of the maximum length must be accepted first, because a target that rejects every packet
+    // would pass the following checks.
     write_accepted(probe, &[STM_2], channel, &comment(STREAM_PACKET_MAX))?;
     for len in [993, 993, 994, 1024, 1984, 2048, 4094, 4096] {
         let sent = send(probe, channel, &comment(len))?;

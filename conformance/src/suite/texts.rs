@@ -33,7 +33,7 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
                 && variable.dimensions.is_empty()
                 && variable.access == ads_cnc::VariableAccess::READ_WRITE;
             let name = variable.name.text;
-            // An NC program reads the texts of the Service Interface.
+            // The texts of the Service Interface are not written here, because an NC program reads them.
             let own = !name.to_string().starts_with("V.G.SERVICE.");
             let what = name.to_string();
             (is_text && own).then_some((ValueAddress::Name { channel, name }, what))
@@ -71,9 +71,10 @@ fn written(probe: &mut Probe<'_>) -> Step {
 fn characters(probe: &mut Probe<'_>, address: &ValueAddress, what: &str, size: usize) -> Step {
     let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
     for (bytes, rule) in [(&all[..], Rule::from(GEN_3)), (&UNASSIGNED, assumed(GEN_3))] {
-        // The last byte is the NUL.
+        // The last byte of the text is reserved for the NUL.
         for piece in bytes.chunks(size.saturating_sub(1)) {
-            // As long as the original text, because another length may be rejected.
+            // The value is padded to the length of the original text, because another length may be
+            // rejected.
             let mut value = piece.to_vec();
             value.resize(size, 0);
             is_read_again(probe, (address, what), rule, &value)?;

@@ -59,7 +59,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
         if !probe.target.client.gate().lets_malformed_pass() {
             continue;
         }
-        // The same request without data.
+        // A request without data must return the same number as a request with an empty kind.
         let absent = Kind::from_field(TextRef::with_tail(ads_cnc::CncStr::EMPTY, None));
         let exchange = probe.send(CountVariables::new(channel, absent))?;
         let data = exchange.reply().and_then(|reply| reply.success().map(<[u8]>::to_vec));
@@ -99,8 +99,8 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Reads the descriptions from the last index to the first. An axis may move to another place
-/// meanwhile, so only a difference in two readings counts.
+/// Reads the descriptions from the last index to the first. A difference counts only if the next read
+/// returns the first description again; otherwise an axis may have moved to another place meanwhile.
 fn descriptions_backwards(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -173,7 +173,7 @@ fn structures(name: &str) -> Vec<&str> {
     let mut all = Vec::new();
     let mut rest = name;
     while let Some((structure, _)) = rest.rsplit_once('.') {
-        // The rest is the kind.
+        // Only the kind is left, such as `V.E`.
         if structure.matches('.').count() < 2 {
             break;
         }

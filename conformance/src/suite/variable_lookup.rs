@@ -34,7 +34,7 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
         probe.refuses(ADS_4, &what, handle, good)?;
         let good = ReadByName { channel, name: known };
         probe.refuses(ADS_4, &what, ReadByName { channel, name }, good)?;
-        // A success must not return the handle of an existing variable.
+        // A success would return a handle, although no variable has this name.
         let given = probe.try_ask(handle)?;
         let none = given.is_none();
         let found = || Hex(given.clone().unwrap_or_default());
@@ -51,8 +51,8 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
 /// Maximum number of names of a channel that are tried, the longest first.
 const NAMES_MAX: usize = 64;
 
-/// Similar names: with a character more, with one less, with another last one or another one in the
-/// middle.
+/// Names similar to `name`: one character longer, one character shorter, with another last character, and
+/// with another character in the middle.
 fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     let other = |at: usize| {
         let mut other = name.to_vec();
@@ -63,13 +63,14 @@ fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     };
     let Some((_, shorter)) = name.split_last() else { return Vec::new() };
     let longer = [name, &b"q"[..]].concat();
-    // After the kind, because a name without a kind has no variable.
+    // The changed character is after the kind: a name with a wrong kind would be rejected for its kind.
     let middle =
         name.len().saturating_sub(4).checked_div(2).map_or(4, |half| half.saturating_add(4));
     vec![longer, shorter.to_vec(), other(name.len().saturating_sub(1)), other(middle)]
 }
 
-/// Names with an index far out of bounds, with and without the lower bytes of a valid one.
+/// Names in which an index is far out of bounds; some of these indices have the lower bytes of the valid
+/// index.
 fn other_structures(name: &str) -> Vec<String> {
     let mut all = Vec::new();
     for (at, _) in name.match_indices('[') {
@@ -124,7 +125,7 @@ fn apart(
     probe.refuses(rule, &what, ReadByName { channel, name }, good)
 }
 
-/// The five variables of the Service Interface.
+/// Checks the types of the variables of the Service Interface, which are documented.
 fn known_types(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {

@@ -60,7 +60,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("{} of {name}, read by its handle", Hex(new.to_vec()));
             let passed = same(&read, new, is_text);
             probe.check(VAR_13, passed, expected, || Hex(read.clone()));
-            // The values by name and by handle must be equal.
+            // If the value by name is the new one, the value by handle must be the new one too.
             let passed = passed || !same(&named, new, is_text);
             probe.check(VAR_14, passed, expected, || Hex(read));
             Ok(())
@@ -116,7 +116,7 @@ fn by_names(probe: &mut Probe<'_>, rule: ClauseId, names: Vec<CncString>) -> Ste
             let rules = [assumed(rule)];
             let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&write_check, &address, |probe, _, new| {
-                // An accepted value must be stored.
+                // A value that the CNC has accepted must be read back.
                 let read = probe.value_at(&address)?.unwrap_or_default();
                 let expected = || format!("{} of {what}, as written", Hex(new.to_vec()));
                 probe.check(rule, read == new, expected, || Hex(read));

@@ -63,7 +63,8 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// That another size is rejected is assumed; that a rejected write has no effect is stated.
+/// Writes values of a wrong size. The manuals state that a rejected write has no effect, but not that a
+/// write of another size must be rejected.
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
@@ -102,12 +103,13 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     applicable(any, NOTHING_WRITABLE)
 }
 
-/// Whether the type is an integer, which may hold the number of the axis at the place.
+/// Whether a value of this type may be the number of the axis at its place; such values are not written.
 fn may_be_a_number(type_name: &str) -> bool {
     !matches!(type_name, "BOOLEAN" | "BOOL" | "REAL32" | "REAL64" | "REAL" | "LREAL")
 }
 
-/// Whether a write to a place without an axis is rejected is not specified.
+/// Writes to places without an axis. Whether such a write is rejected is not specified, but the content
+/// must stay blank.
 fn empty_places(probe: &mut Probe<'_>) -> Step {
     let mut all: Vec<(ValueAddress, String)> = Vec::new();
     let empty = probe.target.profile.empty_places.clone();

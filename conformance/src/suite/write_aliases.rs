@@ -31,7 +31,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         {
             continue;
         }
-        // Another case judges values that cannot be read by number either.
+        // If the value cannot be read by the channel's number either, another case judges that.
         let Some(value) = probe.filled_value_at(logical)? else {
             continue;
         };

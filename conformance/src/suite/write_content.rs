@@ -80,8 +80,8 @@ fn of_other_instances(probe: &mut Probe<'_>, object: &Object) -> Step<Vec<(Objec
     Ok(all)
 }
 
-/// Whether an object has the same offset in the group of another channel or platform axis. The platform
-/// can be addressed as channel 0 and as channel 1.
+/// Whether an object has the same offset in the group of another channel or platform axis. Objects in
+/// channel 0 are excluded, because channel 1 addresses the same objects of the platform.
 fn is_elsewhere(object: &Object, other: &Object) -> bool {
     let parts = |object: &Object| {
         let (group, offset) = object.address.content()?;
@@ -125,7 +125,8 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             }
             Ok(())
         })?;
-        // An address that had the new value and then the old one has accepted both writes.
+        // A sibling that had the new value and has its old value after the restoring was changed by both
+        // writes.
         let is_own = taken.is_empty();
         for (rules, sibling, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
@@ -149,7 +150,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 type Sibling = (Vec<Rule>, String, ValueAddress, Vec<u8>);
 
 /// The same element of the other instances of its class, and the other elements of its instance. The
-/// latter may depend on each other.
+/// elements of one instance may depend on each other, so their rule is assumed.
 fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
@@ -160,7 +161,7 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
         others.push((vec![assumed(SDA_9)], what, element));
     }
     for other in probe.instances()? {
-        // The HLD of each channel has the same axes.
+        // The HLDs of all channels have the same axes, so the same axis in another HLD is no sibling.
         let is_same = other.first == one.instance.first
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
         let is_sibling = other.class == one.instance.class && !is_same && number <= other.count;
@@ -182,7 +183,7 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     Ok(all)
 }
 
-/// A rejected write must have no effect.
+/// Writes values that are one byte too long or too short. A rejected write must have no effect.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {

@@ -18,8 +18,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write with a name and [index] changes the element at that position, and no other"),
 ];
 
-/// The indices of the first and the last element; for several dimensions also those of an element
-/// at an edge, whose indices differ from each other.
+/// The indices of the first and the last element. For several dimensions, also the indices of the
+/// elements that have the last index in one dimension and index 0 in all others.
 fn ends(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let last = |count: &u32| count.saturating_sub(1);
     let mut places = vec![vec![0; dimensions.len()]];
@@ -65,8 +65,8 @@ fn elements(
             let rules = rules(variable);
             let write_check = write_check(variable, &name, &rules);
             probe.try_write(&write_check, &place, |probe, old, new| {
-                // In any layout, and whichever entry of the file permits it, an accepted value must
-                // be read back.
+                // That an accepted value is read back does not depend on the assumed layout of the array,
+                // so the rules are judged at their own level.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
                 let passed = same(&read, new, is_text);
@@ -90,7 +90,8 @@ fn elements(
     })
 }
 
-/// The order of several dimensions, and of texts in an array, is assumed.
+/// The rules with these IDs; assumed for several dimensions and for texts, whose order in an array is not
+/// documented.
 fn of_order(variable: &Description, ids: &[ClauseId]) -> Vec<Rule> {
     let is_assumed = variable.dimensions.len() > 1 || variable.var_type == VariableType::STRING;
     ids.iter().map(|&id| if is_assumed { assumed(id) } else { id.into() }).collect()

@@ -65,7 +65,7 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
             }
         }
     }
-    // Read again after all others were read.
+    // Each value is read again after all others were read, to exclude values that change by themselves.
     let mut steady = Vec::new();
     for one in all {
         if probe.value_at(&one.by_handle())?.as_ref() == Some(&one.start) {
@@ -87,7 +87,7 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     });
     match variable.var_type {
         VariableType::BOOLEAN => value.iter().map(|byte| byte ^ 1).collect(),
-        // Finite and distinct.
+        // The exponent bits are set so that every value is a finite number.
         VariableType::REAL64 => {
             let exponent = |(place, byte): (usize, u8)| match place % 8 {
                 7 => 0x40 | byte & 0x80,

@@ -135,7 +135,8 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let (channel, watched, value) = (known.channel, known.address(), &known.value);
     let variables = probe.variables(channel)?;
     let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
-    // Another value: a write of the current value to the watched variable would not show.
+    // The rejected write has another value, because a write of the current value to the watched variable
+    // would not be detected.
     let other = changed_value(value, false);
     let good = known.by_handle(U32List::EMPTY, value);
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
@@ -252,7 +253,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
 fn bad_requests(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
         let watched = known.address();
-        // Without its NUL, the name extends to the end of the data and no value follows.
+        // A name without a NUL extends to the end of the data, so that the request contains no value.
         let good = known.by_name(&known.value);
         let call = RawCall::new(good)?;
         let name: Vec<u8> = known.name().bytes().collect();

@@ -50,7 +50,8 @@ fn write_addresses(
     Ok(all)
 }
 
-/// The first variable and the first array of each type, and all axis variables.
+/// Writes wrong sizes to the first variable and the first array of each type, separately for axis
+/// variables and all other variables.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut tried = Vec::new();
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
@@ -81,14 +82,14 @@ fn of_address(
         return Ok(());
     };
     let whole = ValueAddress::of_handle(channel, variable.handle);
-    // All bytes differ from the original ones, so that a partial write is detected.
+    // A number gets another first byte, so that a partial write is detected.
     let other = if is_text { vec![b'x'; value.len()] } else { changed_value(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
     let one = size.unwrap_or(1);
     let longer = |more: usize| [&other[..], &vec![1; more]].concat();
     let shorter = |fewer: usize| other.get(..other.len().saturating_sub(fewer));
     let mut all = vec![longer(1), longer(one), longer(64)];
-    // A text may be shorter than its variable, or empty.
+    // Shorter data is a wrong size only for other types: a text may be shorter than its variable.
     if !is_text {
         all.push(Vec::new());
         all.extend([1, one].into_iter().filter_map(shorter).map(<[u8]>::to_vec));

@@ -55,7 +55,8 @@ fn texts(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// The maximum length of a text is documented online; that an accepted text is stored is stated.
+/// Writes texts of several lengths. The maximum length of a text is documented online only; the manuals
+/// state that an accepted text is stored.
 fn of_lengths(
     probe: &mut Probe<'_>,
     id: ClauseId,
@@ -84,8 +85,8 @@ fn of_lengths(
     shorter(probe, id, address, (name, size))
 }
 
-/// Writes a text that is shorter than its variable: that it is accepted is assumed. If so, it must
-/// end where the sent text ends.
+/// Writes a text that is shorter than its variable; that the CNC accepts it is assumed. If the CNC
+/// accepts the text, the text that is read back must end at the same character.
 fn shorter(
     probe: &mut Probe<'_>,
     id: ClauseId,

@@ -60,10 +60,10 @@ local function has_group(groups, group)
     return false
 end
 
--- Both tasks, GEO and SDA, serve the classes.
+-- The tasks GEO and SDA count as the same task, because the classes are available at both ports.
 local function same_task(port, other) return (port == 553) == (other == 553) end
 
--- A call of a function with an error: the same row with another title.
+-- A copy of the row of a function for a call with a mistake, which the title of the copy contains.
 local function mistaken(row, mistake)
     local copy = { mistake = mistake }
     for key, value in pairs(row) do copy[key] = value end
@@ -75,7 +75,7 @@ local function function_of(command, port, group, offset)
     for _, row in ipairs(tables.functions) do
         if same_task(row.port, port) and has_group(row.groups, group) and has_offset(row.offsets, offset) then
             if row.command == command then return row end
-            -- A Read may be meant for an element at the place of the function.
+            -- A Read may be meant for an element that has the same address as the function.
             if row.request ~= "content" and row.reply ~= "content" then
                 if command == 2 then return nil end
                 local copy = mistaken(row, "by another service than " .. row.service)
@@ -152,7 +152,8 @@ local function walk(stream, range, tree)
     if at < range:len() then tree:add(fault_field, range(at), "bytes after the stream") end
 end
 
--- Functions by connection and invoke ID, while the capture is read for the first time, and by packet.
+-- asked: the functions of requests by connection and invoke ID, for the first pass through the
+-- capture. found: the functions of requests and replies by packet, for later passes.
 local asked, found = {}, {}
 
 function cnc.init() asked, found = {}, {} end
@@ -190,7 +191,7 @@ local function show(frame, range, pinfo, tree, place)
         found[visit] = row
     end
 
-    -- Where the service has its data.
+    -- The offset of the data of the function, after the header of the service.
     local start, result = nil, 0
     if is_reply then
         start, stream = command == 3 and 4 or 8, row.reply

@@ -21,8 +21,9 @@ doc: |
 
 /// The description, in YAML.
 ///
-/// Each type checks its maximum length and that no bytes follow. Kaitai Struct cannot express
-/// relations between values, such as the size of a variable and its dimensions.
+/// Each type checks that the stream is not longer than its maximum length, and that no bytes follow
+/// the last field. Kaitai Struct cannot express relations between values, such as the size of a
+/// variable and its dimensions.
 pub fn kaitai_struct(tables: &Tables) -> String {
     let mut out = HEAD.replace("@VERSION@", tables.version);
     // Writing to a string does not fail.
@@ -106,7 +107,8 @@ fn texts(stream: &StreamTable, indent: &str, out: &mut String) -> fmt::Result {
     })
 }
 
-/// The type and length of a field; `count` is the field before it.
+/// The type and length of a field in YAML; `count` is the name of the preceding field, which
+/// contains the number of items.
 fn attributes(field: &FieldTable, count: &str) -> Vec<String> {
     let number = |bytes: u32| match (field.ty.as_str(), bytes) {
         ("REAL64", 8) => "type: f8".to_owned(),

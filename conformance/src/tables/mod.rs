@@ -61,9 +61,10 @@ pub struct FieldTable {
     /// `UNS08`, `UNS16`, `UNS32`, `unsigned`, `BOOLEAN`, `REAL64`, `STRING`, `BYTE[6]` or `BYTE[]`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// Offset in bytes from the beginning of the stream, without the counted items before the field.
+    /// Offset in bytes from the beginning of the stream if the counted fields before this field
+    /// have no items.
     pub offset: u32,
-    /// Number of bytes that each of these items adds to the offset.
+    /// Number of bytes that each item of a counted field before this field adds to the offset.
     pub offset_per_item: u32,
     pub size: SizeTable,
     pub meaning: &'static str,
@@ -81,8 +82,8 @@ pub enum SizeTable {
     NonZero { bytes: u32 },
     /// Text in this many bytes, padded with NULs.
     Padded { bytes: u32 },
-    /// This many bytes. If the preceding field, a result, is not 0, this and all following fields may
-    /// be absent.
+    /// This many bytes. If the preceding field, which is a result, is not 0, this field and all
+    /// following fields may be absent.
     FixedOnSuccess { bytes: u32 },
     /// This many bytes; the stream may also be empty.
     OptionalFixed { bytes: u32 },
@@ -138,7 +139,7 @@ pub struct FunctionTable {
 pub enum OffsetTable {
     /// One of these offsets.
     OneOf { offsets: Vec<u32> },
-    /// This offset and all above.
+    /// This offset and all larger offsets.
     AtLeast { first: u32 },
     /// 0x10000 × axis + `element`, with axes from `first_axis`.
     OfAxis { first_axis: u32, element: u32 },
@@ -192,7 +193,7 @@ impl SizeTable {
             Size::TextAndTail { min, max } => Self::TextAndTail { min, max },
             Size::Uns8To32 => Self::UnsignedRest { max: 4 },
             Size::Rest { min, max } => Self::Rest { min, max },
-            // The test `every_size_is_known` fails if the codec has another size.
+            // The test `every_size_is_known` fails if the codec has a size that this match lacks.
             _ => Self::Rest { min: 0, max: 0 },
         }
     }
@@ -235,7 +236,8 @@ impl OffsetTable {
             OffsetRule::OfAxis(element) => Self::OfAxis { first_axis: 1, element },
             OffsetRule::FirstElement => Self::OfAxis { first_axis: 0, element: 0 },
             OffsetRule::AtLeast(first) => Self::AtLeast { first },
-            // The test `addresses_are_those_of_the_codec` fails if the codec has another rule.
+            // The test `addresses_are_those_of_the_codec` fails if the codec has a rule that this
+            // match lacks.
             _ => Self::OneOf { offsets: Vec::new() },
         }
     }

@@ -30,7 +30,8 @@ pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
 
 pub(crate) const UTF16: &str = "the file is UTF-16; save it as UTF-8";
 
-/// The text of a file without the byte order mark of UTF-8. The error says where it is not UTF-8.
+/// The text of a file without the byte order mark of UTF-8. The error contains the position of the
+/// first bytes that are not UTF-8.
 pub(crate) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
     if is_utf16(&bytes) {
         return Err(UTF16.to_owned());

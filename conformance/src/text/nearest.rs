@@ -1,4 +1,4 @@
-//! Finds the names that are most similar to a misspelt one.
+//! Finds the names that are most similar to a misspelt name.
 
 /// Maximum number of names that are returned.
 const NEAREST_MAX: usize = 3;
@@ -19,7 +19,8 @@ pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) 
         .into_iter()
         .filter_map(|name| {
             let other = name.to_lowercase();
-            // A name that contains the word ranks after any misspelling.
+            // A name that contains the word is less similar than a name that differs in a few
+            // characters.
             let is_part = lower.len() > 2 && other.contains(&text);
             let chars: Vec<char> = other.chars().take(COMPARED_MAX).collect();
             let far = chars.len().abs_diff(lower.len()) > limit;
@@ -36,7 +37,7 @@ pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) 
     found.into_iter().take(NEAREST_MAX).map(|(_, name)| name).collect()
 }
 
-/// ` - did you mean …?` with the most similar names; empty if there are none.
+/// ` - did you mean …?` with the most similar names; empty if no name is similar.
 pub(crate) fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     match nearest(word, names).as_slice() {
         [] => String::new(),
@@ -44,10 +45,11 @@ pub(crate) fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n s
     }
 }
 
-/// The number of characters to insert, delete, replace or swap with the next one.
+/// The minimum number of edits between two words: to insert, delete or replace a character, or to
+/// swap it with the next character.
 fn distance(one: &[char], other: &[char]) -> usize {
-    // The distances of the prefixes of `other` to the prefix of `one` two characters ago, and one
-    // ago.
+    // `last` contains the distances of all prefixes of `other` to the current prefix of `one`,
+    // `before` the distances to the prefix that is one character shorter.
     let (mut before, mut last): (Vec<usize>, Vec<usize>) =
         (Vec::new(), (0..=other.len()).collect());
     let mut previous = None;

@@ -1,8 +1,8 @@
-//! Errors of serde, in the words of the author of a file or a line.
+//! Converts errors of serde to messages for the author of a file or of a line of JSON.
 
 use super::{did_you_mean, plural};
 
-/// What is wrong with a file of TOML: the place, the line in quotes, and the reason.
+/// The message for an error in a TOML file: the position, the quoted line, and the reason.
 pub(crate) fn toml_error(error: &toml::de::Error) -> String {
     let shown = error.to_string();
     let shown = shown.trim_end().trim_end_matches(error.message());
@@ -10,7 +10,7 @@ pub(crate) fn toml_error(error: &toml::de::Error) -> String {
     format!("{place}{}", in_words(error.message(), "table"))
 }
 
-/// A value of TOML that is not of the expected type.
+/// Describes a TOML value that does not have the expected type.
 pub(crate) fn found(value: &toml::Value) -> String {
     match value {
         toml::Value::String(text) => format!("the text {text:?}"),
@@ -21,7 +21,7 @@ pub(crate) fn found(value: &toml::Value) -> String {
     }
 }
 
-/// What is wrong with a text of JSON: the key and the reason.
+/// The message for an error in a JSON text: the key and the reason.
 pub(crate) fn json_error(text: &str, error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
     let message = error.to_string();
@@ -42,7 +42,7 @@ pub(crate) fn json_error(text: &str, error: &serde_json::Error) -> String {
     }
 }
 
-/// The last key in the JSON read so far, whose value is the faulty one.
+/// The last key in the JSON up to the error; the error is in the value of this key.
 fn last_key(read: &str) -> Option<&str> {
     let mut parts: Vec<&str> = read.split('"').collect();
     let value = |part: &&str| !part.trim_start().starts_with(':');
@@ -53,9 +53,10 @@ fn last_key(read: &str) -> Option<&str> {
     parts.pop()
 }
 
-/// A message of serde; a map is called `map`.
+/// Rewrites a message of serde for the author of the file; `map` is the word for a map.
 pub(crate) fn in_words(message: &str, map: &str) -> String {
-    // The parser of TOML takes a bare word for what it begins like.
+    // For a word without quotes, the TOML parser reports an invalid value of the type that its
+    // first characters suggest.
     let bare = ["invalid boolean", "invalid float", "string values must be quoted"];
     if bare.iter().any(|start| message.starts_with(start)) {
         return "expected a value: a number, true or false, a text in double quotes, or a day as \
@@ -94,7 +95,7 @@ pub(crate) fn in_words(message: &str, map: &str) -> String {
     other().unwrap_or_else(|| message.to_owned())
 }
 
-/// A value as serde describes it.
+/// Rewrites the description of a value by serde.
 fn of_value(found: &str, map: &str) -> String {
     match found.split_once(' ') {
         Some(("string", text)) => format!("the text {text}"),
@@ -108,7 +109,7 @@ fn of_value(found: &str, map: &str) -> String {
     }
 }
 
-/// A type as serde names it.
+/// Rewrites the description of an expected type by serde.
 fn of_type(wanted: &str, map: &str) -> String {
     let most = match wanted {
         "u8" => u64::from(u8::MAX),

@@ -1,4 +1,5 @@
-//! Typed values: parsed and formatted by a description, a descriptor or the attributes of an element.
+//! Typed values: parses and formats them by the type in the description of a variable, the
+//! descriptor of an object or the attributes of an element.
 
 mod json;
 mod parse;
@@ -41,7 +42,7 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 pub struct Type {
     /// The name of the type on the CNC.
     pub name: String,
-    /// The data type, if the manuals have it.
+    /// The data type, if the manuals define the type.
     pub data_type: Option<DataType>,
     /// Number of elements in each dimension; empty for a single element.
     pub dimensions: Vec<u32>,
@@ -64,8 +65,8 @@ impl Type {
         Self { name, data_type, dimensions: dimensions.iter().collect(), size: Some(size) }
     }
 
-    /// The type of the content of an object or an element: an array if the size is a multiple of
-    /// the type's.
+    /// The type of the content of an object or an element. It is an array if the size of the
+    /// content is a multiple of the size of the type.
     pub fn of_content(name: CncStr<'_>, size: u32) -> Self {
         let data_type = DataType::by_name(name);
         let ty =

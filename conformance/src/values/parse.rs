@@ -14,14 +14,14 @@ use crate::text::plural;
 pub struct InvalidValue(String);
 
 /// Parses a value: a number in decimal or with 0x, `TRUE` or `FALSE`, or a text. For an array, all
-/// elements are separated by commas or blanks, optionally in brackets, with the last index running
+/// elements are separated by commas or blanks, optionally in brackets, and the last index changes
 /// fastest. In an array of texts, a text with a comma is quoted, and quotes in it are doubled.
 ///
 /// A single text is taken literally. It is encoded with one NUL, and may be shorter than its
 /// variable.
 ///
 /// # Errors
-/// Why the text is not a value of the type, and what would be.
+/// The reason why the text is not a value of the type, and the expected form.
 pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, InvalidValue> {
     let Some(data_type) = ty.data_type else {
         let name = if ty.name.is_empty() { "its type" } else { ty.name.as_str() };
@@ -165,7 +165,8 @@ fn flat(ty: &Type, text: &str) -> Result<Option<String>, InvalidValue> {
     if !text.starts_with("[[") {
         return Ok(None);
     }
-    // Elements of a row, of a plane, …: each starts and ends with a bracket.
+    // The number of elements of a row, of a plane and so on, each of which starts and ends with a
+    // bracket.
     let rows = ty.dimensions.iter().rev().scan(1_usize, |size, &len| {
         *size = size.saturating_mul(usize::try_from(len).unwrap_or(usize::MAX));
         Some(*size)
@@ -283,7 +284,8 @@ mod tests {
         }
     }
 
-    /// Nested brackets as in JSON; another nesting would write elements to other positions.
+    /// Nested brackets as in JSON must match the dimensions: with another nesting, elements would
+    /// be written to wrong positions.
     #[test]
     fn nested_brackets_match_the_dimensions() {
         let cube = Type::known(DataType::Uns08, vec![2, 2, 2]);

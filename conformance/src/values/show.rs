@@ -81,8 +81,8 @@ fn display(element: Element<'_>) -> String {
     }
 }
 
-/// Formats the value on several lines: a single element without indices; for an array, as many
-/// elements per line as fit, after the indices of the first one.
+/// Formats the value on several lines. A single element has no indices; each line of an array
+/// contains as many elements as fit, after the indices of the first of them.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -116,7 +116,7 @@ pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
     Some(all.into_iter().map(|(label, items)| format!("{label:<width$}  {items}")).collect())
 }
 
-/// The indices of an element, with the last one running fastest (VAR-21, assumed).
+/// The indices of an element; the last index changes fastest (VAR-21, assumed).
 fn indices(at: usize, dimensions: &[u32]) -> String {
     let (mut left, mut all) = (at, Vec::new());
     for &len in dimensions.iter().rev() {

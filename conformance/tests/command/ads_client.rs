@@ -13,7 +13,8 @@ const GEO: u16 = 551;
 const SDA: u16 = 552;
 const COM: u16 = 553;
 
-/// Variables of channels 1, 2 and 6 by number, and of the first to third by rank.
+/// Index groups of variables: of channel 1, and below of the channels 1, 2 and 6 by rank and by number,
+/// each with the number of the channel.
 const CHANNEL_1: u32 = 0x12_2301;
 const BY_RANK: [(u32, u8); 3] = [(0x02_2301, 1), (0x02_2302, 2), (0x02_2303, 6)];
 const BY_NUMBER: [(u32, u8); 3] = [(0x12_2301, 1), (0x12_2302, 2), (0x12_2306, 6)];
@@ -45,7 +46,8 @@ fn objects() {
     with_cnc(&[], |client, net_id| {
         let com = port(client, net_id, COM);
         assert_eq!(read(com, 0x13_0101, 0, 4), Ok(vec![30, 0, 0, 0]));
-        // By rank, and the lists of another channel, the platform and a platform axis.
+        // The list of channel 1 by rank, and the lists of another channel, of the platform and of a
+        // platform axis.
         assert_eq!(read(com, 0x03_0101, 0, 4), Ok(vec![30, 0, 0, 0]));
         assert_eq!(read(com, 0x03_0103, 0, 4), read(com, 0x13_0106, 0, 4));
         assert_eq!(read(com, 0x13_0100, 0, 4), Ok(vec![2, 0, 0, 0]));
@@ -59,7 +61,8 @@ fn objects() {
             BOOL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
         assert_eq!(read(com, 0x13_0101, 0x10, 84), Ok(printed.to_vec()));
         assert_eq!(read(com, 0x13_0101, 0x10, 168), Ok([&printed[..], command].concat()));
-        // A length between one and two descriptors reads one; a larger length than the list reads all.
+        // A read length between one and two descriptors returns one; a read length longer than the
+        // rest of the list returns the rest.
         assert_eq!(read(com, 0x13_0101, 0x10, 100), Ok(printed.to_vec()));
         assert_eq!(read(com, 0x13_0101, 29, 10 * 84).map(|bytes| bytes.len()), Ok(168));
         assert_eq!(read(com, 0x13_0101, 1, 30 * 84).map(|bytes| bytes.len()), Ok(30 * 84));
@@ -77,12 +80,13 @@ fn printed_variables() {
             b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0"
         );
         assert_eq!(ask(0x46, b"V.E.vartest\0"), [0x04, 0, 0, 0x02]);
-        // 333, and 123 234 345 456 567
+        // The printed values: an element 333, and an array 123 234 345 456 567.
         let array = [123, 0, 0, 0, 234, 0, 0, 0, 89, 1, 0, 0, 200, 1, 0, 0, 55, 2, 0, 0];
         assert_eq!(ask(0x47, b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0"), [77, 1, 0, 0]);
         assert_eq!(ask(0x47, b"\x34\x12\x00\x02\0\0\0\0"), array);
         assert_eq!(ask(0x48, b"V.E.Testvar\0"), array);
-        // The element of the array above; the other printed example contains 333 here (E-27).
+        // This CNC returns the element of the array above. Another printed example, which
+        // contradicts the array, has 333 here (E-27).
         assert_eq!(ask(0x48, b"V.E.Testvar[3]\0"), [200, 1, 0, 0]);
         assert_eq!(ask(0x48, b"V.E.test[4]\0"), [55, 2, 0, 0]);
     });
@@ -95,17 +99,17 @@ fn other_variables() {
         let ask = |offset, data: &[u8]| ask(sda, CHANNEL_1, offset, data).unwrap();
         assert_eq!(ask(0x44, b"V.G\0"), [10, 0, 0, 0]);
         assert_eq!(ask(0x44, b"V.A\0"), [6, 0, 0, 0]);
-        // The sum of all kinds.
+        // The empty kind returns the number of variables of all kinds.
         assert_eq!(ask(0x44, b"\0"), [139, 0, 0, 0]);
-        // 0.0 is eight NULs; 1234.2 is not.
+        // V.A.ACT_POS.Z is 0.0, which is eight NULs; another value, read by handle, is 1234.2.
         assert_eq!(ask(0x48, b"V.A.ACT_POS.Z\0"), [0; 8]);
         let real = [0xCD, 0xCC, 0xCC, 0xCC, 0xCC, 0x48, 0x93, 0x40];
         assert_eq!(ask(0x47, b"\x1B\0\x02\x01\0\0\0\0"), real);
-        // CP1252 in a name and in a text, with bytes after the NUL.
+        // A name with a character in CP1252, and a text in CP1252 with bytes after its NUL.
         let value = [0x00, 0x00, 0x00, 0x00, 0x00, 0x4A, 0x93, 0x40];
         assert_eq!(ask(0x48, b"V.E.L\xE4nge\0"), value);
         assert_eq!(ask(0x48, b"V.E.text\0"), b"L\xE4nge 5\x80\0rest\0\0\0\0\0\0\0\0");
-        // The last index changes fastest.
+        // In the whole value of an array, the last index changes fastest.
         assert_eq!(ask(0x48, b"V.E.matrix[1][0]\0"), [21, 0]);
         assert_eq!(ask(0x48, b"V.E.cube[1][2][3]\0"), [23]);
         // An index before a dot is part of the name.
@@ -135,7 +139,7 @@ fn invalid_requests_return_error_numbers() {
         for group in [0xF005, 0x12_2303, 0x12_2305, 0x02_2304] {
             assert_eq!(refused(group, 0x44, b"V.E\0"), 0x702, "{group:#x}");
         }
-        // The service of a name is Read, not ReadWrite.
+        // A group of names is read by Read, so ReadWrite is rejected.
         assert_eq!(refused(0x12_2401, 0x44, b"V.E\0"), 0x701);
         assert_eq!(refused(CHANNEL_1, 0x7FFF, b"V.E\0"), 0x703);
         assert_eq!(refused(CHANNEL_1, 0x46, b"V.E.nobody\0"), 0x710);
@@ -153,13 +157,13 @@ fn invalid_requests_return_error_numbers() {
         assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02\xFF\xFF\xFF\xFF"), 0x705);
         assert_eq!(ask_for(sda, CHANNEL_1, 0x44, b"V.E\0", 3), Err(0x705));
         assert_eq!(ask_for(sda, CHANNEL_1, 0x48, b"V.E.test\0", 19), Err(0x705));
-        // The same on COM.
+        // Requests to COM with a wrong size or an unknown object.
         assert_eq!(read(com, 0x13_0101, 31, 84), Err(0x703));
         assert_eq!(read(com, 0x13_0101, 1, 83), Err(0x705));
         assert_eq!(read(com, 0x13_0105, 0, 4), Err(0x702));
         assert_eq!(read(com, 0x13_0206, 0, 4), Err(0x702));
         assert_eq!(read(com, 0x12_0101, 4, 1), Err(0x703));
-        // Another service, another port, another device.
+        // Requests with another service, at another port, and to another AMS NetId.
         assert_eq!(read(sda, CHANNEL_1, 0x44, 4), Err(0x701));
         assert_eq!(number(sda.write(CHANNEL_1, 0x44, b"V.E\0")), Err(0x701));
         assert_eq!(number(sda.write_control(ads::AdsState::Stop, 0)), Err(0x701));

@@ -1,5 +1,5 @@
-//! A capture contains exactly the bytes of the connections. `.ci/wireshark` reads a capture with
-//! Wireshark.
+//! A capture that the tools write contains exactly the bytes of their connections. `.ci/wireshark` reads
+//! such a capture with Wireshark.
 
 use std::fs;
 use std::net::SocketAddr;
@@ -17,7 +17,7 @@ use ads_cnc_conformance::simulator::{Cnc, Server};
 use pcap_parser::pcapng::Block;
 use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
-/// The bytes of a connection in each direction, with the ports of both ends.
+/// A TCP connection of a capture: the bytes in each direction, and the ports of client and server.
 #[derive(Debug, Default)]
 struct Flow {
     ports: (u16, u16),
@@ -33,7 +33,7 @@ fn long(bytes: &[u8], at: usize) -> u32 {
     u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap())
 }
 
-/// The sum of all words; all ones if the checksum is correct.
+/// The Internet checksum over these parts: all bits are 1 if the checksum in the parts is correct.
 fn sum(parts: &[&[u8]]) -> u16 {
     let bytes = parts.concat();
     let words = bytes.chunks(2).map(|two| [two[0], *two.get(1).unwrap_or(&0)]);
@@ -44,7 +44,7 @@ fn sum(parts: &[&[u8]]) -> u16 {
     sum as u16
 }
 
-/// The packets, which must be complete and in the order of their times.
+/// The packets of a capture; checks that they are complete and in the order of their times.
 fn packets(capture: &[u8]) -> Vec<Vec<u8>> {
     let mut reader = create_reader(1 << 20, capture).unwrap();
     let (mut packets, mut last) = (Vec::new(), (0, 0));
@@ -134,7 +134,7 @@ fn conversation(listen: SocketAddr) {
     let (mut sent, mut received) = (Vec::new(), Vec::new());
     let requests: [Request<'_>; 3] = [
         CountVariables::new(channel, Kind::V_E).into(),
-        // The value does not fit into one segment.
+        // This value does not fit into one TCP segment.
         ReadByName::new(channel, "V.E.largest").unwrap().into(),
         ReadByName::new(channel, "V.E.no such variable").unwrap().into(),
     ];

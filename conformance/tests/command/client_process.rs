@@ -1,5 +1,5 @@
-//! Clients as processes: running for the whole run or started for each action, crashing, hanging, or
-//! connecting by themselves.
+//! Clients as processes: clients that run for the whole run or are started for each action, that crash or
+//! hang, and clients that connect by themselves.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Command, Output, Stdio};
@@ -12,7 +12,7 @@ fn ads_cnc(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
 }
 
-/// The report of a run of this project's client, with its exit code.
+/// Runs the suite with this project's client; returns the exit code and the report.
 fn run(options: &str, args: &[&str]) -> (Option<i32>, Value) {
     let client = format!("\"{}\" client {options}", env!("CARGO_BIN_EXE_ads-cnc"));
     let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"], args].concat());
@@ -22,7 +22,7 @@ fn run(options: &str, args: &[&str]) -> (Option<i32>, Value) {
     (output.status.code(), report)
 }
 
-/// The failures of a case: requirement, found result, last received bytes.
+/// The failures of a case: the requirement, what was found, and the last received bytes.
 fn failures(report: &Value, id: &str) -> Vec<(String, String, Value)> {
     let cases = report["cases"].as_array().unwrap();
     let case = cases.iter().find(|case| case["id"] == id).unwrap();
@@ -44,7 +44,8 @@ fn a_running_client_passes_everything() {
     assert!(report["frames"].as_u64().unwrap() > 200);
 }
 
-/// After --max-fail, the other scenarios are not run, and the report states why.
+/// After the maximum number of failures (`--max-fail`), the other scenarios are not run, and the report
+/// states this reason.
 #[test]
 fn a_run_of_a_client_ends_after_enough_failures() {
     let (code, report) = run("--defect client.error-set", &["--seed", "1", "--max-fail", "2"]);
@@ -56,7 +57,7 @@ fn a_run_of_a_client_ends_after_enough_failures() {
     assert_eq!(failed.count(), 2);
 }
 
-/// A client that does not answer hello, or misspells an action in its answer, is reported in a few
+/// If a client does not answer hello, or misspells an action in its answer, the output is only a few
 /// lines.
 #[test]
 fn a_failed_start_is_reported_briefly() {
@@ -76,7 +77,7 @@ fn a_failed_start_is_reported_briefly() {
         assert!(parts.iter().all(|part| shown.contains(part)), "{shown}");
         assert!(shown.lines().count() <= 8, "{shown}");
     }
-    // Only the protocol of testees can be checked step by step.
+    // `--check-protocol` is only for testees.
     let output = ads_cnc(&["run", "--client", "exit 7", "--check-protocol"]);
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
@@ -88,7 +89,8 @@ fn a_client_started_for_each_action_passes() {
     assert!(report["cases"].as_array().unwrap().len() > 30);
 }
 
-/// A crash is reported with the bytes that caused it, and the run continues.
+/// The failure of a client that crashed contains the bytes that the client received last, and the run
+/// continues.
 #[test]
 fn a_crash_is_reported_with_its_bytes() {
     for options in ["--defect client.dies", "--once --defect client.dies"] {
@@ -104,7 +106,7 @@ fn a_crash_is_reported_with_its_bytes() {
     }
 }
 
-/// The traffic of a client is captured, and `check` detects the same error.
+/// The traffic of a client can be captured, and `check` detects the same error in the capture.
 #[test]
 fn the_traffic_of_a_client_is_captured() {
     let file = TestFile::new(".pcapng", b"");
@@ -119,7 +121,7 @@ fn the_traffic_of_a_client_is_captured() {
     assert!(found.any(|id| id == "GEN-4"), "{report:#}");
 }
 
-/// An answer that violates the protocol fails only the requirement of the protocol.
+/// If an answer violates the client protocol, only the requirement of the protocol fails.
 #[test]
 fn an_invalid_answer_fails_only_the_protocol() {
     let (code, report) = run("--defect client.garbles", &["--only", "VAR-14"]);
@@ -131,7 +133,7 @@ fn an_invalid_answer_fails_only_the_protocol() {
     assert!(failed.iter().all(|one| one["requirement"] == "CLIENT"), "{failed:#?}");
 }
 
-/// A wrong result follows from a request to the wrong port.
+/// If a request goes to the wrong port, the wrong result of the client is reported as a consequence.
 #[test]
 fn a_result_follows_from_the_request() {
     let (_, report) = run("--defect client.port", &["--only", "client-read-real"]);
@@ -163,7 +165,7 @@ fn a_hanging_client_is_reported_and_ended() {
     assert!(failures(&report, "client-name-more").is_empty());
 }
 
-/// Starting may take longer than the time limit of an action.
+/// A client may need longer to start than the time limit of an action.
 #[cfg(unix)]
 #[test]
 fn hello_has_time_to_start() {
@@ -174,7 +176,8 @@ fn hello_has_time_to_start() {
     assert_eq!(output.status.code(), Some(0), "{report:#}");
 }
 
-/// Two lines are not an answer, for either kind of client.
+/// A client that prints two lines for an action fails the protocol, whether it is started once or for
+/// each action.
 #[cfg(unix)]
 #[test]
 fn a_second_line_is_reported() {
@@ -200,7 +203,7 @@ fn a_second_line_is_reported() {
     }
 }
 
-/// The message that tells a running client to end.
+/// The message that tells a running client to exit.
 #[cfg(unix)]
 const BYE: &str = r#"{"cmd":"bye"}"#;
 
@@ -241,7 +244,7 @@ fn a_connecting_client_is_judged() {
     request.extend([1, 1, 0x13, 0, 0, 0, 0, 0, 4, 0, 0, 0]);
     let (code, report) = listen(&request);
     assert_eq!(code, Some(0), "{report:#}");
-    // The same request to the port of another task.
+    // The client sends the same request to the port of another task.
     request[12] = 0x28;
     let (code, report) = listen(&request);
     assert_eq!(code, Some(1));

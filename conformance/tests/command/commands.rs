@@ -1,4 +1,4 @@
-//! The README of this package names all commands, and no others.
+//! Tests that the README of this package names exactly the commands of `ads-cnc`.
 
 use std::collections::BTreeSet;
 use std::process::Command;

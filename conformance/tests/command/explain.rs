@@ -5,28 +5,29 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
-/// The examples, with bytes written by hand from the manuals.
+/// The examples that the manuals print, with their bytes copied by hand.
 mod printed {
-    /// Section 4.3.2.
+    /// A description of a variable: section 4.3.2.
     pub(crate) const DESCRIPTION: &str = "02 00 00 02  01 00 00 00  01 00 00 00  02 00 00 00 \
         01 00 00 00  02 00 00 00  56 2e 45 2e 56 61 72 69 61 62 6c 65 5f 33 00";
-    /// Section 2.1.1.
+    /// A descriptor of a COM object: section 2.1.1.
     pub(crate) const DESCRIPTOR: &str = "52 00 00 00  01 00 00 00  00 00  00 00  01 01 12 00 \
         03 00 00 00  6d 63 5f 61 63 74 69 76 65 5f 73 69 6e 67 6c 65 5f 62 6c 6f 63 6b 5f 72 \
         00 00 00 00 00 00 00 00  42 4f 4f 4c 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 \
         00 00 00 00 00 00 00 00 00 00 00 00";
-    /// Section 4.3.4, second example: 0x2001234, 0.
+    /// A read by handle: section 4.3.4, second example: handle 0x2001234, no indices.
     pub(crate) const HANDLE_READ: &str = "34 12 00 02  00 00 00 00";
-    /// Section 4.3.4, the result of the second example: 123 234 345 456 567.
+    /// The values that the second example of section 4.3.4 reads: 123 234 345 456 567.
     pub(crate) const VALUES: &str =
         "7b 00 00 00  ea 00 00 00  59 01 00 00  c8 01 00 00  37 02 00 00";
-    /// Section 2.2.2, the HLD of channel 1.
+    /// An object address: section 2.2.2, the HLD of channel 1.
     pub(crate) const OBJECT_ADDRESS: &str = "01 33 12 00  00 00 00 00";
-    /// Section 4.3.3, `V.E.vartest`, in a frame from 192.0.2.20.1.1:32768 to 192.0.2.10.1.1:552.
+    /// The request of section 4.3.3 for the handle of `V.E.vartest`, in a frame from 192.0.2.20.1.1, port
+    /// 32768, to 192.0.2.10.1.1, port 552.
     pub(crate) const REQUEST_FRAME: &str = "00 00 3c 00 00 00 \
         c0 00 02 0a 01 01 28 02 c0 00 02 14 01 01 00 80 09 00 04 00 1c 00 00 00 00 00 00 00 07 00 00 00 \
         01 23 12 00 46 00 00 00 04 00 00 00 0c 00 00 00 56 2e 45 2e 76 61 72 74 65 73 74 00";
-    /// The reply to it: 0x2000004.
+    /// The reply to `REQUEST_FRAME`, with the handle 0x2000004.
     pub(crate) const REPLY_FRAME: &str = "00 00 2c 00 00 00 \
         c0 00 02 14 01 01 00 80 c0 00 02 0a 01 01 28 02 09 00 05 00 0c 00 00 00 00 00 00 00 07 00 00 00 \
         00 00 00 00 04 00 00 00 04 00 00 02";
@@ -41,7 +42,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// The output, followed by the exit code.
+/// The stdout and stderr of a call, followed by its exit code.
 fn shown(args: &[&str]) -> String {
     let output = ads_cnc(args);
     let code = output.status.code().unwrap();
@@ -123,7 +124,7 @@ fn errors_are_marked() {
     }
 }
 
-/// Addresses with several meanings.
+/// Addresses whose parts have several meanings.
 #[test]
 fn addresses() {
     let places = [
@@ -167,12 +168,13 @@ fn wrong_usage_is_rejected() {
         assert!(said.contains(says), "{args:?}: {said}");
         assert!(output.stdout.is_empty(), "{args:?}");
     }
-    // An unknown address is neither explained nor an error.
+    // An unknown address is not explained, but is not an error either: exit code 3.
     let unknown = ads_cnc(&["--group", "0xf005", "--offset", "0", "00"]);
     assert_eq!(unknown.status.code(), Some(3));
 }
 
-/// The same bytes from an argument, from stdin in hex and in binary, and from a file.
+/// The same bytes have the same explanation from an argument, from stdin in hex and in binary, and from
+/// a file.
 #[test]
 fn all_inputs_give_the_same_result() {
     let bytes = [0x34, 0x12, 0, 2, 0, 0, 0, 0];
@@ -197,7 +199,7 @@ fn all_inputs_give_the_same_result() {
     assert_eq!(stdin(&["--file", "-", "--hex"], b"3412000200000000"), from_hex);
 }
 
-/// An empty file does not match every stream that may be empty.
+/// An empty file is an error, although some streams may be empty.
 #[test]
 fn an_empty_file_is_an_error() {
     let output = ads_cnc(&["--file", if cfg!(windows) { "NUL" } else { "/dev/null" }]);
@@ -206,7 +208,8 @@ fn an_empty_file_is_an_error() {
     assert!(why.starts_with("ads-cnc: no bytes are given\n"), "{why}");
 }
 
-/// A pipe gets no escape sequences, and the bytes add none even with colour.
+/// Output to a pipe contains no escape sequences. With colour, the explained bytes still cannot add
+/// escape sequences.
 #[test]
 fn colour_is_only_for_terminals() {
     let args = ["--stream", "element-text", "1b 5b 32 4a 00"];

@@ -1,4 +1,4 @@
-//! The gate permits only allowed frames, for any bytes.
+//! Whatever the bytes of a frame are, the gate permits the frame only if it is allowed.
 
 use crate::common::harmless::{is_harmless, number};
 use ads_cnc_conformance::gate::{self, Allowed, Gate, Moment};
@@ -8,7 +8,7 @@ use proptest::sample::select;
 
 const NET_ID: [u8; 6] = [192, 0, 2, 7, 1, 1];
 
-/// A file with one entry of each kind.
+/// A file for `--allow-write` with one entry of each kind.
 const FILE: &str = r#"
 target = "192.0.2.7.1.1"
 expires = 2026-05-04T17:30:00Z
@@ -44,7 +44,7 @@ fn frame(net_id: [u8; 6], port: u16, command: u16, flags: u16, payload: &[u8]) -
     frame
 }
 
-/// Frames similar to permitted ones: addresses of functions and neighbouring ones.
+/// Frames that are similar to permitted frames: with addresses of functions, and addresses near them.
 fn near() -> impl Strategy<Value = Vec<u8>> {
     let net_id = select(vec![NET_ID, [127, 0, 0, 1, 1, 1]]);
     let port = prop_oneof![9 => 551..554_u16, 1 => any::<u16>()];
@@ -70,7 +70,7 @@ fn near() -> impl Strategy<Value = Vec<u8>> {
         ]).prop_map(<[u8]>::to_vec),
         1 => vec(any::<u8>(), 0..40),
     ];
-    // Lengths are sometimes wrong.
+    // The length fields are sometimes wrong.
     let lie = prop_oneof![9 => Just(0_u32), 1 => any::<u32>()];
     (net_id, port, command, flags, group, offset, data, lie).prop_map(
         |(net_id, port, command, flags, group, offset, data, lie)| {
@@ -91,7 +91,7 @@ fn near() -> impl Strategy<Value = Vec<u8>> {
     )
 }
 
-/// Writes that [`FILE`] allows, and queries.
+/// Frames that pass: writes that [`FILE`] allows, and queries.
 fn good() -> Vec<Vec<u8>> {
     let service = |port, command, group: u32, offset: u32, data: &[u8]| {
         let len = u32::try_from(data.len()).unwrap().to_le_bytes();
@@ -113,7 +113,7 @@ fn good() -> Vec<Vec<u8>> {
     ]
 }
 
-/// A permitted frame with up to two changed bytes.
+/// A frame that passes, with up to two bytes changed.
 fn damaged() -> impl Strategy<Value = Vec<u8>> {
     let change = (any::<prop::sample::Index>(), 0..8_u32);
     (select(good()), vec(change, 0..3)).prop_map(|(mut frame, changes)| {
@@ -129,7 +129,7 @@ fn frames() -> impl Strategy<Value = Vec<u8>> {
     prop_oneof![near(), damaged()]
 }
 
-/// Whether the bytes are exactly one frame according to the lengths.
+/// Whether the bytes are exactly one frame according to its length fields.
 fn is_whole(frame: &[u8]) -> bool {
     let (after_tcp, after_ams) = (number(frame, 2) as usize, number(frame, 26) as usize);
     frame[..2] == [0, 0] && after_tcp + 6 == frame.len() && after_ams + 38 == frame.len()
@@ -175,7 +175,7 @@ proptest! {
         prop_assert!(!passes || is_harmless(&frame) || is_allowed(&frame), "{frame:02x?}");
         let late = gate.check(&frame, moment("2026-05-04T17:30:00Z")).is_ok();
         prop_assert!(!late || is_harmless(&frame), "{frame:02x?}");
-        // Frames that pass by default also pass with a file.
+        // A frame that passes without a file also passes with a file.
         prop_assert!(passes || gate::check(&frame).is_err());
     }
 
@@ -192,7 +192,8 @@ proptest! {
         }
     }
 
-    /// A file that permits malformed requests does not allow these frames.
+    /// A file that permits malformed requests still allows no commands that are never sent, no other
+    /// target, and no documented writes.
     #[test]
     fn permitted_malformed_requests_have_limits(frame in frames()) {
         let (head, _) = FILE.split_once("[[").unwrap();
@@ -202,13 +203,13 @@ proptest! {
             let command = u16::from_le_bytes([frame[22], frame[23]]);
             prop_assert!(!(5..9).contains(&command), "{frame:02x?}");
             prop_assert!(is_harmless(&frame) || frame[6..12] == NET_ID, "{frame:02x?}");
-            // A documented write at its port is still rejected.
+            // A documented write that the file does not name is still rejected.
             prop_assert!(!is_allowed(&frame), "{frame:02x?}");
         }
     }
 }
 
-/// The strategy generates frames of every kind that pass, and frames that are rejected.
+/// The strategy generates frames of every kind that passes, and frames that are rejected.
 #[test]
 fn the_strategy_covers_both_results() {
     use proptest::strategy::ValueTree as _;

@@ -14,9 +14,9 @@ use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 /// The task that has the position controller.
 #[derive(Clone, Copy, Debug)]
 enum Only {
-    /// GEO; SDA rejects it.
+    /// Only GEO has the class; SDA rejects requests for the class.
     Geo,
-    /// No task; the port of GEO does not exist.
+    /// No task has the class, and the port of GEO does not exist.
     Nobody,
 }
 
@@ -46,7 +46,7 @@ fn cnc(only: Only) -> SocketAddr {
     })
 }
 
-/// The reply to a request.
+/// The reply frame to a request with this header.
 fn to(asked: AmsHeader, error: AdsError, data: &[u8]) -> Vec<u8> {
     let header = AmsHeader { error, ..asked.response() };
     FrameRef::new(header, data).unwrap().encode_to_vec().unwrap()
@@ -78,7 +78,7 @@ fn classes_missing_at_sda_are_found_at_geo() {
     let object = &value["objects"][0];
     assert_eq!((&object["port"], &object["value"]), (&551.into(), &33.5.into()));
 
-    // No entry allows writes to GEO.
+    // No entry of a file of `--allow-write` can allow a write to GEO.
     let set = call(addr, &[&["set"], &place[..], &["1"]].concat());
     let why = text(&set.stderr);
     assert_eq!(set.status.code(), Some(4), "{why}");

@@ -1,5 +1,5 @@
-//! Runs that write and are interrupted, or whose restoring writes are lost or rejected: every changed
-//! value is restored, or reported as left changed.
+//! Runs that write and are interrupted by a signal, or whose writes that restore a value are lost or
+//! rejected: every changed value is restored, or reported as left changed.
 
 #![cfg(unix)]
 
@@ -37,7 +37,7 @@ struct Bench {
     server: Server,
     allow: TestFile,
     json: TestFile,
-    /// The timeout in milliseconds.
+    /// The timeout of the run for a reply, in milliseconds.
     timeout: u32,
 }
 
@@ -94,21 +94,23 @@ fn verdicts(report: &Value) -> Vec<&str> {
     cases.iter().map(|case| case["verdict"].as_str().unwrap()).collect()
 }
 
-/// Runs the tool with a signal at the nth write, before the CNC receives it or after the CNC replied.
+/// Runs the tool and sends it a signal at the nth write: before the CNC receives the write, or after the
+/// CNC has replied to it.
 fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) -> Output {
     let process = Arc::new(AtomicU32::new(0));
     let (to, mut writes) = (Arc::clone(&process), 0);
     let addr = proxy(bench.server.addr(), move |frame| {
         let was = writes;
         writes += usize::from(is_write(frame));
-        // Even: before the CNC receives the write; odd: at the next request.
+        // For an even number, the signal is sent before the CNC receives the write; for an odd
+        // number, at the next request.
         let is_due = match nth.is_multiple_of(2) {
             true => was < nth && writes == nth,
             false => was == nth,
         };
         if is_due && let id @ 1.. = to.swap(0, Ordering::SeqCst) {
             signal(name, id);
-            // Let the tool handle the signal before the next reply arrives.
+            // Gives the tool time to handle the signal before the next reply arrives.
             thread::sleep(Duration::from_millis(50));
         }
         Deed::Pass
@@ -118,7 +120,7 @@ fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) ->
     tool.wait_with_output().unwrap()
 }
 
-/// After a signal at any time, the CNC has its old values, and the reports exist.
+/// After a signal at any write, all values of the CNC are restored, and the report is written.
 #[test]
 fn a_signal_at_any_write_leaves_nothing_changed() {
     let each = |name: &'static str, writes: &mut dyn Iterator<Item = usize>| {
@@ -147,8 +149,8 @@ fn a_signal_at_any_write_leaves_nothing_changed() {
     });
 }
 
-/// The four ways to write a value, each with a case that only writes it; its third write restores the
-/// value.
+/// The four ways to write a value: the value, the entry that allows its writes, and a case that writes
+/// only this value. The third write of the case restores the value.
 fn ways() -> [(&'static str, String, &'static str); 4] {
     let name = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n".to_owned();
     let object = "[[object]]\nchannel = 1\nname = \"mc_command_single_block_w\"\n".to_owned();
@@ -161,10 +163,10 @@ fn ways() -> [(&'static str, String, &'static str); 4] {
     ]
 }
 
-/// The writes and their handling. The first write contains the original value.
+/// The data of the writes, and what the proxy did with each. The first write contains the original value.
 type Writes = Arc<Mutex<Vec<(Vec<u8>, Deed)>>>;
 
-/// A CNC that accepts two writes; `deed` determines the handling of the following writes.
+/// Starts a proxy that forwards the first two writes; `deed` decides about the following writes.
 fn hostile(bench: &Bench, deed: impl Fn(usize) -> Deed + Send + 'static) -> (SocketAddr, Writes) {
     let writes = Writes::default();
     let keep = Arc::clone(&writes);
@@ -180,7 +182,7 @@ fn hostile(bench: &Bench, deed: impl Fn(usize) -> Deed + Send + 'static) -> (Soc
     (addr, writes)
 }
 
-/// A restoring write that is lost or rejected once is repeated.
+/// If the write that restores a value is lost or rejected once, it is repeated.
 #[test]
 fn a_lost_or_rejected_restore_is_repeated() {
     for (what, table, case) in ways() {
@@ -190,22 +192,23 @@ fn a_lost_or_rejected_restore_is_repeated() {
                 hostile(&bench, move |number| if number == 0 { deed } else { Deed::Pass });
             let output = bench.tool(addr, &[case]).output().unwrap();
             let said = text(&output.stderr);
-            // The device fails, but no value is left changed.
+            // A requirement fails, but no value is left changed.
             assert_eq!(output.status.code(), Some(1), "{what} {case} {deed:?}: {said}");
             assert!(!said.contains("LEFT CHANGED"), "{what} {case} {deed:?}: {said}");
             let writes = writes.lock().unwrap();
             let restored = writes.iter().rev().find(|(_, deed)| *deed != Deed::Lose).unwrap();
             assert_ne!(writes[1].0, writes[0].0, "nothing was changed");
             assert_eq!(restored.0, writes[0].0, "{what} {case} {deed:?}: {said}");
-            // A write whose reply was lost is not repeated if it was executed.
+            // If only the reply to the write was lost, the run reads the value and does not repeat the
+            // write.
             let expected = if deed == Deed::LoseAnswer { 3 } else { 4 };
             assert_eq!(writes.len(), expected, "{what} {case} {deed:?}");
         }
     }
 }
 
-/// A device confirms a restoring write without executing it, and the reply to one of the following
-/// reads is lost: the lost read proves nothing.
+/// A device confirms a write that restores a value without executing it, and the reply to one of the
+/// following reads is lost: the value is still reported as left changed.
 #[test]
 fn a_lost_read_is_not_taken_for_a_changing_value() {
     thread::scope(|scope| {
@@ -236,8 +239,8 @@ fn lost_read(bench: &Bench, lost: usize, (what, case): (&str, &str)) {
     assert!(last.starts_with(&format!("LEFT CHANGED: {what}")), "{case} {lost}: {said}");
 }
 
-/// A restoring write that always fails is tried a limited number of times, and every report names the
-/// value.
+/// A write that restores a value and always fails is tried a limited number of times. Then every format
+/// of the report names the value.
 #[test]
 fn every_report_names_a_value_left_changed() {
     for (what, table, case) in ways() {
@@ -254,7 +257,8 @@ fn every_report_names_a_value_left_changed() {
         let (shown, said) = (text(&output.stdout), text(&output.stderr));
         assert_eq!(output.status.code(), Some(6), "{what} {case}: {said}");
         let writes = writes.lock().unwrap();
-        // One attempt of the case, and two times five.
+        // After two writes that change the value, the case tries once to restore it, and the run two
+        // times five times.
         assert_eq!(writes.len(), 2 + 1 + 5 + 5, "{what} {case}");
 
         let line = said.lines().last().unwrap();
@@ -276,24 +280,24 @@ fn every_report_names_a_value_left_changed() {
         assert!(first.starts_with("name=\"left-changed\"") && first.contains(line), "{first}");
         let badge: Value = serde_json::from_str(&of(3)).unwrap();
         let badge = badge["message"].as_str().unwrap();
-        // A badge contains 40 characters of each value.
+        // A badge contains at most 40 characters of each value.
         let front =
             |text: &str| text.get(..40).map_or(text.to_owned(), |front| format!("{front}…"));
         let named = format!("left changed: {what}");
         assert!(badge.starts_with(&named) && badge.contains(&front(was)), "{badge}");
-        // The formats that are converted later are the same.
+        // `report` prints the same line for the JSON report.
         let again = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["report", &json]).output();
         assert!(text(&again.unwrap().stdout).lines().any(|shown| shown == line));
     }
 }
 
-/// The original value of the value that is left changed.
+/// The original bytes of the value that the report names as left changed.
 fn old_value(report: &Value) -> Vec<u8> {
     let was = report["left_changed"][0]["was"].as_str().unwrap();
     was.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect()
 }
 
-/// After a value could not be restored, nothing else is written.
+/// After a value could not be restored, the run writes no other value.
 #[test]
 fn no_other_value_is_changed_after_a_failed_restore() {
     let bench = Bench::of_variables(&NAMES);
@@ -302,14 +306,15 @@ fn no_other_value_is_changed_after_a_failed_restore() {
     assert_eq!(output.status.code(), Some(6));
     let writes = writes.lock().unwrap();
     let report = bench.report();
-    // The run writes by handle first, and then by name.
+    // From the third write on, the run only writes the original value.
     assert!(writes[2..].iter().all(|(data, _)| data.ends_with(&old_value(&report))));
     let notes = report["cases"].as_array().unwrap().iter().filter_map(|case| case["note"].as_str());
     let note = "no more writes are sent after a value could not be restored";
     assert_eq!(notes.filter(|one| one.contains(note)).count(), CASES.len() - 1, "{report}");
 }
 
-/// The wait for a device that disappears during a run is limited.
+/// If a device disappears during a run, the run waits only for a limited time, and reports the value that
+/// is left changed.
 #[test]
 fn a_lost_device_is_reported() {
     for deed in [Deed::Close, Deed::Lose] {
@@ -330,8 +335,8 @@ fn a_lost_device_is_reported() {
     }
 }
 
-/// After a signal while restoring writes are rejected or lost, the run continues to restore values and
-/// reports those left changed. A lost write fails.
+/// If a signal arrives while a write that restores a value is lost, the run continues to restore it. The
+/// lost write is a failure; if the following writes are rejected, the value is reported as left changed.
 #[test]
 fn a_signal_does_not_end_the_restoration() {
     for (deed, code) in [(Deed::Pass, 1), (Deed::Reject, 6)] {
@@ -357,7 +362,7 @@ fn a_signal_does_not_end_the_restoration() {
     }
 }
 
-/// A second signal ends the run at once, with the values left changed.
+/// A second signal ends the run at once; the last line of stderr names the value left changed.
 #[test]
 fn a_second_signal_ends_at_once() {
     let bench = Bench { timeout: 20_000, ..Bench::of_variables(&["V.E.vartest"]) };
@@ -380,11 +385,11 @@ fn a_second_signal_ends_at_once() {
     assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{said}");
 }
 
-/// Elements and objects are restored after a signal at any write, too.
+/// After a signal at any write, the contents of elements and objects are restored, too.
 #[test]
 fn objects_and_elements_are_restored_after_a_signal() {
     for (name, table, case) in ways().into_iter().skip(2) {
-        // Each case has three writes: the current value, another value, and the original value.
+        // Each case writes three times: the original value, another value, and the original value.
         for nth in 1..=3 {
             let bench = Bench::start(&table);
             let value = || {
@@ -398,7 +403,7 @@ fn objects_and_elements_are_restored_after_a_signal() {
             let before = value();
             let output = interrupted(&bench, "INT", nth, &[case]);
             let said = text(&output.stderr);
-            // With the answer to the last one it is over.
+            // After the third write, the run may end normally before it handles the signal.
             let code = output.status.code();
             assert!(code == Some(3) || nth == 3 && code == Some(0), "write {nth}: {said}");
             assert_eq!(value(), before, "{name} at write {nth}: {said}");

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use crate::common::file::TestFile;
 use crate::common::signal;
 
-/// Maximum time of any wait.
+/// Maximum time for which this test waits for anything.
 const WAIT_MAX: Duration = Duration::from_secs(30);
 
 fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
@@ -20,14 +20,15 @@ fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
     }
 }
 
-/// Whether a process runs; a zombie does not.
+/// Whether a process runs; a zombie counts as ended.
 fn runs(id: &str) -> bool {
     let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
     let state = String::from_utf8(shown.stdout).unwrap();
     !state.trim().is_empty() && !state.trim_start().starts_with('Z')
 }
 
-/// Runs a command that ignores stdin and signals and starts another process; sends these signals.
+/// Runs the suite with a testee or client that ignores stdin and signals and starts another process, and
+/// sends these signals to the suite. Returns the exit code, the JSON report and stderr.
 fn interrupted(option: &str, greeting: &str, names: &[&str]) -> (Option<i32>, TestFile, String) {
     let (ids, json) = (TestFile::new(".txt", b""), TestFile::new(".json", b""));
     let command = format!(
@@ -83,7 +84,7 @@ fn a_signal_ends_a_client_and_its_processes() {
     }
 }
 
-/// The processes also end if the run ends at once.
+/// The processes also end if a second signal ends the run at once.
 #[test]
 fn two_signals_also_end_the_processes() {
     for option in ["--testee", "--client"] {

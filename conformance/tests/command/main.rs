@@ -1,4 +1,5 @@
-//! Tests that run the built command, or connect to it. They are one program, because linking takes longer than most of them.
+//! Tests that run the built command, or connect to it. They are one program, because linking a program
+//! takes longer than most of the tests.
 
 #[path = "../common/mod.rs"]
 mod common;

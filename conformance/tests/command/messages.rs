@@ -107,7 +107,7 @@ fn a_statement_has_one_of_the_known_formats() {
     }
 }
 
-/// The help that most users read fits on a screen.
+/// The short help of `run`, which most users read, fits on a screen.
 #[test]
 fn the_short_help_of_run_is_short() {
     let (_, shown, _) = said(&["run", "-h"]);

@@ -1,5 +1,6 @@
-//! Only values in the file for `--allow-write` are written, whatever handles and addresses the device
-//! returns. The log of the simulated CNC, after its defect, counts the writes.
+//! The suite writes only values that the file for `--allow-write` names, whatever handles and addresses
+//! the device returns. The log of the simulated CNC contains the writes that the CNC executes, after the
+//! defect has changed them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, BufRead as _, BufReader, Read as _, Write};
@@ -37,7 +38,7 @@ impl Logged {
         Self { serve, log }
     }
 
-    /// The number of writes to each variable, parameter and content.
+    /// Ends the CNC; returns the number of writes to each variable, parameter and content.
     fn end(self) -> BTreeMap<String, usize> {
         drop(self.serve);
         let mut writes = BTreeMap::new();
@@ -49,7 +50,7 @@ impl Logged {
     }
 }
 
-/// Runs the cases that write, with this file.
+/// Runs these cases, which write, with this file.
 fn run(addr: &str, file: &TestFile, cases: &[&str]) -> Output {
     let only: Vec<&str> = cases.iter().flat_map(|case| ["--only", case]).collect();
     let target = ["--target", addr, "--net-id", "127.0.0.1.1.1", "--timeout", "500"];
@@ -58,7 +59,8 @@ fn run(addr: &str, file: &TestFile, cases: &[&str]) -> Output {
     command.arg("run").args(target).args(allow).args(only).output().unwrap()
 }
 
-/// A file with one entry, the entry as it appears in the log, and the cases that write such values.
+/// A value that a file names: the entry of the file, the value as the log names it, and the cases that
+/// write such values.
 struct Named {
     table: &'static str,
     log: &'static str,
@@ -81,20 +83,20 @@ const OBJECT: Named = Named {
     cases: &["write-objects", "write-objects-by-index"],
 };
 
-/// Runs against a CNC with this defect: the number of writes to the named value, and the writes to
-/// others.
+/// Runs the cases against a CNC with this defect. Returns the number of writes to the named value, and
+/// the writes to other values.
 fn tried(defect: &str, named: &Named) -> (usize, BTreeMap<String, usize>) {
     let cnc = Logged::start(&["--defect", defect]);
     let file = TestFile::allowing(named.table);
     let output = run(&cnc.serve.addr, &file, named.cases);
-    // A CNC that writes wrongly may be left changed, which is exit code 6.
+    // The values of a CNC that executes writes wrongly may be left changed: exit code 6.
     assert!(matches!(output.status.code(), Some(0..=4 | 6)), "{defect}: {output:?}");
     let mut writes = cnc.end();
     (writes.remove(named.log).unwrap_or(0), writes)
 }
 
-/// Tries defects; returns the writes to values that are not named, and the number of defects with
-/// writes to the named value.
+/// Tries defects. Returns the writes to values that are not named, and the number of defects with which
+/// the named value was written.
 fn all(defects: Vec<(&'static str, &'static Named)>) -> (BTreeMap<String, usize>, usize) {
     let (queue, found) = (Mutex::new(defects.into_iter()), Mutex::new((BTreeMap::new(), 0)));
     thread::scope(|scope| {
@@ -121,7 +123,7 @@ fn seeds(is: impl Fn(&str) -> bool, named: &'static Named) -> Vec<(&'static str,
     seeds.map(|seed| (seed.id.as_str(), named)).collect()
 }
 
-/// Every defect of handles: returned by name, described, stored and interpreted.
+/// Tries every defect of handles: of handles returned by name, in descriptions, stored and decoded.
 #[test]
 fn wrong_handles_write_nothing_else() {
     let is = |id: &str| id.contains("handle");
@@ -129,15 +131,16 @@ fn wrong_handles_write_nothing_else() {
     let defects = [seeds(is, &VARIABLE), seeds(of_array, &ARRAY)].concat();
     assert!(defects.len() > 50, "{}", defects.len());
     let (mut others, written) = all(defects);
-    // This defect returns correct handles, but interprets the handle of a write as another one.
+    // A CNC with this defect returns correct handles, but decodes the handle in a write as another
+    // handle.
     let misread = "variable-handle-write.handle.flip: variable channel=1 name=V.E.Variable_2";
     assert!(others.remove(misread).is_some_and(|count| count < 3), "{others:?}");
     assert!(others.is_empty(), "{others:#?}");
     assert!(written > 40, "{written}");
 }
 
-/// Every defect of descriptors of objects, of their lists and of addresses, except those that execute
-/// an allowed write elsewhere.
+/// Tries every defect of descriptors of objects, of their lists and of addresses, except the defects
+/// that execute an allowed write at another address.
 #[test]
 fn wrong_addresses_write_nothing_else() {
     let is = |id: &str| {
@@ -166,7 +169,7 @@ impl Write for Lines {
     }
 }
 
-/// The writes in the log of a CNC of this process with this defect.
+/// The writes in the log of a simulated CNC in this process with this defect.
 fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
     let lines = Lines::default();
     let writer = lines.clone();
@@ -192,15 +195,15 @@ fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
     lines.lines().filter_map(|line| Some(line.split_once("write to a ")?.1.to_owned())).collect()
 }
 
-/// The only defects that write values that the file does not name: they return correct handles and
-/// addresses, but interpret those of an allowed write as others.
+/// The only defects with which values are written that the file does not name: the CNC returns correct
+/// handles and addresses, but decodes the handle or address of an allowed write as another one.
 const MISREAD: [&str; 3] = [
     "variable-handle-write.handle.flip",
     "write-request.data.flip",
     "write-request.index_offset.flip",
 ];
 
-/// Every defect of the CNC, in this process.
+/// Tries every defect of a CNC with a simulated CNC in this process.
 #[test]
 fn no_other_defect_writes_other_values() {
     let seeds: Vec<_> = faults::all().iter().filter(|seed| seed.is_for_cnc()).collect();
@@ -240,7 +243,8 @@ fn frame(stream: &mut TcpStream) -> Option<Vec<u8>> {
     Some(frame)
 }
 
-/// A device that replies like the CNC, except for the changes to replies.
+/// Starts a proxy that forwards the replies of the CNC after `change` has changed them. Returns its
+/// address.
 fn lying(cnc: &str, change: fn(&[u8], &mut [u8])) -> SocketAddr {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let (addr, cnc) = (listener.local_addr().unwrap(), cnc.parse().unwrap());
@@ -262,7 +266,7 @@ fn lying(cnc: &str, change: fn(&[u8], &mut [u8])) -> SocketAddr {
     addr
 }
 
-/// The offset of the data of a reply, after the headers, the result and the length.
+/// The offset of the data in a reply frame, after the headers, the result and the length.
 const DATA: usize = 46;
 
 fn is_asked(request: &[u8], group: u32, offset: u32) -> bool {
@@ -275,7 +279,7 @@ fn put(reply: &mut [u8], at: usize, value: u32) {
     }
 }
 
-/// Returns the address of mc_command_single_block_w for example_subroutine_w.
+/// Changes the list of objects: example_subroutine_w has the address of mc_command_single_block_w.
 fn shares_an_address(request: &[u8], reply: &mut [u8]) {
     if request.len() < 42 || number(request, 38) & !0x10_0000 != 0x3_0101 {
         return;
@@ -301,8 +305,8 @@ fn handle_of_another(cnc: &str) -> u32 {
 
 const OTHER: u32 = 0x4040_0003;
 
-/// The device returns the handle of one variable for another name, for all names, and also in the
-/// descriptions by name.
+/// The device returns the handle of another variable: for all names, for one name, and for one name also
+/// in its description by name. The gate rejects the write by handle.
 #[test]
 fn a_handle_of_another_variable_is_not_written() {
     let every: fn(&[u8], &mut [u8]) = |request, reply| {
@@ -328,13 +332,13 @@ fn a_handle_of_another_variable_is_not_written() {
         let file = TestFile::allowing(ARRAY.table);
         let output = run(&addr, &file, &["write-by-handle", "write-elements-by-handle"]);
         let shown = String::from_utf8(output.stdout).unwrap();
-        // The write is rejected for safety, without a verdict on the device.
+        // The gate rejects the write for safety; no requirement fails.
         assert_eq!(output.status.code(), Some(4), "{shown}");
         assert!(shown.contains("which is not in the file"), "{shown}");
         assert!(!shown.contains("FAIL"), "{shown}");
         assert_eq!(cnc.end(), BTreeMap::new());
 
-        // A write by name is still allowed.
+        // The file still allows the write by name.
         let cnc = Logged::start(&[]);
         let addr = lying(&cnc.serve.addr, change).to_string();
         run(&addr, &file, &["write-by-name"]);
@@ -344,7 +348,8 @@ fn a_handle_of_another_variable_is_not_written() {
     }
 }
 
-/// On a new connection, the handle is confirmed again before the write that restores the value.
+/// After a lost connection, the run confirms the handle on the new connection before it restores the
+/// value.
 #[test]
 fn a_lost_connection_leaves_nothing_changed() {
     let cnc = Logged::start(&[]);
@@ -359,7 +364,7 @@ fn a_lost_connection_leaves_nothing_changed() {
                 let Some(reply) = frame(&mut cnc) else { break };
                 client.write_all(&reply).unwrap();
                 writes += usize::from(is_asked(&request, 0x12_2301, 0x49));
-                // After the write of another value.
+                // Closes the connection after the second write, which writes another value.
                 if writes == 2 && connection == 1 {
                     break;
                 }
@@ -384,8 +389,8 @@ fn a_lost_connection_leaves_nothing_changed() {
     assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
 }
 
-/// After a lost connection, the list contains the object's address for another object, too: the value
-/// is not restored, and the last line contains the reason.
+/// After a lost connection, the list also contains the address of the changed object for another object:
+/// the run does not restore the value, and the last line contains the reason.
 #[test]
 fn a_value_that_is_not_restored_has_a_reason() {
     let cnc = Logged::start(&[]);
@@ -406,7 +411,7 @@ fn a_value_that_is_not_restored_has_a_reason() {
                     break;
                 }
                 writes += usize::from(number(&request, 22) & 0xFFFF == 3);
-                // After the write of another value.
+                // Closes the connection after the second write, which writes another value.
                 if writes == 2 && connection == 1 {
                     break;
                 }
@@ -423,7 +428,7 @@ fn a_value_that_is_not_restored_has_a_reason() {
     assert!(last.contains("(not restored: ") && last.ends_with(why), "{said}");
 }
 
-/// The list contains two objects with the same address.
+/// A list contains two objects with the same address: the write by name of the object is rejected.
 #[test]
 fn an_address_of_two_objects_is_not_written() {
     let cnc = Logged::start(&[]);

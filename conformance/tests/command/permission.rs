@@ -1,5 +1,5 @@
-//! The writes that a file for `--allow-write` permits, and its expiry. The tests run the commands of a
-//! user, and examine the writes in the simulated CNC.
+//! The writes that a file for `--allow-write` permits, and the expiry of the file. The tests run the
+//! commands as a user does, and count the writes that the simulated CNC receives.
 
 use std::collections::BTreeSet;
 use std::process::{Command, Output, Stdio};
@@ -27,7 +27,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A file that expires after `seconds`.
+/// A file for `--allow-write` that expires after `seconds`.
 fn expiring(table: &str, seconds: u64) -> TestFile {
     let at = Moment::now().after(Duration::from_secs(seconds));
     let head = format!("target = \"127.0.0.1.1.1\"\nexpires = {at}\n");
@@ -36,7 +36,7 @@ fn expiring(table: &str, seconds: u64) -> TestFile {
 
 const VARIABLE: &str = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n";
 
-/// Other names, channels, ranks and axes than those of the variable.
+/// Entries with another name, channel, rank or axis than that of the variable do not permit its write.
 #[test]
 fn other_entries_permit_nothing() {
     let cnc = Serve::start(&[]);
@@ -78,7 +78,7 @@ fn other_entries_permit_nothing() {
         let file = TestFile::allowing(table);
         let set = ["set", "V.E.vartest", "1", "--allow-write", file.path()];
         let refused = against(&cnc.addr, &set);
-        // Some of them are invalid names, so that the whole file is rejected.
+        // Some entries contain an invalid name, so that the whole file is rejected.
         assert!(matches!(refused.status.code(), Some(2 | 4)), "{table}: {refused:?}");
         assert!(!refused.stderr.is_empty(), "{table}");
         let value = against(&cnc.addr, &["get", "V.E.vartest"]);
@@ -89,7 +89,7 @@ fn other_entries_permit_nothing() {
     assert_eq!(set.status.code(), Some(0), "{}", text(&set.stderr));
 }
 
-/// A missing file is wrong usage, even for a command without a target.
+/// A file for `--allow-write` that does not exist is wrong usage, even for a command without a target.
 #[test]
 fn a_missing_file_is_an_error() {
     let program = TestFile::new(".nc", b"N10 G01 X1\r\n");
@@ -107,7 +107,7 @@ fn a_missing_file_is_an_error() {
     }
 }
 
-/// A stream ends in the second in which its file expires, and reports the accepted lines.
+/// `stream` ends in the second in which its file expires, and reports the lines that the CNC accepted.
 #[test]
 fn a_stream_ends_when_its_file_expires() {
     let packets = Arc::new(Mutex::new(0));
@@ -117,7 +117,7 @@ fn a_stream_ends_when_its_file_expires() {
         thread::sleep(Duration::from_millis(400));
         Answer::Result(AdsError::NO_ERROR)
     });
-    // 17 packets.
+    // A program of 17 packets.
     let program: String = (0..1000).map(|line| format!("N{line}0 G01 X{line}\n")).collect();
     let (program, file) = (TestFile::new(".nc", program.as_bytes()), expiring(STREAM, 3));
     let args = ["stream", program.path(), "--allow-write", file.path()];
@@ -140,7 +140,7 @@ fn nothing_is_changed_shortly_before_the_file_expires() {
     let (cnc, json) = (Serve::start(&[]), TestFile::new(".json", b""));
     let file = expiring(VARIABLE, 60);
     let addr = proxy(cnc.addr.parse().unwrap(), |frame| {
-        // A write of 4711 is no change, because that is the value.
+        // A write of 4711 changes nothing, because the value is 4711.
         let changes = is_write(frame) && !frame.data().ends_with(&4711_u16.to_le_bytes());
         if changes { Deed::Reject } else { Deed::Pass }
     });
@@ -148,7 +148,7 @@ fn nothing_is_changed_shortly_before_the_file_expires() {
     let rest = ["--allow-write", file.path(), "--json", json.path()];
     let ended = against(&addr.to_string(), &[&run[..], &rest].concat());
     assert_eq!(ended.status.code(), Some(4), "{}", text(&ended.stdout));
-    // The reason for the exit code is on the line before the last one.
+    // The line before the last line contains the reason for the exit code.
     let shown = text(&ended.stdout);
     let above = shown.lines().rev().nth(1).unwrap();
     assert!(
@@ -175,7 +175,7 @@ printed-examples = true
 unwritten = []
 "#;
 
-/// With any claims of a profile, the run only sends queries, and only to the tasks of a CNC.
+/// Whatever a profile claims, the run only sends queries, and only to the ports of a CNC's tasks.
 #[test]
 fn a_hostile_profile_causes_no_write() {
     let cnc = Serve::start(&[]);
@@ -193,7 +193,8 @@ fn a_hostile_profile_causes_no_write() {
     let seen = seen.lock().unwrap();
     assert!(seen.len() > 5, "{seen:?}");
     for (command, port) in seen.iter() {
-        // ReadWrite is used for queries by name; the tests of the gate distinguish the functions.
+        // Queries by name use ReadWrite. Whether a ReadWrite is a query is tested by the tests of the
+        // gate.
         let reads = [AdsCommand::READ_DEVICE_INFO, AdsCommand::READ, AdsCommand::READ_STATE];
         let asks = reads.iter().any(|read| read.0 == *command);
         assert!(asks || *command == AdsCommand::READ_WRITE.0, "{seen:?}");

@@ -7,12 +7,13 @@ use std::process::{Command, Output};
 use crate::common::Serve;
 use crate::common::file::TestFile;
 
-/// A file with this profile.
+/// A temporary file with this profile.
 fn claiming(text: &str) -> TestFile {
     TestFile::new(".toml", text.as_bytes())
 }
 
-/// The suite against a simulated CNC as a device, and its report.
+/// Runs the suite against a simulated CNC as a device, with this profile; returns the output and the
+/// report.
 fn run(serve: &[&str], profile: &TestFile) -> (Output, serde_json::Value) {
     let serve = Serve::start(serve);
     let json = profile.0.with_extension("json");
@@ -47,8 +48,8 @@ fn unclaimed_functions_are_not_applicable() {
     assert_eq!(report["profile"]["name"], "panel");
 }
 
-/// The printed profile passes unedited on the simulated CNC; printed for a device, it contains the
-/// channels and axes, and passes there.
+/// The profile that the tool prints passes unchanged with the simulated CNC. Printed for a device, the
+/// profile contains the channels and axes of the device, and passes with this device.
 #[test]
 fn a_printed_profile_passes() {
     let ads_cnc =
@@ -76,7 +77,7 @@ fn a_printed_profile_passes() {
 
 #[test]
 fn claimed_instances_must_work() {
-    // One channel, one spindle and one axis more than the device has.
+    // The profile claims one channel, one spindle and one axis more than the device has.
     let profile = claiming("channels = [1, 2, 6, 7]\nspindles = 3\nplatform-axes = 6\n");
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
@@ -96,13 +97,14 @@ fn a_function_claimed_by_name_must_work() {
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert_eq!(verdict(&report, "var-described-by-name"), "pass");
-    // A function that depends on the version is judged if it exists, even without a claim.
+    // Without a claim, the cases of a function that only some versions have are not applicable to a
+    // device of another version.
     let profile = claiming("");
     let (_, report) = run(&["--cnc-version", "V4.20.0"], &profile);
     assert_eq!(verdict(&report, "var-described-by-name"), "not-applicable");
 }
 
-/// Without a claim to read objects, their descriptors are not wrong.
+/// If a profile does not claim that objects can be read, no requirement of their descriptors fails.
 #[test]
 fn unclaimed_functions_fail_nothing() {
     let profile = claiming("functions = [\"number of objects\", \"object descriptors\"]\n");

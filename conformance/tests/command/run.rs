@@ -23,7 +23,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// Without a command, the suite runs against the simulated CNC and passes.
+/// `ads-cnc` without a command runs the suite against the simulated CNC, and passes.
 #[test]
 fn without_a_command_the_suite_runs() {
     let output = ads_cnc(&[]);
@@ -34,12 +34,12 @@ fn without_a_command_the_suite_runs() {
     let device = format!("\ndevice   \"ads-cnc serve\" {version}, state RUN\n");
     assert!(shown.contains(&device), "{shown}");
     assert!(!shown.contains("FAIL") && !shown.contains("\n  differs "), "{shown}");
-    // On a busy machine, the run takes long enough to show its progress.
+    // On a busy machine, the run lasts long enough to print progress lines.
     let stderr = text(&output.stderr);
     assert!(stderr.lines().all(|line| line.ends_with(" left")), "{stderr}");
 }
 
-/// A failure names its clause, and shows the sent, received and expected bytes.
+/// The output of a failure names the clause, and contains the sent, received and expected bytes.
 #[test]
 fn a_failure_is_shown_with_its_clause_and_bytes() {
     let output = ads_cnc(&["run", "--defect", "variable-description.size.flip"]);
@@ -63,7 +63,7 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
     }
 }
 
-/// The JSON report contains the facts of the console.
+/// The JSON report contains the same facts as the output on the console.
 #[test]
 fn the_report_is_written_as_json() {
     let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
@@ -78,7 +78,7 @@ fn the_report_is_written_as_json() {
     let cases = report["cases"].as_array().unwrap();
     let of_target = cases.iter().filter(|case| case["subject"] == "target");
     assert!(of_target.count() > 40);
-    // Every clause that these functions can show is judged.
+    // The run judges every clause that its functions can violate.
     let target = &report["subjects"][1];
     assert_eq!(target["subject"], "target");
     let judged: Vec<_> = target["areas"]
@@ -99,7 +99,7 @@ fn the_report_is_written_as_json() {
     }
 }
 
-/// A device is judged, and only read.
+/// By default, a run against a device only reads, and judges the device.
 #[test]
 fn a_device_is_only_read() {
     let serve = Serve::start(&[]);
@@ -109,8 +109,9 @@ fn a_device_is_only_read() {
     assert!(shown.contains("are sent only with --malformed"), "{shown}");
 }
 
-/// Without a profile, all channels are judged; the forecast is printed first, and the report contains
-/// the found items. With a profile, only its channels are judged.
+/// Without a profile, a run judges all channels that it finds. It first prints how many requests it will
+/// send, and the report contains what was found. With a profile, it judges only the channels of the
+/// profile.
 #[test]
 fn a_run_without_a_profile_judges_found_channels() {
     let serve = Serve::start(&[]);
@@ -141,7 +142,7 @@ fn a_run_without_a_profile_judges_found_channels() {
     assert!(told.contains("channel 6 with 3 axis places;"), "{told}");
 }
 
-/// A long list is sampled, and read completely with `--all`.
+/// A run reads only a sample of a long list, and the whole list with `--all`.
 #[test]
 fn a_long_list_is_read_completely_with_all() {
     let model = text(&ads_cnc(&["serve", "--print-model"]).stdout);
@@ -171,8 +172,9 @@ fn a_long_list_is_read_completely_with_all() {
     assert_eq!(without.status.code(), Some(2), "{without:?}");
 }
 
-/// Malformed requests are only sent to a target on this machine for which a file permits them.
-/// Otherwise, the run does not even connect: a loopback address does not prove that nothing moves.
+/// A run sends malformed requests only to a target on this machine, and only if a file permits them.
+/// Otherwise, the run does not even connect: a program at a loopback address may forward requests to a
+/// machine that moves.
 #[test]
 fn malformed_requests_need_a_file_that_permits_them() {
     let serve = Serve::start(&[]);
@@ -205,7 +207,7 @@ fn malformed_requests_need_a_file_that_permits_them() {
     }
 }
 
-/// An invalid file is an error even without a target.
+/// An invalid file of `--allow-write` is an error even without a target.
 #[test]
 fn a_file_is_read_without_a_target() {
     let file = TestFile::allowing("");
@@ -219,7 +221,7 @@ fn a_file_is_read_without_a_target() {
     }
 }
 
-/// A device without device information is judged and passes.
+/// A device that rejects ReadDeviceInfo is judged nevertheless, and passes.
 #[test]
 fn device_information_is_optional() {
     for defect in ["device-info-reply.result.flip", "device-state-reply.result.flip"] {
@@ -235,7 +237,7 @@ fn device_information_is_optional() {
     }
 }
 
-/// A device with a wrong field fails.
+/// A run against a device with a defect of a field fails.
 #[test]
 fn a_wrong_device_fails() {
     let serve = Serve::start(&["--defect", "variable-count.count.flip"]);
@@ -243,8 +245,8 @@ fn a_wrong_device_fails() {
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
 }
 
-/// A failure is shown by the reply that its clause describes, and a warning that follows from it is listed
-/// with it.
+/// The output of a failure contains the reply that violates the clause, and lists the warnings that
+/// follow from this failure.
 #[test]
 fn a_failure_of_a_device_is_shown_by_its_own_reply() {
     let serve = Serve::start(&["--defect", "variable-description.size.flip"]);
@@ -259,12 +261,12 @@ fn a_failure_of_a_device_is_shown_by_its_own_reply() {
     assert_eq!(followers.matches("var-described-by-name (VAR-28)").count(), 1, "{both}");
 }
 
-/// A target that accepts the connection but does not reply is not a success, and the run ends.
+/// A run against a target that accepts the connection but does not reply ends, and is not a success.
 #[test]
 fn a_silent_target_is_not_a_success() {
     let listener = net::listen(loopback()).unwrap();
     let addr = listener.local_addr().unwrap().to_string();
-    // The run tries twice, in case the first connection was only idle.
+    // The run connects twice, in case the first connection was closed because it was idle.
     let silent = thread::spawn(move || listener.incoming().take(1).map(Result::unwrap).collect());
     let args = ["run", "--target", &addr, "--net-id", "10.0.0.1.1.1", "--timeout", "20"];
     let output = ads_cnc(&args);
@@ -274,7 +276,7 @@ fn a_silent_target_is_not_a_success() {
     assert!(text(&output.stderr).contains("route"), "{}", text(&output.stderr));
 }
 
-/// A target that replies, but is not a CNC or has another NetId, is reported and not judged.
+/// A target that replies, but is not a CNC or has another NetId, is reported as such and not judged.
 #[test]
 fn a_target_that_is_not_a_cnc_is_not_judged() {
     let serve = Serve::start(&[]);
@@ -287,7 +289,7 @@ fn a_target_that_is_not_a_cnc_is_not_judged() {
     let web = thread::spawn(move || {
         let (mut stream, _) = listener.accept().unwrap();
         stream.write_all(b"HTTP/1.1 400 Bad Request\r\n\r\n").unwrap();
-        // Wait until the other side has read the bytes and closed the connection.
+        // Waits until the tool has read the bytes and closed the connection.
         let _closed = stream.read_to_end(&mut Vec::new());
     });
     let output = ads_cnc(&["run", "--target", &addr, "--net-id", "1.2.3.4.1.1"]);
@@ -296,8 +298,8 @@ fn a_target_that_is_not_a_cnc_is_not_judged() {
     assert!(text(&output.stderr).contains("does not use AMS/TCP"), "{}", text(&output.stderr));
 }
 
-/// A device whose frames are wrong from the first one is judged: only the rule of the frame fails, with
-/// its bytes.
+/// A device whose frames are all wrong is judged: only the requirement of frames fails, and the failure
+/// contains the bytes of a frame.
 #[test]
 fn broken_frames_fail_the_rule_of_the_frame() {
     for (defect, clauses) in [
@@ -314,7 +316,7 @@ fn broken_frames_fail_the_rule_of_the_frame() {
         let serve = Serve::start(&["--defect", defect]);
         let file = TestFile::new(".json", b"");
         let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
-        // A timeout for each wrong frame would take longer than the test may.
+        // The test would last too long if the run waited for the timeout after each wrong frame.
         let args = ["run", "--timeout", "60000", "--json", file.path()];
         let output = ads_cnc(&[&args[..], &target].concat());
         assert_eq!(output.status.code(), Some(1), "{defect}: {}", text(&output.stderr));
@@ -335,7 +337,7 @@ fn broken_frames_fail_the_rule_of_the_frame() {
     }
 }
 
-/// A wrong frame fails with any selection.
+/// A wrong frame is a failure whatever cases are selected.
 #[test]
 fn broken_frames_fail_in_every_selection() {
     let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);
@@ -345,7 +347,7 @@ fn broken_frames_fail_in_every_selection() {
     assert!(text(&output.stdout).contains("\n  ads-every-frame: "), "{}", text(&output.stdout));
 }
 
-/// Exit code for a report that cannot be written.
+/// A report that cannot be written has its own exit code.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_lost_report_is_an_error() {
@@ -374,7 +376,8 @@ fn exit_codes() {
     }
 }
 
-/// A run without a report removes the report of an earlier run; a dry run does not.
+/// A run that ends before it can write its report removes the report of an earlier run; a dry run does
+/// not.
 #[test]
 fn the_report_of_an_earlier_run_is_removed() {
     let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
@@ -386,7 +389,7 @@ fn the_report_of_an_earlier_run_is_removed() {
     assert_eq!((lost.status.code(), file.0.exists()), (Some(3), false), "{lost:?}");
 }
 
-/// With -q, a run that passes only prints its last line.
+/// With `-q`, a run that passes prints only its last line.
 #[test]
 fn quiet_prints_only_the_last_line() {
     let serve = Serve::start(&[]);
@@ -397,7 +400,7 @@ fn quiet_prints_only_the_last_line() {
     assert_eq!(text(&output.stderr), "");
 }
 
-/// A report that cannot be written is an error before the first request.
+/// A report file that cannot be created is an error before the first request.
 #[test]
 fn reports_are_checked_before_the_run() {
     for form in ["--json", "--html", "--junit", "--markdown", "--badge"] {
@@ -409,7 +412,7 @@ fn reports_are_checked_before_the_run() {
     assert_eq!(ads_cnc(&["run", "--timeout", "0"]).status.code(), Some(2));
 }
 
-/// A vacuous rejection is listed with its sibling, which should be accepted.
+/// A rejection that proves nothing is listed with its sibling, which the testee should have accepted.
 #[test]
 fn a_vacuous_rejection_follows_from_its_sibling() {
     let defect = ["run", "--defect", "read-write-reply.length.zero", "--only", "read-write-reply"];
@@ -422,7 +425,7 @@ fn a_vacuous_rejection_follows_from_its_sibling() {
     assert!(list.contains("vec-read-write-reply-length-largest (ADS-3)"), "{shown}");
 }
 
-/// A dry run lists the functions that would be requested, and the writes that a file allows.
+/// A dry run lists the functions that the run would request, and the writes that a file allows.
 #[test]
 fn a_dry_run_lists_functions_and_writes() {
     let folder = std::env::temp_dir().join(format!("ads-cnc-dry-{}", std::process::id()));
@@ -450,7 +453,7 @@ fn a_dry_run_lists_functions_and_writes() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// With a file that allows no possible write, the run reports this and is not a success.
+/// A run with a file whose entries allow no write of the suite reports this, and is not a success.
 #[test]
 fn a_file_without_effect_is_reported() {
     let folder = std::env::temp_dir().join(format!("ads-cnc-allow-{}", std::process::id()));

@@ -23,7 +23,7 @@ fn ids(report: &Value) -> Vec<&str> {
     cases.iter().map(|case| case["id"].as_str().unwrap()).collect()
 }
 
-/// The requirements with this verdict, for all subjects.
+/// The requirements with this verdict for at least one subject.
 fn with<'r>(report: &'r Value, verdict: &str) -> BTreeSet<&'r str> {
     let subjects = report["subjects"].as_array().unwrap().iter();
     let areas = subjects.flat_map(|subject| subject["areas"].as_array().unwrap());
@@ -33,7 +33,7 @@ fn with<'r>(report: &'r Value, verdict: &str) -> BTreeSet<&'r str> {
         .collect()
 }
 
-/// The order does not affect the verdicts, and a seed reproduces it.
+/// The order of the cases does not affect the verdicts, and the same seed gives the same order.
 #[test]
 fn any_order_gives_the_same_verdicts() {
     let verdicts = |report: &Value| {
@@ -71,7 +71,7 @@ fn only_selected_cases_are_run() {
     assert!(ids(&case).contains(&"com-count") && ids(&case).contains(&"val-string-size"));
     assert!(with(&case, "pass").contains("COM-1"));
 
-    // A case that judges frames of other cases runs some of these.
+    // A case that judges the frames of other cases runs some of these cases.
     let frames = run(&["--only", "ads-every-frame"]);
     assert_eq!((ids(&frames), &frames["exit_code"]), (vec!["ads-every-frame"], &Value::from(0)));
 }
@@ -89,7 +89,7 @@ fn an_unknown_selection_is_not_a_success() {
     }
     let output = ads_cnc(&["run", "--edition", "fr-1.0"]);
     assert_eq!(output.status.code(), Some(2));
-    // Only the other edition prints the selected vector.
+    // Only the other edition prints the name in the selected vector.
     let output = ads_cnc(&["run", "--edition", "en-1.05", "--only", "vec-path-trajektorie-x"]);
     assert_eq!(output.status.code(), Some(3));
 }
@@ -109,7 +109,7 @@ fn an_edition_is_judged_by_itself() {
         };
         assert_eq!(verdict(has), Some("pass".into()));
         assert_eq!(verdict(lacks), Some("not-run".into()));
-        // The simulated CNC follows the edition and has its special features.
+        // The simulated CNC follows the selected edition, with the features that only this edition has.
         assert_eq!(report["profile"]["claims"]["edition"], edition);
         assert_eq!(with(&report, "pass").contains("VAR-19"), edition == "de-1.051");
     }
@@ -121,7 +121,7 @@ fn cases_are_listed_without_running() {
     let output = ads_cnc(&[&["run", "--list", "--json", "-"], &args[..]].concat());
     assert_eq!(output.status.code(), Some(0));
     let listed: Value = serde_json::from_slice(&output.stdout).unwrap();
-    // In the order of the run, for each subject.
+    // The list has the same order as the run, for each subject.
     let of_target = |listed: &Value| -> Vec<String> {
         let listed = listed.as_array().unwrap().iter();
         listed.filter(|one| one["subject"] == "target").map(|one| one["id"].to_string()).collect()
@@ -130,17 +130,17 @@ fn cases_are_listed_without_running() {
     assert_eq!(of_target(&listed), of_target(&report["cases"]));
     let listed: BTreeSet<&str> =
         listed.as_array().unwrap().iter().map(|one| one["id"].as_str().unwrap()).collect();
-    // The protocol of a testee is judged with any selection.
+    // The case about the testee protocol is run with any selection, and not listed.
     let run = ids(&report).into_iter().filter(|id| *id != "testee-manners");
     assert_eq!(listed, run.collect());
     let text = ads_cnc(&[&["run", "--list"], &args[..]].concat());
     let text = String::from_utf8(text.stdout).unwrap();
     assert!(text.contains("target   val-whole-by-handle  [VAR-8 VAR-11 VAR-14]\n"), "{text}");
     assert!(text.ends_with(&format!("{} cases\n", listed.len())), "{text}");
-    // Without a seed, the order is always the same.
+    // Without a seed, the list always has the same order.
     let unordered = || ads_cnc(&["run", "--list", "--only", "VAR-11"]).stdout;
     assert_eq!(unordered(), unordered());
-    // A list of cases for a device sends nothing.
+    // `--list` sends nothing to a device.
     let device = ["run", "--list", "--target", "192.0.2.1", "--net-id", "1.2.3.4.1.1"];
     let text = String::from_utf8(ads_cnc(&device).stdout).unwrap();
     assert!(
@@ -158,7 +158,7 @@ fn cases_are_listed_without_running() {
     }
 }
 
-/// The list contains the cases that a run against the same target does not omit.
+/// The list for a device contains exactly the cases that a run against this device does not omit.
 #[test]
 fn the_list_of_a_device_contains_the_cases_of_a_run() {
     let device = Device::start();
@@ -211,7 +211,7 @@ impl Drop for Device {
     }
 }
 
-/// A file of waivers that is removed when dropped.
+/// A temporary file of waivers that is removed when this value is dropped.
 struct File(PathBuf);
 
 impl File {
@@ -257,7 +257,7 @@ fn known_failures_are_waived_until_they_expire() {
             5,
             "fail expected, found pass",
         ),
-        // The state of cases that were not selected is unknown.
+        // Whether a waiver of a case that was not selected is stale is unknown.
         (
             "unknown",
             format!("{good}{}", waiver("com-count", "COM-1", "fail", "9999-01-01")),
@@ -275,7 +275,7 @@ fn known_failures_are_waived_until_they_expire() {
         let out = String::from_utf8(output.stdout).unwrap();
         assert_eq!(output.status.code(), Some(code), "{name}: {out}");
         assert!(out.contains(shown), "{name}: {out}");
-        // The output contains an entry for the failure exactly if it is not waived.
+        // The output suggests an entry for the failure only if the failure is not waived.
         let entry = "[[waiver]]\ntest = \"var-descriptions\"\nrequirement = \"VAR-8\"\nverdict = \"fail\"\n";
         assert_eq!(out.contains(entry), !out.contains("FAIL, WAIVED"), "{name}: {out}");
         assert_eq!(
@@ -313,7 +313,7 @@ fn an_invalid_file_of_waivers_is_rejected_with_its_line() {
     assert_eq!(ads_cnc(&["run", "--waivers", "/no/such/file"]).status.code(), Some(2));
 }
 
-/// The cases after the last allowed failure are not run, and the last line counts them.
+/// After the maximum number of failures, the remaining cases are not run, and the last line counts them.
 #[test]
 fn a_run_stops_after_so_many_failures() {
     let defect = ["--defect", "variable-description.size.flip", "--only", "VAR", "--seed", "1"];

@@ -1,4 +1,4 @@
-//! The self-test with one trial of each kind; the gate runs all.
+//! `ads-cnc selftest` with one trial of each kind; `.ci/run` runs all trials.
 
 use std::process::{Command, Output};
 

@@ -1,4 +1,4 @@
-//! `ads-cnc serve` as users call it, except its replies.
+//! `ads-cnc serve` as users call it. Other tests check the replies.
 
 use std::io::{Read as _, Write as _};
 use std::process::{Command, Stdio};
@@ -44,13 +44,13 @@ fn a_signal_ends_the_server() {
         assert!(log.contains("stopped by a signal"), "{log}");
         assert_eq!(log.contains("connected"), with_clients, "{log}");
         if let Some(client) = &mut client {
-            // The end of the stream, or a reset.
+            // The connection has ended, possibly by a reset.
             assert!(matches!(client.read(&mut [0; 1]), Ok(0) | Err(_)));
         }
     }
 }
 
-/// Another process can read the executed lines of a stream.
+/// With `--executed`, `serve` writes the executed lines of a channel to a file when a signal ends it.
 #[cfg(unix)]
 #[test]
 fn executed_lines_are_written_at_the_end() {
@@ -79,7 +79,8 @@ fn executed_lines_are_written_at_the_end() {
     }
 }
 
-/// The log contains the client and the reason for the end of a connection; other clients still work.
+/// The log contains the client and the reason when the CNC ends a connection; other clients still receive
+/// replies.
 #[test]
 fn the_log_contains_the_end_of_a_connection() {
     let mut serve = Serve::logging(&["--idle", "1"]);
@@ -100,7 +101,7 @@ fn the_log_contains_the_end_of_a_connection() {
     assert!(line(&silent).unwrap().contains("no request for 1 s"), "{log}");
 }
 
-/// The filter determines the logged messages.
+/// The filter of the log determines which messages are logged.
 #[test]
 fn logs_are_filtered() {
     for (filter, logged) in [
@@ -140,7 +141,7 @@ fn other_machines_need_an_option() {
     assert!(log.contains("warning: 0.0.0.0:0 is not a loopback address"), "{log}");
 }
 
-/// The error for an invalid address contains a valid one.
+/// The error for an invalid address to listen on contains a valid address.
 #[test]
 fn an_invalid_address_is_rejected_with_advice() {
     let serve = |options: &[&str]| {
@@ -156,7 +157,7 @@ fn an_invalid_address_is_rejected_with_advice() {
     for executed in ["9=x.nc", "x.nc", "1=", "1=/none/x.nc"] {
         assert_eq!(serve(&["--listen", "127.0.0.1:0", "--executed", executed]).0, Some(2));
     }
-    // The default model is not the one of a file.
+    // `--print-model` prints the default model, so it is rejected together with a file.
     assert_eq!(serve(&["--print-model", "--model", "mine.toml"]).0, Some(2));
 }
 

@@ -21,10 +21,10 @@ use ads_cnc_conformance::simulator::{Cnc, Server};
 const ID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 const OTHER: &str = "19719079-BA06-4740-BC02-DE5215211751";
 
-/// Maximum time of any wait.
+/// Maximum time for which these tests wait for anything.
 const WAIT_MAX: Duration = Duration::from_secs(30);
 
-/// A CNC in this process, and the tool in another process.
+/// A simulated CNC in this process, to which the tool in another process connects.
 struct Bench {
     cnc: Arc<Cnc>,
     server: Server,
@@ -83,7 +83,8 @@ impl Bench {
         }
     }
 
-    /// Sends one request, with a tool that answers once.
+    /// Sends one request to a tool that is started with `--once`. Returns the response, its state, and the
+    /// output of the tool.
     fn once(&self, options: &[&str], command: &[&str], request: &str) -> ((String, u32), Output) {
         let options = [&["--uuid", ID, "--once", "--poll", "5ms"], options].concat();
         let tool = self.tool(&options, command).spawn().unwrap();
@@ -102,7 +103,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A command that exists on every system: this project's own.
+/// A command that exists on every system: `ads-cnc` itself.
 const EXPLAIN: [&str; 5] =
     [env!("CARGO_BIN_EXE_ads-cnc"), "explain", "--stream", "variable-handle", "-"];
 
@@ -111,7 +112,8 @@ fn shell<'a>(unix: &'a str, windows: &'a str) -> [&'a str; 3] {
     if cfg!(windows) { ["cmd", "/C", windows] } else { ["sh", "-c", unix] }
 }
 
-/// The request is on stdin; stdout becomes the truncated response, and exit code 0 the state 1.
+/// The command receives the request on stdin. Its stdout, truncated, is the response; for exit code 0,
+/// the response state is 1.
 #[test]
 fn a_command_answers() {
     let ((response, state), output) = Bench::start().once(&[], &EXPLAIN, "04 00 00 02");
@@ -142,21 +144,22 @@ fn a_script_is_answered() {
     );
 }
 
-/// Without a target, the command starts a simulated CNC that sends requests, and needs no file.
+/// Without a target, the tool starts a simulated CNC that sends requests, and needs no file.
 #[test]
 fn a_simulated_cnc_sends_requests() {
     let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     tool.args(["service", "--uuid", ID, "--answers", "2", "--"]).args(EXPLAIN);
     let output = tool.output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    // The command fails, because the numbers are not valid handles.
+    // The command `explain` fails, because the requests are not valid handles.
     assert_eq!(text(&output.stdout).matches(", state 2\n").count(), 2);
     let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     tool.args(["service", "--uuid", ID, "--channel", "7", "--once", "--", "echo"]);
     assert_eq!(tool.output().unwrap().status.code(), Some(2));
 }
 
-/// A failure does not look like success: exit code 1 becomes another state, other codes are unchanged.
+/// The exit code is the response state, except that exit code 1 becomes another state, because state 1
+/// means success.
 #[test]
 fn an_exit_code_is_the_state() {
     let bench = Bench::start();
@@ -176,7 +179,7 @@ fn the_environment_describes_the_request() {
     assert_eq!(answer, (format!("{ID} 7 2"), 1));
 }
 
-/// A command that exceeds its time limit is ended, and the NC program receives an error.
+/// The tool ends a command that exceeds its time limit, and the NC program receives an error.
 #[test]
 fn a_time_limit_ends_a_command() {
     let serve = [env!("CARGO_BIN_EXE_ads-cnc"), "serve", "--listen", "127.0.0.1:0"];
@@ -193,7 +196,8 @@ fn a_missing_command_is_answered_with_an_error() {
     assert!(text(&output.stderr).contains("ads-cnc-no-such-command"));
 }
 
-/// Several services share the command; requests to other UUIDs are ignored.
+/// With several UUIDs, the tool runs the same command for all services; it ignores requests to other
+/// UUIDs.
 #[test]
 fn several_services_share_a_command() {
     let bench = Bench::start();
@@ -214,8 +218,8 @@ fn several_services_share_a_command() {
     assert_eq!(text(&ended(tool).stdout).lines().count(), 3);
 }
 
-/// Without an entry for the service of this channel, the tool does not start: an NC program would wait
-/// for a response whose write is not allowed.
+/// Without an entry for the Service Interface of the channel, the tool does not start: otherwise, an NC
+/// program would wait for a response that the tool must not write.
 #[test]
 fn the_service_needs_an_entry() {
     let mut bench = Bench::start();
@@ -228,7 +232,7 @@ fn the_service_needs_an_entry() {
     }
 }
 
-/// A dry run shows the requests of a poll and an answer, and runs no command.
+/// A dry run prints the ADS requests of a poll and of a response, and runs no command.
 #[test]
 fn a_dry_run_shows_the_requests() {
     let mut bench = Bench::start();
@@ -244,7 +248,7 @@ fn a_dry_run_shows_the_requests() {
     }
 }
 
-/// Wrong usage is reported before the first request.
+/// Wrong usage is an error before the first ADS request.
 #[test]
 fn wrong_usage_is_rejected() {
     let bench = Bench::start();
@@ -263,7 +267,7 @@ fn wrong_usage_is_rejected() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// If the CNC has ended, the tool ends with an error.
+/// If the CNC ends, the tool ends with an error.
 #[test]
 fn a_lost_connection_ends_the_service() {
     let bench = Bench::start();
@@ -282,7 +286,7 @@ fn wait_for(what: &str, from: &mut impl BufRead) {
     assert!(found, "nothing says {what:?}");
 }
 
-/// A signal ends the service and its command, and the request is answered.
+/// A signal ends the tool and its command, and the tool still responds to the current request.
 #[cfg(unix)]
 #[test]
 fn a_signal_ends_the_service() {
@@ -314,7 +318,7 @@ fn a_signal_ends_the_service() {
     }
 }
 
-/// Processes that the command has started end with it and do not delay the answer.
+/// Processes that the command has started are ended with the command, and do not delay the response.
 #[cfg(unix)]
 #[test]
 fn a_time_limit_ends_all_processes_of_a_command() {
@@ -325,8 +329,8 @@ fn a_time_limit_ends_all_processes_of_a_command() {
     assert!(begun.elapsed() < WAIT_MAX);
 }
 
-/// A command may leave a process that keeps its stdout open: the request is answered, and the process
-/// is ended.
+/// If a command leaves a process behind that keeps stdout open, the tool still responds to the request,
+/// and ends the process.
 #[cfg(unix)]
 #[test]
 fn remaining_processes_do_not_delay_the_answer() {
@@ -337,7 +341,7 @@ fn remaining_processes_do_not_delay_the_answer() {
     assert!(!runs(&response), "{response} runs");
 }
 
-/// Whether a process runs; a zombie does not.
+/// Whether a process runs; a zombie counts as ended.
 #[cfg(unix)]
 fn runs(id: &str) -> bool {
     let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
@@ -345,7 +349,8 @@ fn runs(id: &str) -> bool {
     !state.trim().is_empty() && !state.trim_start().starts_with('Z')
 }
 
-/// A process with its own session is not ended; each occupies a thread, whose number is limited.
+/// A process that has created its own session is not ended. Each such process occupies a thread of the
+/// tool, and the number of these threads is limited.
 #[cfg(target_os = "linux")]
 #[test]
 fn processes_in_own_sessions_are_limited() {
@@ -388,7 +393,8 @@ fn text_is_utf8_to_the_command() {
     assert_eq!(answer, ("12,5 € für 2 m²".to_owned(), 1));
 }
 
-/// A late answer is dropped, and the next request is served.
+/// If the command ends after its request no longer exists, the tool drops the response, and serves the
+/// next request.
 #[cfg(unix)]
 #[test]
 fn a_late_answer_is_dropped() {

@@ -62,7 +62,7 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
     let other = session.call(&HandleByName::new(channel(), "V.E.Testvar").unwrap()).unwrap();
     let write =
         |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0][..]);
-    // A description must also contain the handle.
+    // A write by handle is allowed only after a description has confirmed the handle.
     assert!(matches!(session.call(&write(handle)), Err(ToolError::Refused(_))));
     session.call(&DescribeByName::new(channel(), WRITABLE).unwrap()).unwrap();
     session.call(&write(handle)).unwrap();
@@ -111,7 +111,7 @@ fn a_dry_run_continues_after_writes_and_stops_at_queries() {
     assert!(matches!(session.call(&read), Err(ToolError::NotSent)));
 }
 
-/// A listener that handles each of its first connections with this function.
+/// A target that handles its connections with this function.
 fn device(with: fn(TcpStream)) -> Target {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let addr = listener.local_addr().unwrap();
@@ -127,7 +127,7 @@ fn ask(target: Target) -> (Exit, String) {
     (error.exit(), error.to_string())
 }
 
-/// The error for each kind of unreachable device contains advice.
+/// The errors for several kinds of unreachable devices differ, and contain advice.
 #[test]
 fn unreachable_devices_are_distinguished() {
     let gone: TcpListener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
@@ -137,13 +137,13 @@ fn unreachable_devices_are_distinguished() {
     assert_eq!(exit, Exit::Nothing);
     assert!(text.contains("refuses the connection") && text.contains("48898"), "{text}");
 
-    // A route is missing.
+    // A router without a route to the client closes the connection.
     let (exit, text) = ask(device(drop));
     assert_eq!(exit, Exit::Nothing);
     let parts = ["closed the connection without a reply", "route", "127.0.0.1.1.2"];
     assert!(parts.iter().all(|part| text.contains(part)), "{text}");
 
-    // The device receives the request and does not reply.
+    // The device receives the request, but does not reply.
     let (exit, text) = ask(device(|stream| {
         thread::spawn(move || {
             thread::sleep(Duration::from_secs(5));
@@ -154,7 +154,7 @@ fn unreachable_devices_are_distinguished() {
     let parts = ["does not reply within 200 ms", "192.0.2.7.1.1", "--source-net-id"];
     assert!(parts.iter().all(|part| text.contains(part)), "{text}");
 
-    // Another kind of server listens.
+    // A server of another protocol listens at the address.
     let (exit, text) = ask(device(|mut stream| {
         let _asked = stream.read(&mut [0; 64]);
         let _answered = stream.write_all(b"HTTP/1.1 400 Bad Request\r\n\r\n");
@@ -171,7 +171,7 @@ fn unreachable_devices_are_distinguished() {
     assert!(text.contains("0x7") && text.contains("--net-id"), "{text}");
 }
 
-/// A write is sent only once, even if the connection is lost.
+/// If the connection is lost after a write, the write is not sent again.
 #[test]
 fn a_write_is_not_repeated() {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
@@ -191,7 +191,7 @@ fn a_write_is_not_repeated() {
     assert!(len > 38 && !again);
 }
 
-/// The number of requests per second does not exceed the rate.
+/// With a rate, the client does not send more requests per second than the rate.
 #[test]
 fn the_rate_of_requests_is_limited() {
     let serve = Serve::start(&[]);
@@ -205,7 +205,7 @@ fn the_rate_of_requests_is_limited() {
     assert!(begun.elapsed() >= 5 * pace);
 }
 
-/// A device that answers each request with the same data, or an AMS error.
+/// A session with a device that replies to each request with the same data and AMS error.
 fn saying(error: u8, data: &'static [u8]) -> Session {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let target = Target::local(listener.local_addr().unwrap(), NET_ID);
@@ -234,7 +234,7 @@ fn device_information_is_read() {
     let state = saying(0, &[0, 0, 0, 0, 15, 0, 1, 0]).device_state(Task::Com).unwrap();
     assert_eq!((state.ads_state, state.device_state), (AdsState::CONFIG, 1));
 
-    // Each task of the simulated CNC has the same information.
+    // All tasks of the simulated CNC return the same device information.
     let mut session = simulated(Gate::queries());
     for task in [Task::Geo, Task::Sda, Task::Com] {
         assert_eq!(session.device_info(task).unwrap().name(), "ads-cnc serve");
@@ -242,7 +242,8 @@ fn device_information_is_read() {
     }
 }
 
-/// An error with or without the other fields (ADS-6), an AMS error, and invalid replies.
+/// Errors in the reply to ReadDeviceInfo: a result with or without the other fields (ADS-6), an AMS
+/// error, and invalid replies.
 #[test]
 fn missing_device_information_is_an_error() {
     for data in [&[1, 7, 0, 0][..], &[1, 7, 0, 0, 0, 0, 0, 0]] {
@@ -254,7 +255,7 @@ fn missing_device_information_is_an_error() {
     let error = saying(6, &[]).device_info(Task::Com).unwrap_err();
     assert_eq!(error.exit(), Exit::Nothing);
     assert!(error.to_string().contains("AMS port 553"), "{error}");
-    // A success without its fields, and the reply to the other command.
+    // A successful result without the other fields, and the reply to ReadState instead.
     for data in [&[0; 4][..], &[0, 0, 0, 0, 5, 0, 0, 0]] {
         let error = saying(0, data).device_info(Task::Com).unwrap_err();
         assert!(error.to_string().contains("device-info-reply: "), "{error}");

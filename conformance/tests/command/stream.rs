@@ -44,13 +44,14 @@ fn code(output: &Output) -> i32 {
     output.status.code().unwrap()
 }
 
-/// 1000 lines that end in LF. With CR LF, 10 lines have 12 bytes, 90 have 14 and 900 have 16. This
-/// makes packets of 72, 65, 13 times 62, and 57 lines, which do not fit into the interface.
+/// A program of 1000 lines that end in LF. With CR LF, 10 lines have 12 bytes, 90 have 14 and 900 have
+/// 16, which results in packets of 72, 65, 13 times 62, and 57 lines. The packets do not all fit into
+/// the streaming interface.
 fn program() -> String {
     (0..1000).map(|line| format!("N{line}0 G01 X{line}\n")).collect()
 }
 
-/// A CNC that stores the packets it receives.
+/// A fake CNC that stores the packets that it receives.
 fn kept(mut answer: impl FnMut(usize) -> Answer + Send + 'static) -> (SocketAddr, Packets) {
     let packets = Packets::default();
     let keep = Arc::clone(&packets);
@@ -66,7 +67,7 @@ type Packets = Arc<Mutex<Vec<(u8, Vec<u8>)>>>;
 
 const OK: Answer = Answer::Result(AdsError::NO_ERROR);
 
-/// Although the interface is sometimes full, each line arrives once and in order.
+/// Each line arrives once and in order, although the streaming interface is sometimes full.
 #[test]
 fn a_program_arrives_completely() {
     let ran = Arc::new(Mutex::new(Vec::new()));
@@ -98,7 +99,7 @@ fn a_program_arrives_completely() {
     assert!(!shown.contains("not "), "{shown}");
 }
 
-/// The tool gives up a packet that is rejected as busy too often, and reports the remaining lines.
+/// If the CNC rejects a packet as busy too often, the tool gives up and reports the remaining lines.
 #[test]
 fn retries_are_limited() {
     let (addr, packets) = kept(|count| if count == 1 { OK } else { BUSY });
@@ -108,7 +109,7 @@ fn retries_are_limited() {
     let (shown, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(code(&output), 1, "{said}");
     let packets = packets.lock().unwrap();
-    // One packet is accepted, and one is sent once and then again three times.
+    // The first packet is accepted; the second is sent once and then repeated three times.
     assert_eq!(packets.len(), 5);
     assert!(packets[1..].iter().all(|packet| *packet == packets[1]));
     assert!(shown.contains("accepted lines 1 to 72 in 1 packet, "), "{shown}");
@@ -116,7 +117,7 @@ fn retries_are_limited() {
     assert!(said.contains("gave up") && said.contains("--retries"), "{said}");
 }
 
-/// A packet that is rejected with another error is not sent again.
+/// A packet that is rejected with an error other than "busy" is not sent again.
 #[test]
 fn another_error_ends_the_stream() {
     let refused = Answer::Result(AdsError::INVALID_OFFSET);
@@ -148,7 +149,7 @@ fn a_packet_without_a_reply_is_not_repeated() {
     }
 }
 
-/// A reply with a wrong invoke ID does not show whether the packet was accepted.
+/// After a reply with a wrong invoke ID, the tool reports that the packet may have been accepted.
 #[test]
 fn a_packet_with_a_wrong_reply_may_have_been_accepted() {
     let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);
@@ -159,7 +160,7 @@ fn a_packet_with_a_wrong_reply_may_have_been_accepted() {
     assert!(shown.contains("unknown whether accepted: lines 1 to 2"), "{shown}");
 }
 
-/// No part of an invalid program is sent. With an option, lines that end streaming are sent.
+/// No part of an invalid program is sent. With the option `--force`, lines that end streaming are sent.
 #[test]
 fn an_invalid_program_is_not_sent() {
     let (addr, packets) = kept(|_| OK);
@@ -188,7 +189,7 @@ fn an_invalid_program_is_not_sent() {
     assert_eq!(packets[..], [(1, b"N10 $FOR P1=0,10,1\r\nN20 M30\r\nN30 X1\r\n".to_vec())]);
 }
 
-/// Nothing is sent without an entry for the stream of this channel.
+/// The tool sends nothing to a device without an entry for the stream of the channel.
 #[test]
 fn the_stream_needs_an_entry() {
     let (addr, packets) = kept(|_| OK);
@@ -203,7 +204,7 @@ fn the_stream_needs_an_entry() {
     let addr = addr.to_string();
     let options = ["--target", &addr, "--net-id", "127.0.0.1.1.1"];
     assert_eq!(code(&tool(file.path(), &options).output().unwrap()), 4);
-    // A simulated CNC needs no file, but a file applies to it.
+    // For the simulated CNC no file is needed, but a file that is given applies.
     let allow = TestFile::allowing("");
     assert_eq!(code(&tool(file.path(), &["--allow-write", allow.path()]).output().unwrap()), 4);
     assert_eq!(code(&tool(file.path(), &[]).output().unwrap()), 0);
@@ -216,7 +217,7 @@ fn the_stream_needs_an_entry() {
     assert_eq!(packets.lock().unwrap()[..], [(2, b"M30\r\n".to_vec())]);
 }
 
-/// A dry run shows every packet and sends none.
+/// A dry run prints every packet and sends none.
 #[test]
 fn a_dry_run_shows_the_packets() {
     let (addr, packets) = kept(|_| OK);
@@ -245,7 +246,7 @@ fn a_program_may_come_from_stdin() {
     assert_eq!(packets.lock().unwrap()[..], [(1, b"N10 M30\r\n".to_vec())]);
 }
 
-/// After a signal during a wait, the summary contains the sent and unsent lines.
+/// After a signal while the tool waits, the summary states which lines were sent and which were not.
 #[cfg(unix)]
 #[test]
 fn a_signal_ends_the_stream_with_a_summary() {

@@ -1,5 +1,5 @@
-//! Codecs over the testee protocol: this project's codec, with and without a defect, and miniatures
-//! that misbehave in every case.
+//! Codecs over the testee protocol: this project's codec, with and without a defect, and miniatures, which
+//! misbehave in the same way in every case.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
@@ -24,7 +24,7 @@ fn cases() -> Vec<Case> {
     suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
 }
 
-/// A few cases, for a testee that must be restarted often.
+/// Every 25th case, for a testee that must be restarted often.
 fn some() -> Vec<Case> {
     let every = cases().into_iter().enumerate().filter(|(place, _)| place % 25 == 0);
     every.map(|(_, case)| case).collect()
@@ -34,7 +34,7 @@ fn own() -> String {
     format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"))
 }
 
-/// Time limit of an answer; a busy machine answers late.
+/// Time limit of an answer, which is long because a testee on a busy machine answers late.
 const WAIT_MAX: Duration = Duration::from_secs(20);
 
 fn process(arguments: &str) -> TesteeProcess {
@@ -89,11 +89,11 @@ fn the_seed_determines_only_the_order() {
     assert_eq!(with(1), with(2));
 }
 
-/// Each miniature fails either the protocol or requirements.
+/// With each miniature that misbehaves, the requirement of the protocol or other requirements fail.
 #[test]
 fn miniatures_fail() {
     for miniature in Miniature::ALL {
-        // These two miniatures test the time limit.
+        // With these two miniatures, the run waits for the time limit, so it is short.
         let timeout = match miniature {
             Miniature::Hangs => Duration::from_secs(1),
             Miniature::Stays => Duration::from_secs(5),
@@ -130,7 +130,7 @@ fn miniatures_fail() {
     }
 }
 
-/// The output of a run against a codec that writes a wrong size into descriptions.
+/// The output of a run against a codec with a defect of the size in descriptions.
 fn with_wrong_size(args: &[&str]) -> String {
     let testee = format!("{} --defect variable-description.size.flip", own());
     let mut run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
@@ -138,7 +138,7 @@ fn with_wrong_size(args: &[&str]) -> String {
     String::from_utf8(run.output().unwrap().stdout).unwrap()
 }
 
-/// The expected value is stated once, and the bytes of the wrong field are marked.
+/// The output of a failure contains the expected value once, and marks the bytes of the wrong field.
 #[test]
 fn a_wrong_field_is_marked() {
     let stdout = with_wrong_size(&["--only", "VAR-8", "--seed", "1"]);
@@ -149,8 +149,8 @@ fn a_wrong_field_is_marked() {
     assert!(stdout.contains("\n    !   12  04 00 00 00 "), "{stdout}");
 }
 
-/// A wrong field is a failure, although the vector rests on an assumption about another field; each vector
-/// that follows from it is listed once.
+/// A wrong field is a failure even if the vector assumes something about another field. Each vector that
+/// fails as a consequence is listed once.
 #[test]
 fn an_assumption_about_another_field_excuses_nothing() {
     let shown = with_wrong_size(&["--only", "variable-description", "-v"]);
@@ -162,7 +162,7 @@ fn an_assumption_about_another_field_excuses_nothing() {
     }
 }
 
-/// An answer that is wrong only where no manual states the result is a difference.
+/// An answer that differs only in a field about which the vector assumes something is a difference.
 #[test]
 fn an_assumption_about_a_field_excuses_the_field() {
     for (id, vector) in [
@@ -233,7 +233,7 @@ fn a_failed_start_fails_only_the_protocol() {
 }
 
 #[allow(clippy::disallowed_methods, reason = "to a listener of the test")]
-/// The shell starts `ads-cnc serve` as a child process, which ends with the shell.
+/// If a shell starts `ads-cnc serve` as a child process, ending the command also ends this process.
 #[test]
 fn a_command_ends_with_the_processes_it_started() {
     let mut command = shell(&format!(
@@ -253,7 +253,7 @@ fn a_command_ends_with_the_processes_it_started() {
     }
 }
 
-/// Testees in one line of shell.
+/// Tests with testees that are one line of shell.
 #[cfg(unix)]
 mod shell {
     use ads_cnc_conformance::testee::{
@@ -262,7 +262,7 @@ mod shell {
 
     use super::WAIT_MAX;
 
-    /// A testee in shell that claims these operations and answers each case with a line.
+    /// A testee in shell that claims these ops and answers each case with this line.
     fn shell(ops: &str, line: &str) -> TesteeProcess {
         let testee = r#""testee":{"name":"sh"}"#;
         let hello =
@@ -272,17 +272,17 @@ mod shell {
         TesteeProcess::new(command, WAIT_MAX)
     }
 
-    /// The reaction to an answer to the first case, whose number is 1.
+    /// The reaction to this line as the answer to the first case, whose number is 1.
     fn says(line: &str) -> TesteeReaction {
         shell("", line).ask(&Question::new("decode", "object-count", "en-1.05"))
     }
 
-    /// The check of the protocol shows the lines of an adapter, escaped for a terminal.
+    /// The output of the protocol check contains the lines of an adapter, escaped for a terminal.
     #[test]
     fn the_protocol_check_escapes_lines() {
         let findings = check_protocol(&mut shell(r#""\u001b[2J\u0007""#, "\\033[31m"));
         let all = format!("{findings:#?}");
-        // Nothing is sent after a hello with an unknown operation.
+        // After a hello with an unknown op, the check ends.
         assert_eq!(findings.len(), 1, "{all}");
         let shown = |text: &Option<String>| text.clone().unwrap_or_default();
         for finding in &findings {
@@ -292,7 +292,7 @@ mod shell {
         assert!(findings.iter().any(|one| shown(&one.fault).contains(r"\u{1b}[2J\u{7}")), "{all}");
     }
 
-    /// An answer has exactly one of the four forms, and is text.
+    /// An answer must have exactly one of the four forms, and must be text.
     #[test]
     fn an_answer_has_exactly_one_form() {
         assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), TesteeReaction::Answer(_)));
@@ -320,7 +320,7 @@ mod shell {
         }
     }
 
-    /// Additional lines are reported, also after the last answer.
+    /// Lines in addition to the answers are reported, even after the last answer.
     #[test]
     fn additional_lines_are_reported() {
         for (line, is_right) in

@@ -15,7 +15,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// The call, its stdout and stderr, and the exit code.
+/// The text of a snapshot: each call with its stdout, its stderr and its exit code.
 fn shown(calls: &[&[&str]]) -> String {
     let mut all = String::new();
     for args in calls {
@@ -27,7 +27,7 @@ fn shown(calls: &[&[&str]]) -> String {
     all
 }
 
-/// A served CNC, and calls with it as the target.
+/// A simulated CNC in a separate process, which calls use as their target.
 struct Device(Serve);
 
 impl Device {
@@ -47,7 +47,7 @@ impl Device {
     }
 }
 
-/// A file of this process that is removed when dropped.
+/// A temporary file that is removed when this value is dropped.
 struct Temporary(PathBuf);
 
 impl Temporary {
@@ -210,7 +210,8 @@ fn failed_writes_have_a_reason() {
     );
 }
 
-/// A channel that does not exist does not affect others, and a channel may be named twice.
+/// A channel that does not exist does not affect the output of other channels, and a channel may be named
+/// twice.
 #[test]
 fn missing_channels_are_reported() {
     let browse = |args: &[&str]| {
@@ -225,7 +226,7 @@ fn missing_channels_are_reported() {
     assert_eq!(listed, (2, format!("{simulated}{absent}")));
 }
 
-/// On a CNC without descriptions by name, variables are found by index.
+/// On a CNC without descriptions by name, the tools search a variable by index.
 #[test]
 fn older_cncs_are_queried_by_index() {
     let device = Device::start(&["--cnc-version", "V3.1.3131.0"]);
@@ -235,7 +236,8 @@ fn older_cncs_are_queried_by_index() {
     assert_eq!(device.value(&["V.CYC.count", "--type", "UNS32"]), "42");
 }
 
-/// Only values in a file are written to a device. The error for another write contains its entry.
+/// Only values that a file names are written to a device. The error for another write contains the entry
+/// that would allow it.
 #[test]
 fn writes_to_a_device_need_an_entry() {
     let device = Device::start(&[]);
@@ -275,7 +277,7 @@ fn writes_to_a_device_need_an_entry() {
         assert_eq!(text(&output.stderr), "");
         assert_eq!(device.value(&get), new, "{name}");
 
-        // The entry allows only this value.
+        // The entry allows only the variable that it names.
         let other = ["set", "V.E.uns32", "1", "--allow-write", file.path()];
         assert_eq!(device.call(&other).status.code(), Some(4));
         assert_eq!(device.value(&["V.E.uns32"]), "4294967295");
@@ -317,19 +319,19 @@ fn a_file_applies_to_one_device_until_it_expires() {
     assert_eq!(device.value(&["V.E.vartest"]), "4711");
 }
 
-/// A device with the same model as the simulated CNC has the same lists.
+/// `browse` prints the same for a device as for the simulated CNC with the same model.
 #[test]
 fn a_device_is_browsed() {
     let device = Device::start(&[]);
     let output = device.call(&["browse", "--exact"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert_eq!(text(&output.stdout), text(&ads_cnc(&["browse"]).stdout));
-    // Options of the simulated CNC are rejected with a target.
+    // An option for the simulated CNC is rejected together with a target.
     let output = device.call(&["browse", "--cnc-version", "V4.29.0"]);
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// The tables as JSON match their schema; the text contains the same streams.
+/// The output of `tables --json` matches its schema, and the text output contains the same streams.
 #[test]
 fn tables_match_their_schema() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/tables.schema.json");

@@ -13,11 +13,11 @@ use crate::common::harmless::{is_harmless, number};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::{Cnc, Server};
 
-/// The commands that connect to a target, called without permission; add a new command here. Each has
-/// the exit code, and whether it sends queries before a rejection.
+/// Calls without `--allow-write` of all commands that connect to a target, each with the exit code and
+/// whether the command sends queries before it is rejected. A new command must be added here.
 const TOOLS: &[(&[&str], i32, bool)] = &[
     (&["run"], 0, true),
-    // Any ASCII text is an NC program.
+    // The license file serves as an NC program, because any ASCII text is one.
     (&["stream", concat!(env!("CARGO_MANIFEST_DIR"), "/LICENSE-MIT")], 4, false),
     (&["service", "--uuid", "560AACBF-6335-44a9-895A-8B27F3ED5E47", "--", "echo"], 4, false),
     (&["browse", "--content", "--exact"], 0, true),
@@ -34,7 +34,7 @@ const TOOLS: &[(&[&str], i32, bool)] = &[
     (&["set", "example.feed", "1"], 4, true),
 ];
 
-/// A CNC, and the frames that were sent to it.
+/// A simulated CNC behind a proxy that records the frames that are sent to the CNC.
 struct Tripwire {
     addr: SocketAddr,
     kept: Arc<Mutex<Vec<Vec<u8>>>>,
@@ -64,7 +64,7 @@ impl Tripwire {
         Self { addr, kept, _server: server }
     }
 
-    /// The sent bytes of each connection.
+    /// The bytes that were sent on each connection.
     fn connections(&self) -> Vec<Vec<u8>> {
         self.kept.lock().unwrap().clone()
     }
@@ -101,7 +101,7 @@ fn pass(mut client: TcpStream, cnc: TcpStream, keep: &Mutex<Vec<Vec<u8>>>, place
     let _gone = cnc.shutdown(std::net::Shutdown::Both);
 }
 
-/// The frames of a connection, which must end with a complete frame.
+/// Splits the bytes of a connection into frames; fails if the last frame is incomplete.
 fn frames(mut bytes: &[u8]) -> Vec<&[u8]> {
     let mut frames = Vec::new();
     while !bytes.is_empty() {
@@ -129,7 +129,7 @@ fn default_runs_of_every_tool_change_nothing() {
     }
 }
 
-/// A write whose name is sufficient for a rejection is rejected before connecting.
+/// If the name of a write suffices to reject it, the tool rejects it before it connects.
 #[test]
 fn a_rejection_needs_no_connection() {
     let addr = nobody().to_string();
@@ -149,13 +149,13 @@ fn a_rejection_needs_no_connection() {
     fs::remove_file(&program).unwrap();
 }
 
-/// An address without a listener.
+/// An address on this machine at which no program listens.
 fn nobody() -> SocketAddr {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     listener.local_addr().unwrap()
 }
 
-/// Commands that only read write nothing, even with a file that allows it.
+/// Commands that only read write nothing, even with a file that allows writes.
 #[test]
 fn a_file_alone_changes_nothing() {
     let file = AllowFile::new(
@@ -171,7 +171,7 @@ fn a_file_alone_changes_nothing() {
     }
 }
 
-/// The suite only writes the value in the file, by name or by handle, and restores it.
+/// The suite writes only the value that the file names, by name or by handle, and restores it.
 #[test]
 fn a_run_writes_only_named_values_and_restores_them() {
     let file = AllowFile::new("run", "[[variable]]\nchannel = 1\nname = \"V.E.test\"\n");
@@ -185,7 +185,7 @@ fn a_run_writes_only_named_values_and_restores_them() {
     let all = connections.iter().flat_map(|bytes| frames(bytes));
     let writes: Vec<&[u8]> = all.filter(|frame| !is_harmless(frame)).collect();
     for frame in &writes {
-        // A Write after the headers: group, offset, length, data.
+        // The data of a Write follows the headers, the group, the offset and the length.
         assert_eq!((frame[22], number(frame, 38)), (3, 0x12_2301), "{frame:02x?}");
         let data = &frame[50..];
         match number(frame, 42) {
@@ -194,12 +194,14 @@ fn a_run_writes_only_named_values_and_restores_them() {
             offset => panic!("{offset:#x}: {frame:02x?}"),
         }
     }
-    // By handle and by name, the whole value and two elements, and for the service itself; each time
-    // the original value, another one, and the original value.
+    // Seven values are written: by handle and by name, the whole value and two elements, and once
+    // to test the service Write. Each is written three times: with the original value, another value,
+    // and the original value again.
     assert_eq!(writes.len(), 21);
 }
 
-/// The suite only streams comments to a device, and answers no request of an NC program: nothing moves.
+/// The suite streams only comments to a device, and responds to no request of an NC program, so that
+/// nothing moves.
 #[test]
 fn a_run_streams_only_comments_and_answers_no_request() {
     let entries = "[[stream]]\nchannel = 1\n[[stream]]\nrank = 1\n[[service]]\nchannel = 1\n";
@@ -237,7 +239,7 @@ fn a_run_streams_only_comments_and_answers_no_request() {
     assert!(streamed > 2 && answered > 3, "{streamed} packets, {answered} answers");
 }
 
-/// A file for `--allow-write` that is removed when dropped.
+/// A temporary file for `--allow-write` that is removed when this value is dropped.
 struct AllowFile(std::path::PathBuf);
 
 impl AllowFile {
@@ -260,15 +262,15 @@ impl Drop for AllowFile {
     }
 }
 
-/// A dry run shows its requests and does not connect.
+/// A dry run prints its requests and does not connect.
 #[test]
 fn a_dry_run_sends_nothing() {
     for (args, code, asks) in TOOLS {
         let tripwire = Tripwire::start();
         let output = tripwire.call(&[&args[..1], &["--dry-run"], &args[1..]].concat());
-        // A command that queries first stops at the missing reply, before the rejection.
+        // A command that sends queries first ends after printing them, before its write is rejected.
         let code = match args {
-            // A variable is written by its name, which is known.
+            // The write of a variable needs no query, because its name is known.
             ["set", name, ..] if name.starts_with("V.") => 4,
             _ if *asks => 0,
             _ => *code,
@@ -281,7 +283,8 @@ fn a_dry_run_sends_nothing() {
     }
 }
 
-/// Malformed requests need a file even for a target on loopback.
+/// Malformed requests need a file even for a target at a loopback address; without the file, the tool does
+/// not connect.
 #[test]
 fn malformed_requests_without_a_file_need_no_connection() {
     let tripwire = Tripwire::start();
@@ -292,7 +295,7 @@ fn malformed_requests_without_a_file_need_no_connection() {
     assert_eq!(tripwire.connections().len(), 0);
 }
 
-/// An invalid file is rejected with its line before anything is sent.
+/// An invalid file is rejected, with the number of the line, before anything is sent.
 #[test]
 fn nothing_is_sent_with_an_invalid_file() {
     let file = std::env::temp_dir().join(format!("ads-cnc-bad-{}.toml", std::process::id()));
@@ -310,7 +313,7 @@ fn nothing_is_sent_with_an_invalid_file() {
     assert_eq!(tripwire.connections().len(), 0);
 }
 
-/// The test itself detects frames that are not harmless.
+/// `is_harmless`, on which these tests rely, returns false for frames that write or move something.
 #[test]
 fn harmful_frames_are_detected() {
     let frame = |command: u8, port: u16, group: u32, offset: u32, data: &[u8]| {

@@ -1,4 +1,4 @@
-//! The service of the manual's example.
+//! The service of the manual's example of the Service Interface, which computes square roots.
 
 /// Returns the response and the response state for a request. The manual's example is C code with
 /// `atof`, `sqrt` and `%f`.

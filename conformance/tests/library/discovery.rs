@@ -12,7 +12,8 @@ use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, LocalCnc, NET_ID};
 use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
 
-/// A device in this process, after the queries before its cases.
+/// A simulated CNC in this process as a device, after the queries with which a run discovers what the
+/// device has.
 fn discovered(seed: Option<&Seed>) -> (TargetState, Discovery) {
     let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
     let cnc = Arc::new(Faulty::new(cnc, seed));
@@ -45,7 +46,7 @@ fn the_default_model_is_found_without_a_profile() {
     assert_eq!(found.sampled(), None);
 }
 
-/// A port that does not reply fails its case, although discovery did not find the port.
+/// A port that discovery did not find is claimed nevertheless, so its case fails.
 #[test]
 fn a_missing_port_fails() {
     let (mut target, _) = discovered(faults::by_id("cnc.gen.geo-missing"));

@@ -167,7 +167,7 @@ proptest! {
         });
     }
 
-    /// Explains the same bytes as every stream.
+    /// Explains the same bytes as each stream in turn.
     #[test]
     fn every_explanation_agrees_with_the_walk(bytes in bytes()) {
         for named in Stream::all() {

@@ -189,8 +189,9 @@ fn the_largest_index_of_a_name_may_be_accepted() {
     assert_differs(codec, &["vec-path-index-too-large"]);
 }
 
-/// A checker without lower-case letters, nested parentheses and quotes, which does not treat a jump to
-/// its own line, a block without an end or labels with leading zeros specially.
+/// A checker of NC text is correct even if it does not know lower-case letters, nested parentheses and
+/// quotes, and does not treat a jump to its own line, a block without an end or labels with leading zeros
+/// specially.
 #[test]
 fn a_checker_may_know_only_the_manuals_nc_text() {
     const OTHERWISE: [&str; 10] = [

@@ -260,7 +260,7 @@ fn the_record_of_executed_lines_is_limited() {
     }
 }
 
-/// Valid and invalid writes.
+/// The data of valid and of invalid writes.
 fn piece() -> impl Strategy<Value = Vec<u8>> {
     prop_oneof![
         20 => (1..40_usize).prop_map(|count| b"N1 X1\r\n".repeat(count)),
@@ -284,7 +284,7 @@ fn any_pace() -> impl Strategy<Value = Pace> {
 proptest! {
 #![proptest_config(kept::cases(300, file!()))]
 
-/// The number of calls of `advance` does not matter.
+/// The result does not depend on the number of calls of `advance` in which the same time passes.
 #[test]
 fn the_result_does_not_depend_on_advances(
     pace in any_pace(),

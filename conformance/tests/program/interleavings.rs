@@ -66,7 +66,8 @@ proptest! {
         world.finish(&mut next);
     }
 
-    /// With two independent hosts that have one service each, too, every request is served once.
+    /// Two independent hosts with one service each, with any failures: every request is served once by its
+    /// service, and receives its own response.
     #[test]
     fn two_hosts_answer_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();

@@ -201,7 +201,7 @@ fn any_wait() -> impl Strategy<Value = Wait> {
 proptest! {
 #![proptest_config(kept::cases(300, file!()))]
 
-/// The number of calls of `advance` does not matter.
+/// The result does not depend on the number of calls of `advance` in which the same time passes.
 #[test]
 fn the_result_does_not_depend_on_advances(
     wait in any_wait(),

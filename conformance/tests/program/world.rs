@@ -42,7 +42,7 @@ pub(crate) struct ServiceBend {
     /// Called to report a failed step to a host.
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) restart: fn(&mut Host<'_>),
-    /// Writes a variable.
+    /// Called to write a variable of the interface.
     pub(crate) write: fn(&mut ServiceInterface, ServiceVariable, &[u8]),
     /// Returns the index of the service that the host reports for a request.
     pub(crate) asked: fn(usize, &str) -> usize,
@@ -103,8 +103,8 @@ impl<'s> World<'s> {
         &self.served
     }
 
-    /// The response of a service: the index of the service, the request, and the number of requests that the
-    /// service has served.
+    /// The response of a service: the index of the service, the request, and the number of requests that
+    /// the service has served.
     fn answer(service: usize, request: &str, times: usize) -> String {
         format!("{service} {request} {times}")
     }
@@ -233,8 +233,8 @@ impl<'s> World<'s> {
         for _ in 0..2000 {
             self.program(next);
             (0..self.hosts.len()).for_each(|place| self.host(place, Luck::Fine));
-            // The program sends its next request at once, so it has no more requests if it stays
-            // without a request. A host may still complete the last response meanwhile.
+            // The program has no more requests if it sends none for several steps. In these steps, a
+            // host may still complete the last response.
             idle = if self.call.is_none() { idle + 1 } else { 0 };
             if idle > 12 {
                 break;

@@ -1,4 +1,5 @@
-//! The environment of the calls: a folder, a device, and a simulated CNC.
+//! The environment in which the calls of documents are executed: a folder, a device, and a simulated
+//! CNC.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -9,10 +10,10 @@ use std::{env, thread};
 use super::common::Serve;
 use super::shown::{Shown, fits, words};
 
-/// Time limit of a call; a build by cargo takes minutes.
+/// Time limit of a call, which is long because a build by cargo takes minutes.
 const WAIT_MAX: Duration = Duration::from_secs(900);
 
-/// Time limit for the output of a call that does not end.
+/// Time limit for a call that does not end by itself to print the shown output.
 const PATIENCE_ENDLESS: Duration = Duration::from_secs(60);
 
 pub(crate) fn root() -> PathBuf {
@@ -21,9 +22,9 @@ pub(crate) fn root() -> PathBuf {
 
 pub(crate) struct Bench {
     directory: PathBuf,
-    /// The device that calls use as 192.0.2.10.
+    /// The simulated CNC that calls use as the device 192.0.2.10.
     device: Serve,
-    /// The CNC that calls use as 127.0.0.1; its NC program requests square roots.
+    /// The simulated CNC that calls use as 127.0.0.1; its NC program requests square roots.
     cnc: Serve,
 }
 
@@ -42,7 +43,7 @@ impl Bench {
             if let Some(name) = call.strip_prefix("cat ") {
                 bench.write(name, &output.replace("expires = 2030-", "expires = 9999-"));
             }
-            // Write the entry in a rejection to the file of the next call.
+            // Writes the entry that a rejection suggests to the file that the next call uses.
             if let Some((_, entry)) = output.split_once("--allow-write:\n\n") {
                 let expires = "expires = 9999-12-31T23:59:59Z";
                 bench.write("test.toml", &entry.replace("expires = …", expires));
@@ -55,7 +56,7 @@ impl Bench {
         fs::write(self.directory.join(name), text).unwrap();
     }
 
-    /// Executes the call and compares its output; a call without shown output must succeed.
+    /// Executes a call and compares its output with the document; a call without shown output must succeed.
     pub(crate) fn make(&self, shown: &Shown) {
         let Shown { call, output } = shown;
         let (found, status) = self.output(call, output);
@@ -66,8 +67,8 @@ impl Bench {
         }
     }
 
-    /// The output of a call in its order, and the exit status. A call that does not end by itself is
-    /// ended after it has printed the shown output.
+    /// Executes a call; returns its stdout and stderr in the order in which they were printed, and the exit
+    /// status. A call that does not end by itself is ended after it has printed the shown output.
     fn output(&self, call: &str, shown: &str) -> (String, Option<ExitStatus>) {
         let mut words = words(call);
         let is_endless =
@@ -96,7 +97,7 @@ impl Bench {
     }
 
     fn command(&self, words: &[String], out: &File) -> Command {
-        // Let the system choose the port of another CNC.
+        // A call of `serve` must not use the port of the CNC, so the system chooses a port.
         let to_cnc = if words[1] == "serve" { "127.0.0.1:0" } else { &self.cnc.addr };
         let here = |word| match word {
             "192.0.2.10" => &self.device.addr,
@@ -106,7 +107,7 @@ impl Bench {
         let words: Vec<&str> = words.iter().map(|word| here(word.as_str())).collect();
         let (program, arguments) = words.split_first().unwrap();
         let mut command = match *program {
-            // Cargo prints its own messages to stderr.
+            // The messages of cargo itself on stderr are not part of the shown output.
             "cargo" => {
                 let mut cargo = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
                 cargo.current_dir(root()).stderr(Stdio::null());
@@ -124,7 +125,7 @@ impl Bench {
         };
         command.args(arguments);
         if let ["check", ..] = arguments {
-            // The device does not use the default port.
+            // The call has no port, but the device of this test does not listen at the default port.
             command.args(["--port", self.device.addr.rsplit(':').next().unwrap()]);
         }
         command

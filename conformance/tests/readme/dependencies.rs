@@ -1,4 +1,4 @@
-//! A document states the reason for every crate that the tools use.
+//! Tests that dependencies.md states the reason for every crate on which the tools depend.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -24,7 +24,7 @@ fn every_crate_has_a_reason() {
     let document = fs::read_to_string(root().join("conformance/doc/dependencies.md")).unwrap();
     let (used, _) = document.split_once("## Considered and not used").unwrap();
     let quoted = used.split('`').skip(1).step_by(2);
-    // Except options and this project's own crates.
+    // Options and this project's own crates are quoted, too, but are not dependencies.
     let quoted = quoted.filter(|word| !word.starts_with('-') && !word.starts_with("ads-cnc"));
     assert_eq!(quoted.collect::<BTreeSet<_>>(), crates);
     let counted = format!("built from {} crates", versions.len());

@@ -1,4 +1,4 @@
-//! The documents, and the calls that they show.
+//! Finds the documents and the calls that they show.
 
 use std::fs;
 use std::path::Path;
@@ -6,11 +6,11 @@ use std::path::Path;
 use super::bench::{Bench, root};
 use super::shown::{Shown, calls};
 
-/// Calls that need other programs, or minutes: gate.rs executes them.
+/// The starts of calls that need other programs or several minutes; gate.rs executes these calls.
 pub(crate) const IN_THE_GATE: [&str; 4] =
     ["cargo run ", "ads-cnc selftest", "ads-cnc run --testee ", "ads-cnc run --client "];
 
-/// All documents by their paths.
+/// The path and the text of each document.
 pub(crate) fn texts() -> Vec<(String, String)> {
     let mut found = Vec::new();
     add(&root(), "", &mut found);
@@ -31,7 +31,7 @@ fn add(folder: &Path, prefix: &str, found: &mut Vec<(String, String)>) {
     }
 }
 
-/// The documents that show calls.
+/// The documents that show calls: the path of each, and its calls.
 pub(crate) fn documents() -> Vec<(String, Vec<Shown>)> {
     let shown = texts().into_iter().map(|(path, text)| (path, calls(&text)));
     shown.filter(|(_, shown)| !shown.is_empty()).collect()
@@ -41,7 +41,8 @@ pub(crate) fn is_in_the_gate(call: &str) -> bool {
     IN_THE_GATE.iter().any(|start| call.starts_with(start) || call == start.trim_end())
 }
 
-/// Executes the calls of each document in order, because a call may need the files of a previous one.
+/// Executes the calls for which `is_meant` returns true, and returns their number. The calls of a document
+/// are executed in order, because a call may need the files of a previous call.
 pub(crate) fn make(is_meant: impl Fn(&str) -> bool) -> usize {
     let mut made = 0;
     for (path, shown) in documents() {

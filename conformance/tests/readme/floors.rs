@@ -7,18 +7,19 @@ use std::path::Path;
 
 use super::bench::root;
 
-/// Maximum number of imports in a chain: a reader who starts anywhere reaches the bottom in that number of steps.
+/// Maximum number of imports in a chain of modules, so that a reader who follows imports from any module
+/// reaches the end after this number of modules.
 const IMPORTS_MAX: usize = 8;
 
-/// An import of a module by a line of another module.
+/// An import: a line of the module `from` imports another module.
 struct Arrow {
     from: String,
     to: String,
     at: String,
 }
 
-/// The text of each file in a folder, by its path below `src`, without comments, tests and
-/// declarations of modules.
+/// Reads the files in a folder: the text of each file without comments, tests and declarations of modules,
+/// by its path below `src`.
 fn read_files(folder: &Path, prefix: &str, found: &mut BTreeMap<String, String>) {
     for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
         let name = entry.file_name().into_string().unwrap();
@@ -74,7 +75,7 @@ fn modules_import_only_modules_below_them() {
     let (mut files, mut all) = (BTreeMap::new(), Vec::new());
     read_files(&src, "", &mut files);
     files.iter().for_each(|(path, text)| arrows(path, text, &mut all));
-    // A name that is not a module counts as above all modules.
+    // A name that is not a module has the position `None`, which counts as above all modules.
     let floor = |module: &str| floors.iter().position(|floor| *floor == module);
     let mut chains = BTreeMap::new();
     for module in floors.iter().rev() {
@@ -95,9 +96,9 @@ fn modules_import_only_modules_below_them() {
 
 /// The imports of a file.
 struct Module {
-    /// The path of each imported name.
+    /// The path that each imported name stands for.
     names: BTreeMap<String, String>,
-    /// The paths in code and imports, except those that the file only re-exports.
+    /// The paths in code and imports, except the paths that the file only re-exports.
     paths: BTreeSet<String>,
 }
 
@@ -137,7 +138,7 @@ impl Module {
     }
 }
 
-/// The paths of a `use` tree.
+/// Expands a `use` tree with braces to its paths.
 fn expand(tree: &str) -> Vec<String> {
     let Some((prefix, rest)) = tree.split_once('{') else { return vec![tree.trim().to_owned()] };
     let mut depth = 0;
@@ -149,8 +150,8 @@ fn expand(tree: &str) -> Vec<String> {
     paths.map(|path| format!("{}{path}", prefix.trim())).collect()
 }
 
-/// The module that defines the item of a path in a module, following re-exports; `None` for the same
-/// module or another crate.
+/// The module that defines the item to which a path in `module` refers, following re-exports; `None` if
+/// it is this module or another crate.
 fn definition(modules: &BTreeMap<String, Module>, module: &str, path: &str) -> Option<String> {
     let (first, rest) = path.split_once("::").unwrap_or((path, ""));
     let child = format!("{module}::{first}");
@@ -173,7 +174,7 @@ fn definition(modules: &BTreeMap<String, Module>, module: &str, path: &str) -> O
     definition(modules, inner, rest).or_else(|| Some(inner.to_owned()))
 }
 
-/// The arrows of each circle of modules that import each other.
+/// The imports of each circle of modules that import each other.
 fn circles(files: &BTreeMap<String, String>) -> Vec<String> {
     let modules = files.iter().map(|(path, text)| {
         let path = path.trim_end_matches(".rs").trim_end_matches("/mod").replace('/', "::");

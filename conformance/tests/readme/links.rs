@@ -9,7 +9,7 @@ fn links_have_targets() {
     for (path, text) in &texts {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
-            // rustdoc checks the links to items.
+            // rustdoc itself checks links to items.
             let is_item = link.starts_with("crate::");
             if is_item || link.contains("://") || link.contains(char::is_whitespace) {
                 continue;

@@ -1,4 +1,4 @@
-//! The table of the manuals' sections, and the short one in the README.
+//! Tests that the table of the manuals' sections, and the short table in the README, are up to date.
 
 use std::fs;
 

@@ -1,6 +1,6 @@
-//! The calls in a document, and the comparison of their output.
+//! Finds the calls in a document, and compares their output.
 
-/// A call in a block ```console and the output below it.
+/// A call in a block ```console and the output that the document shows below the call.
 #[derive(Debug, Default)]
 pub(crate) struct Shown {
     pub(crate) call: String,
@@ -26,7 +26,7 @@ pub(crate) fn calls(document: &str) -> Vec<Shown> {
     all
 }
 
-/// The words of a call, split as by a shell, without expansions.
+/// Splits a call into words as a shell does, but without expansions.
 pub(crate) fn words(call: &str) -> Vec<String> {
     let (mut words, mut quote, mut open) = (vec![String::new()], None, false);
     for character in call.chars() {
@@ -45,9 +45,9 @@ pub(crate) fn words(call: &str) -> Vec<String> {
     words
 }
 
-/// Whether the output matches the shown one line by line. A line with only … matches any number of
-/// lines, and a line that ends in … any longer line. Values that differ from run to run are ignored:
-/// ports that the system chooses, seeds, times, and numbers of polls.
+/// Whether the output matches the shown output line by line. A shown line with only … matches any number
+/// of lines, and a shown line that ends in … matches any longer line. Values that differ from run to run
+/// are ignored: ports that the system chooses, seeds, times, and numbers of polls.
 pub(crate) fn fits(shown: &str, output: &str) -> bool {
     let lines = |text: &str| text.lines().map(steady).collect::<Vec<_>>();
     all_fit(&lines(shown), &lines(output))
@@ -66,7 +66,7 @@ fn all_fit(shown: &[String], output: &[String]) -> bool {
     })
 }
 
-/// A line without the numbers after these words.
+/// The line without the values that differ from run to run.
 fn steady(line: &str) -> String {
     let mut line = line.to_owned();
     for words in ["127.0.0.1:", "seed ", "cases, ", "checks, ", "within ", " s ("] {

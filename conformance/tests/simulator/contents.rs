@@ -126,7 +126,7 @@ fn descriptors(target: &Target, list: impl Into<ObjectList>) -> Check<Descriptor
     Ok(all)
 }
 
-/// The descriptor contains the name and size of the object.
+/// Each object has a descriptor in its list, with the name, the size and an address of the object.
 fn every_object_is_in_its_list(target: &Target) -> Check {
     let all = target.cnc().stored_contents();
     let mut lists = vec![(0, descriptors(target, ObjectList::PLATFORM)?)];

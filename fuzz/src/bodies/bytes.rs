@@ -6,7 +6,8 @@ use ads_cnc::{Decode as _, Error, ErrorKind, NoData};
 use crate::common::{self, Bend, Fault};
 use crate::{Defect, Outcome};
 
-/// The streams of a family. The first byte of an input is an index here, so add new streams at the end.
+/// The streams of a family. The first byte of an input is an index into this list, so add new
+/// streams at the end.
 pub(crate) type Family = &'static [Stream];
 
 /// Input: an index of the stream (1 byte), then the bytes of the stream.
@@ -18,7 +19,7 @@ pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
     let Some(&stream) = family.get(usize::from(pick)) else { return Outcome::unread() };
     match common::check_bent(stream, bytes, &bend(defect)) {
-        // Accepted bytes encode to themselves.
+        // Accepted bytes encode to the same bytes, so they serve as the result.
         Ok(()) => Outcome::accepted((pick, bytes)),
         Err(error) => Outcome::refused(shown(error)),
     }
@@ -40,13 +41,15 @@ pub(crate) const DEFECTS: &[&str] = match VARIABLE_DEFECTS {
     [] => &[],
 };
 
-/// The defects for program streams, which take all bytes, so that no bytes can follow them.
+/// The defects for program streams: [`DEFECTS`] without the last five, which concern bytes after a stream.
+/// A program stream contains all bytes up to the end of the input.
 pub(crate) const STREAMING_DEFECTS: &[&str] = match DEFECTS {
     [of_all @ .., _, _, _, _, _] => of_all,
     _ => &[],
 };
 
-/// The defects for variables, whose values are also read by a type.
+/// The defects for variables: the last one concerns values that are read by their type, which only
+/// variables have.
 pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "the last byte loses its top bit when it is encoded",
     "the offset of an error after the first eight bytes is off by one",
@@ -74,7 +77,8 @@ pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "typed bytes of a value after the sixteenth lose their top bit when they are written",
 ];
 
-/// The defect of a target that has only some of the defects, which `some` lists by number; 0 is none.
+/// The changed behaviour for a target that has only some of these defects: `some` has their numbers, in the
+/// order of the target's own defects. 0 stands for a defect that the target implements itself.
 pub(crate) fn bend_among(some: &[u8], defect: Defect) -> Bend {
     let number = (1..).zip(some).find(|(own, _)| defect.is(*own));
     bend(number.map_or(Defect::NONE, |(_, number)| Defect::new(*number)))
@@ -168,7 +172,7 @@ fn bend(defect: Defect) -> Bend {
     bend
 }
 
-/// Any error.
+/// An error, to replace a result.
 fn rejected() -> Result<usize, Error> {
     NoData::decode(&[0]).map(|_| 0)
 }

@@ -9,17 +9,18 @@ use crate::{Defect, Outcome};
 /// The byte that ends a lot. It is not a character of NC text.
 const CUT: u8 = 0xFF;
 
-/// More lots find nothing new, and take time.
+/// Maximum number of lots in an input. More lots would find nothing new, and take time.
 const LOTS: usize = 12;
 
 /// Input: NC text, in which a byte 0xFF ends a lot of lines.
 ///
-/// The findings in each lot are those that the whole text up to there has in this lot, in the order
-/// of the text, whatever the line ends. Text that cannot be streamed is checked too.
+/// The check of a lot has the same findings as a check of the text from its beginning to the end of the lot
+/// has in this lot, in the order of the text, whatever the line ends are. Text that cannot be streamed is
+/// checked too.
 pub(crate) fn lots(data: &[u8], defect: Defect) -> Outcome {
     let lots: Vec<&[u8]> = data.splitn(LOTS, |&byte| byte == CUT).collect();
     check_any_lots(lots.iter().copied());
-    // Whole lines, which the next lot cannot continue.
+    // Adds missing line ends, so that each lot consists of whole lines.
     let lots: Vec<Vec<u8>> = lots
         .iter()
         .map(|lot| if lot.ends_with(b"\n") { lot.to_vec() } else { [lot, &b"\n"[..]].concat() })

@@ -10,11 +10,12 @@ use crate::machines::{CheckedInterface, InterfaceBend};
 use crate::{Defect, Outcome};
 
 /// Input: the number of lines, and one byte for each line: its length (the upper six bits, most
-/// lengths are short) and its line end (the lower two bits). Then one byte for each event, see below.
+/// lengths are short) and its line end (the lower two bits). Then one byte for each event, which the
+/// `match` below interprets.
 /// The characters of a line depend on its byte, so that lines differ.
 ///
-/// Whatever is acknowledged and read, a sender loses nothing, repeats nothing and counts correctly,
-/// the interface is a bounded queue, and its output is the text.
+/// Whatever is acknowledged and read, a sender loses nothing, repeats nothing and counts correctly, and the
+/// interface is a bounded queue whose output is the text of the sender.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let lines = input.byte() % 8;
@@ -47,7 +48,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
             }
             3 => drop(sender.packet()),
             4 => {
-                // The answer to a write that did not reach the interface.
+                // An acknowledgement although the packet was not written to the interface.
                 let ack = [Ack::Busy, Ack::Accepted, Ack::Busy, Ack::Rejected];
                 let ack = ack[usize::from(event >> 3) % 4];
                 sender.acknowledge(ack);

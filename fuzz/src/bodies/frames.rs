@@ -35,14 +35,15 @@ pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
 
     let split = split(defect);
     let uncut = check_frames([&stream[..]], max_data, split);
-    // The frames before the first damaged one; a changed frame may still be valid.
+    // All frames before the first damaged frame are found. More may be found, because a changed frame may
+    // still be valid.
     assert!(uncut.0.starts_with(&whole), "{stream:x?}");
     let mut places: Vec<usize> = cuts.iter().map(|&cut| cut % (stream.len() + 1)).collect();
     places.extend([0, stream.len()]);
     places.sort_unstable();
     let pieces = places.windows(2).map(|cut| &stream[cut[0]..cut[1]]);
     assert_eq!(check_frames(pieces, max_data, split), uncut, "cut at {places:?}: {stream:x?}");
-    // The bytes after the frames, one by one.
+    // The bytes after the last frame arrive one by one.
     let taken: usize = uncut.0.iter().map(Vec::len).sum();
     let behind = &stream[taken..];
     check_verdicts_stay(&behind[..behind.len().min(64)], max_data, split);

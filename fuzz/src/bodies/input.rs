@@ -1,6 +1,6 @@
 //! Inputs that encode numbers, choices and events.
 
-/// The rest of an input.
+/// The bytes of an input that have not been read.
 #[derive(Clone, Copy)]
 pub(crate) struct Input<'a>(&'a [u8]);
 
@@ -61,7 +61,7 @@ impl<'a> Input<'a> {
     }
 }
 
-/// The remaining bytes.
+/// Iterates over the remaining bytes.
 impl Iterator for Input<'_> {
     type Item = u8;
 

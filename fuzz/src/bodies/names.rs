@@ -5,9 +5,9 @@ use crate::{Defect, Outcome};
 
 /// Input: a name in CP1252, up to its first NUL.
 ///
-/// From CP1252 and from UTF-8, the name has the same parts, which are those that splitting the string
-/// finds, or the same fault. The parts give the same name again. Before the offset of a fault, the
-/// name has no fault.
+/// Parsed from CP1252 and from UTF-8, the name has the same parts or the same fault. The parts are those
+/// that simple splitting of the string finds, and joining them gives the name again. The part of a name
+/// before the offset of its fault has no fault.
 pub(crate) fn path(data: &[u8], defect: Defect) -> Outcome {
     let text = data.split(|&byte| byte == 0).next().unwrap_or(data);
     match check_name(text, bend(defect)) {

@@ -20,7 +20,7 @@ use crate::{Defect, Outcome};
 /// data; this call is dispatched to the same request.
 pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
     let Some(call) = read_call(data) else { return Outcome::unread() };
-    // The third is that of any bytes.
+    // The first two defects are implemented below; the third is number 6 of `bytes::DEFECTS`.
     let bent = common::check_call_bent(&call, &bend_among(&[0, 0, 6], defect), |again| {
         if defect.is(1) {
             again.index_group = IndexGroup::new(again.index_group.get() & !0x10_0000);
@@ -68,7 +68,7 @@ pub(crate) fn request(data: &[u8], defect: Defect) -> Outcome {
         }
     });
     match made {
-        // An accepted operation encodes to itself.
+        // The server dispatches the operation to the same operation, so the input serves as the result.
         Ok(()) => Outcome::accepted(data),
         Err(error) => {
             let refused = error.kind() != ErrorKind::Function || defect.is(6);
@@ -87,9 +87,9 @@ pub(crate) const REQUEST_DEFECTS: &[&str] = &[
     "an element at the offset of a function is rejected with a different error",
 ];
 
-/// Channel (2 bytes), platform axis (1), channel axis (2), spindle, class, kind of dynamic parameter,
-/// index of an element (1 each), element (2), number and count (4 each), text and indices, each after a
-/// byte with its length; the rest is content.
+/// Reads the parameters of an operation: channel (2 bytes), platform axis (1), channel axis (2), spindle,
+/// class, kind of dynamic parameter, index of an element (1 each), element (2), number and count (4 each),
+/// text and indices, each after a byte with its length; the rest is content.
 fn parameters<'a>(
     bytes: &'a [u8],
     text: &'a mut String,
@@ -126,7 +126,7 @@ fn parameters<'a>(
     Some(parameters)
 }
 
-/// Whether every function has to accept these parameters.
+/// Whether these parameters are within the documented ranges, so that every function must accept them.
 fn is_documented(of: &Parameters<'_>) -> bool {
     let text = !of.text.contains('\0') && of.text.chars().count() <= 95;
     let count = (1..=ReadDescriptors::COUNT_MAX).contains(&of.count);
@@ -145,7 +145,7 @@ pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
         return Outcome::refused(format!("{refusal:?}"));
     }
     let bytes = input.bytes(usize::MAX);
-    // All but the fourth are those of any bytes.
+    // The fourth defect is implemented below; the others are those of `bytes::DEFECTS` with these numbers.
     let mut bend = bend_among(&[1, 2, 3, 0, 6, 7, 8], defect);
     if defect.is(4) {
         bend.len = |len| {

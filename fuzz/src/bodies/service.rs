@@ -11,9 +11,10 @@ use crate::machines::{CheckedCall, CheckedVariables};
 use crate::world::{Action, Asked, Luck, ServiceBend, World};
 use crate::{Defect, Outcome};
 
-/// Input: the settings (1 byte): one host for both services (bit 0), whether the interface never clears
-/// REQUEST_STATE (bit 1), chaos (bit 2). The number of requests and a byte for each; with chaos, the
-/// same again for the requests after it. Then one byte for each action, see [`actions`].
+/// Input: the settings (1 byte): one host for both services (bit 0); the interface never clears
+/// REQUEST_STATE (bit 1); chaos (bit 2): the program gives up, the CNC is reset and hosts restart. Then the
+/// number of requests and a byte for each; with chaos, the same again for the requests after the chaos.
+/// Then one byte for each action, see [`actions`].
 ///
 /// Whatever fails, every request is served once, by the service to which it is sent, and gets its own
 /// answer. After chaos, all parties come to rest, and the same is true again.
@@ -40,14 +41,16 @@ pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
     Outcome::accepted((what, format!("{:?}", world.served())))
 }
 
-/// The service that gets the request (bit 0), and the request (bit 1).
+/// Reads requests: their number, and a byte for each with the service to which the request is sent (bit 0)
+/// and one of two texts (bit 1).
 fn requests(input: &mut Input<'_>) -> Vec<Asked> {
     let count = input.byte() % 8;
     (0..count).map(|_| input.byte()).map(|byte| (usize::from(byte & 1), byte >> 1 & 1)).collect()
 }
 
-/// The lower three bits: the program makes a step, or the host that the fourth bit selects. The upper
-/// bits: how many steps, or the failure, or an action of chaos.
+/// The actions of a byte. Bits 0 to 2: the program makes steps (0, 1), a host makes steps (2 to 4) or a
+/// step that fails (5, 6), or an action of chaos (7). Bit 3 selects the host. Bits 4 to 6 have the number
+/// of steps less 1; bits 4 to 7 select the action of chaos.
 fn actions(byte: u8, chaos: bool) -> impl Iterator<Item = Action> {
     let (place, more) = (usize::from(byte >> 3 & 1), byte >> 4);
     let (action, times) = match byte & 7 {
@@ -126,7 +129,7 @@ pub(crate) fn machines(data: &[u8], defect: Defect) -> Outcome {
     }
 }
 
-/// More events find nothing new.
+/// Maximum number of events in an input. More events would find nothing new.
 const EVENTS: usize = 300;
 
 fn host(mut input: Input<'_>, defect: Defect) -> Outcome {
@@ -200,7 +203,8 @@ fn variables(mut input: Input<'_>, defect: Defect) -> Outcome {
     Outcome::accepted(events)
 }
 
-/// A value: its form is in the lower three bits of a byte, its parameter in the upper bits.
+/// Reads a value: its form is in the lower three bits of a byte, a parameter of the form in the upper five
+/// bits. Form 0 is the last value again.
 fn value<'v>(input: &mut Input<'_>, last: &'v mut Vec<u8>) -> &'v [u8] {
     let ids: [ServiceId; 2] = service_ids();
     let pick = input.byte();

@@ -24,7 +24,7 @@ pub(crate) fn typed(data: &[u8], defect: Defect) -> Outcome {
     let size = if size == 0 { u32::try_from(bytes.len()).unwrap_or(u32::MAX) } else { size };
     let of = Described { data_type, dimensions: &dimensions, size, indices: &indices, bytes };
     match check_shape(&of, bend(defect)) {
-        // The value that is read is the input itself.
+        // The value that is read is a part of the input, so the input serves as the result.
         Ok(count) => Outcome::accepted((count, data)),
         Err(kind) => Outcome::refused(format!("{kind:?}")),
     }

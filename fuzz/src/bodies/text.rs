@@ -7,8 +7,8 @@ use crate::{Defect, Outcome};
 /// Input: a byte, even for CP1252 or odd for UTF-8, then the text. If the text is not valid UTF-8, each
 /// three bytes are the number of a character.
 ///
-/// Text has the same characters, bytes and faults as with encoding_rs, and comes back in both
-/// directions.
+/// Text is converted to the same characters, bytes and faults as by encoding_rs, and the reverse conversion
+/// gives the original text.
 pub(crate) fn cp1252(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let of_utf8 = input.byte() % 2 == 1;

@@ -15,7 +15,8 @@ pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     Outcome::accepted((Subject::of(stream).made)(bytes, &bend_among(&OF_BYTES, defect)))
 }
 
-/// The defects of bytes that are visible in valid values: a value that is made here has no fault.
+/// The numbers of those defects in `bytes` that a valid value can reveal. The values that this target makes
+/// have no fault, so they reveal no defect of errors.
 const OF_BYTES: [u8; 11] = [1, 3, 4, 5, 6, 10, 11, 12, 13, 14, 15];
 
 pub(crate) const DEFECTS: &[&str] = &[

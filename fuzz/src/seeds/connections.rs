@@ -1,4 +1,4 @@
-//! Inputs of the targets for captures, the gate and sessions.
+//! Initial inputs of the targets for captures, the gate and sessions.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, Service};
@@ -7,13 +7,13 @@ use super::Seed;
 use crate::bodies::tools::{calls, gate};
 use crate::common::CALLS;
 
-/// A pcap and a pcapng file, and conversations.
+/// Inputs of the target `tools_capture`: a pcap file, a pcapng file, and conversations.
 pub(super) fn captured() -> Vec<Seed> {
     let section = b"\x0a\x0d\x0d\x0a\x1c\0\0\0\x4d\x3c\x2b\x1a\x01\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff\x1c\0\0\0";
     let interface = b"\x01\0\0\0\x14\0\0\0\x65\0\0\0\0\0\0\0\x14\0\0\0";
     let mut pcap = vec![0];
     pcap.extend(crate::bodies::tools::capture::sample());
-    // The same packets, each in its own block.
+    // The packets of the pcap file, each in a block of the pcapng file.
     let mut pcapng = [&[1][..], section, interface].concat();
     let mut rest = &pcap[25..];
     while let Some((header, behind)) = rest.split_at_checked(16) {
@@ -40,10 +40,11 @@ pub(super) fn captured() -> Vec<Seed> {
     ]
 }
 
-/// Every call at the gate: alone, with entries of a file, and after replies.
+/// Inputs of the target `tools_gate`: every call, with entries of a file, and writes after replies.
 pub(super) fn sent() -> Vec<Seed> {
     let mut seeds = Vec::new();
-    // A variable of channel 1 and of its second axis, the stream, the service, contents.
+    // Entries of a file: a variable of channel 1, one of its second axis, the stream and the service of
+    // channel 1, and a content.
     let entries = b"\x04\x00\x01\x00\x01\x01\x02\x02\x06\x01\x02\x01\x33\x12\0\x01\0\0\0";
     for sample in CALLS.iter().filter(|sample| sample.call.data.len() < 200) {
         let mut bytes = [&[2][..], entries].concat();
@@ -88,7 +89,7 @@ pub(super) fn sent() -> Vec<Seed> {
         [&begin[..], &[&[7], &writes[1..]].concat()].concat(),
     ));
     seeds.push(("by-name-later".to_owned(), [&[6][..], entries, &writes].concat()));
-    // Similar calls, with different letters and channels.
+    // Calls that differ from a permitted call only in the case of a letter or in the channel.
     let small = Call { data: b"V.E.a\0\x01", ..by_name };
     let channel_2 = IndexGroup::new(0x12_2302);
     let second = Call { index_group: channel_2, ..by_name };
@@ -131,7 +132,8 @@ pub(super) fn sent() -> Vec<Seed> {
     seeds
 }
 
-/// Every call of a CNC: alone, all together, and with a check of its effect.
+/// Inputs of the target `cnc_session`: every call alone, all calls together, and writes with a check of
+/// their effect.
 pub(super) fn sessions() -> Vec<Seed> {
     let mut seeds = Vec::new();
     let mut all = Vec::new();

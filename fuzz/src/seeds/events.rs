@@ -28,7 +28,8 @@ pub(super) fn frames() -> Vec<Seed> {
     .into()
 }
 
-/// Lines, then events: 0 sends, 3 gets the packet, 4, 12 and 28 acknowledge, 5 reads, 0xFE resets.
+/// Inputs of the target `streaming_sender`: lines, then events. 0 sends a packet, 3 gets the packet; 4, 12
+/// and 28 acknowledge it as busy, accepted and rejected; 5 reads, 0xFE resets.
 pub(super) fn senders() -> Vec<Seed> {
     let (short, long) = (0x28, 0xFC);
     [
@@ -46,7 +47,8 @@ pub(super) fn senders() -> Vec<Seed> {
     .into()
 }
 
-/// 0x70 is 8 steps of the program, 0x72 and 0x7A are 8 steps of the hosts; 5 and 6 fail.
+/// Inputs of the target `service_host`. 0x70 is 8 steps of the program, 0x72 and 0x7A are 8 steps of the
+/// first and the second host. In a byte that ends with the bits of 5 or 6, a step of a host fails.
 pub(super) fn worlds() -> Vec<Seed> {
     let turns = [0x70, 0x72, 0x7A].repeat(8);
     let failing =
@@ -64,7 +66,8 @@ pub(super) fn worlds() -> Vec<Seed> {
     seeds
 }
 
-/// The machine, then events with values: 0x0A is a state of 1, 0x03 a UUID, 0x1D a text.
+/// Inputs of the target `service_machines`: the machine, then events with values. 0x0A is a state of 1,
+/// 0x03 a UUID, 0x1D a text.
 pub(super) fn machines() -> Vec<Seed> {
     let found = [0, 0x0A, 0, 0x03, 0, 0x1D];
     let answer = [14, 1, 0x0D];

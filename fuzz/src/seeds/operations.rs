@@ -1,4 +1,4 @@
-//! Operations and replies.
+//! Initial inputs of the targets for operations and replies.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
@@ -7,7 +7,7 @@ use super::Seed;
 use crate::bodies::operation;
 use crate::common::{self, CALLS};
 
-/// An operation of each function, with logical addressing and by index.
+/// An operation of each function, once with logical addressing and once with addressing by index.
 pub(super) fn requests() -> Vec<Seed> {
     let functions = (0_u8..).zip(Function::ALL);
     let places = [("first", [1, 0, 1], "V.E.Testvar[3]"), ("second", [2, 1, 2], "V.A.L\u{E4}nge")];

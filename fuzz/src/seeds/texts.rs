@@ -1,4 +1,4 @@
-//! NC texts, texts and names.
+//! Initial inputs of the targets for NC text, CP1252 text and names of variables.
 
 use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{Given, Pieces, sequences, vectors};
@@ -6,7 +6,7 @@ use ads_cnc_vectors::{Given, Pieces, sequences, vectors};
 use super::{LONGEST, Seed};
 use crate::common;
 
-/// The texts of accepted and rejected sequences.
+/// The NC texts of the accepted and rejected sequences.
 pub(super) fn programs() -> Vec<Seed> {
     let of = |given: &Given| match given {
         Given::NcText(text) => Some(text.bytes()),
@@ -16,7 +16,8 @@ pub(super) fn programs() -> Vec<Seed> {
     short(|given| of(given))
 }
 
-/// The same texts, with a byte 0xFF between two packets.
+/// The packets of the sequences that check an NC text packet by packet, with a byte 0xFF between two
+/// packets.
 pub(super) fn lots() -> Vec<Seed> {
     let mut seeds = short(|given| match given {
         Given::NcCheck(packets) => {
@@ -36,7 +37,7 @@ fn short(of: impl Fn(&Given) -> Option<Vec<u8>>) -> Vec<Seed> {
     sequences().iter().filter_map(seed).filter(|(_, bytes)| bytes.len() <= 2 * LONGEST).collect()
 }
 
-/// Texts in CP1252 (after an even byte) and in UTF-8.
+/// Texts in CP1252 (after an even byte) and in UTF-8 (after an odd byte).
 pub(super) fn texts() -> Vec<Seed> {
     let of = |(name, text): (&str, &str)| (name.to_string(), [&[1], text.as_bytes()].concat());
     let utf8 = [

@@ -1,4 +1,4 @@
-//! Inputs of the targets for the tools.
+//! Initial inputs of the targets for the tools and for the simulated CNC.
 
 use std::collections::BTreeSet;
 
@@ -98,7 +98,7 @@ fn text(name: &str, text: &str) -> Seed {
     (name.to_owned(), text.as_bytes().to_vec())
 }
 
-/// The inputs of a target.
+/// The initial inputs of a target.
 pub(super) fn seeds(target: &str) -> Vec<Seed> {
     match target {
         "tools_waiver" => vec![text("two", WAIVERS), text("none", "# Nothing.\n")],
@@ -114,7 +114,7 @@ pub(super) fn seeds(target: &str) -> Vec<Seed> {
     }
 }
 
-/// The small model, and prefixes of it.
+/// Inputs of the target `tools_model`: the small model, and beginnings of it.
 fn models() -> Vec<Seed> {
     let all = session::MODEL;
     let parts = ["[[channel]]\nnumber = 6", "[channel.streaming]", "[class.hld"];
@@ -127,7 +127,7 @@ fn models() -> Vec<Seed> {
     seeds
 }
 
-/// Streams and calls with every subject, frames, and hex.
+/// Inputs of the target `tools_explain`: streams, data at an address, addresses, frames, and hex.
 fn explained() -> Vec<Seed> {
     let streams: Vec<Stream> = Stream::all().collect();
     let place = |stream: Stream| streams.iter().position(|one| *one == stream);
@@ -135,7 +135,7 @@ fn explained() -> Vec<Seed> {
     let mut seeds = Vec::new();
     let mut known = BTreeSet::new();
     for (stream, sample) in common::each_sample() {
-        // The first vector of each stream, and the printed examples.
+        // Only the first sample of each stream, and the examples that the manuals print.
         if !known.insert(stream.to_string()) && !sample.slug.contains("printed") {
             continue;
         }
@@ -177,7 +177,7 @@ fn explained() -> Vec<Seed> {
     seeds
 }
 
-/// Each line alone, and all lines together.
+/// Inputs of the target `tools_testee`: each line alone, and all lines together.
 fn said() -> Vec<Seed> {
     let one = |place: usize| (format!("line-{place}"), [&[0, 7], SAID[place].as_bytes()].concat());
     let mut seeds: Vec<Seed> = (0..SAID.len()).map(one).collect();
@@ -187,7 +187,7 @@ fn said() -> Vec<Seed> {
     seeds
 }
 
-/// Words of files and lines.
+/// The words of the dictionary: from files and lines, addresses of calls, and streams of each length.
 pub(crate) fn words() -> BTreeSet<Vec<u8>> {
     let files = [PROFILE, MORE_PROFILE, WAIVERS, ALLOW, session::MODEL];
     let said = SAID.join(" ");
@@ -202,7 +202,7 @@ pub(crate) fn words() -> BTreeSet<Vec<u8>> {
     }
     let short =
         vectors().iter().map(|vector| vector.bytes()).filter(|bytes| bytes.len() <= LONGEST);
-    // Words of each length.
+    // One vector of each length.
     let mut lengths = BTreeSet::new();
     words.extend(short.filter(|bytes| lengths.insert(bytes.len()) && bytes.len() <= 64));
     words

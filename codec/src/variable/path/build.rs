@@ -26,7 +26,7 @@ impl<'a> VariablePath<'a> {
     ///
     /// # Errors
     /// A kind, name of a part, index or length that [`new`](Self::new) would reject, a name without
-    /// parts, or a buffer that is too small. Nothing is written then.
+    /// parts, or a buffer that is too small. On error, nothing is written.
     pub fn write<'p, P>(kind: Kind<'_>, parts: P, buf: &'a mut [u8]) -> Result<Self, Error>
     where
         P: IntoIterator<Item = PathPart<'p>, IntoIter: Clone>,
@@ -83,7 +83,7 @@ impl<'a> VariablePath<'a> {
     /// Converts a name for the axis interface to the name for the channel interface, by appending the
     /// instance identifier of the axis.
     ///
-    /// Indices at the end stay at the end, after the axis. Their position is not documented.
+    /// Indices at the end of the name stay at the end, after the axis. This position is not documented.
     ///
     /// ```
     /// use ads_cnc::{CncStr, VariablePath};
@@ -139,7 +139,7 @@ impl<'a> VariablePath<'a> {
             before.write(out);
             elements.write(out);
         })?;
-        // No error: the name without its last part is valid.
+        // This cannot fail, because the name without its last part is valid.
         VariablePath::from_text(CncStr::without_nul(bytes))
     }
 

@@ -16,7 +16,7 @@ use crate::text::CncStr;
 /// The largest index: one less than the maximum number of elements in an UNS32 (VAR-2).
 const INDEX_MAX: u32 = u32::MAX - 1;
 
-// A name cannot have more indices than a request by handle.
+// Checks that a name cannot have more indices than a request by handle.
 const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICES_MAX);
 
 /// The name of a variable: its kind, its parts with their indices, and the indices of an element.

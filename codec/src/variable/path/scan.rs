@@ -63,8 +63,8 @@ pub(super) fn check_len(len: usize) -> Result<(), Error> {
     Err(Error::new(ErrorKind::TooLong, whole, max, max, to_u32(len)))
 }
 
-/// Whether the character ends the name of a part. These are ASCII, so they have one byte in CP1252 and
-/// UTF-8.
+/// Whether the character ends the name of a part. The three characters are ASCII, so each has one byte in
+/// CP1252 and in UTF-8.
 const fn is_syntax(byte: u8) -> bool {
     matches!(byte, b'.' | b'[' | b']')
 }
@@ -73,7 +73,7 @@ struct Scan<'a> {
     text: CncStr<'a>,
     /// The number of characters before the text.
     before: usize,
-    /// Offset in [`CncStr::raw`].
+    /// The current offset in [`CncStr::raw`].
     at: usize,
 }
 
@@ -113,14 +113,14 @@ impl Scan<'_> {
         if self.next().is_some() { Err(self.fault(field)) } else { Ok(()) }
     }
 
-    /// `V.` and a part without indices.
+    /// Scans a kind: `V.` and a part without indices.
     fn kind(&mut self) -> Result<(), Error> {
         self.expect(b'V', KIND)?;
         self.expect(b'.', KIND)?;
         self.part(KIND)
     }
 
-    /// One or more characters.
+    /// Scans the name of a part: one or more characters.
     fn part(&mut self, field: Field) -> Result<(), Error> {
         if self.next().is_none_or(is_syntax) {
             return Err(self.fault(field));
@@ -129,7 +129,7 @@ impl Scan<'_> {
         Ok(())
     }
 
-    /// `[3][4]`, or nothing.
+    /// Scans indices such as `[3][4]`, if there are any.
     fn indices(&mut self) -> Result<(), Error> {
         while self.next() == Some(b'[') {
             self.at = self.at.saturating_add(1);

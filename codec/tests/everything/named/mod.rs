@@ -12,15 +12,15 @@ use core::hint::black_box;
 
 use ads_cnc::CncStr;
 
-/// Room for any variable.
+/// The length of a buffer that is large enough for any stream of variables.
 const ROOM: usize = 2200;
 
-/// A value that the compiler cannot predict.
+/// Returns the value, which the compiler then cannot predict.
 fn any<T>(value: T) -> T {
     black_box(value)
 }
 
-/// A value that the compiler must compute.
+/// Uses a value, so that the compiler must compute it.
 fn seen<T>(value: T) {
     black_box(&value);
 }

@@ -6,7 +6,7 @@ use ads_cnc::*;
 
 use super::{ROOM, any, seen, text};
 
-/// The request of a client, its dispatch by a server, and any reply.
+/// Encodes the request of a client, dispatches it like a server, and decodes the bytes as its reply.
 fn ask<'a, T: operation::Operation + Into<Request<'a>>>(
     op: Result<T, Error>,
     bytes: &[u8],
@@ -82,7 +82,7 @@ pub(super) fn makers(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Names and values of every type that constructors take.
+/// Calls constructors with names and values of every type that they accept.
 fn arguments(channel: Channel, handle: Handle, bytes: &[u8]) -> Result<(), Error> {
     let text = text(bytes, "V.E.a");
     let path = VariablePath::new(text)?;

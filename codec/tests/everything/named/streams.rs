@@ -1,4 +1,4 @@
-//! What streams are made of, names and texts, the tables.
+//! Streams, lists, names of variables, texts, and the tables of streams.
 
 use ads_cnc::*;
 

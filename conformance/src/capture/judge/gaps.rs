@@ -50,7 +50,7 @@ impl TrafficJudge {
         }
     }
 
-    /// A frame whose rest was not captured.
+    /// Handles the beginning of a frame whose rest was not captured.
     pub(super) fn cut(&mut self, bytes: &[u8], way: &SegmentDirection, span: Span) {
         let observation = CapturedFrames::Bytes(bytes, location(way, Some(span), None));
         let there = bytes.len();
@@ -143,7 +143,8 @@ impl TrafficJudge {
                 self.unanswered(&asked, &lost, ending);
             }
         }
-        // The capture contains replies to requests sent before it began.
+        // If the beginning of the connection was not captured, these replies may belong to requests
+        // sent before the capture began.
         let unasked = lost.unasked.iter().filter(|_| !lost.joined && !lost.is_running);
         for reply in unasked {
             self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());
@@ -175,7 +176,8 @@ impl TrafficJudge {
             (Some(now), Some(then)) => now.since(then),
             _ => return,
         };
-        // A missing reply fails only if the capture has the CNC's side and the rest of the connection.
+        // A missing reply is a failure only if both directions and later packets of the connection
+        // were captured.
         let followed = ending.unseen.is_none() && ending.last > packet;
         if waited > REPLY_TIMEOUT && !lost.joined && followed {
             let rule = service_clause(asked.header.command);

@@ -37,13 +37,14 @@ struct CapturedFrame {
 /// The missing parts of a connection.
 #[derive(Debug, Default)]
 struct ConnectionLoss {
-    /// The beginning was not captured.
+    /// Whether the beginning of the connection was not captured.
     joined: bool,
-    /// Requests may have been sent before the capture; all frames since then were captured.
+    /// Whether requests may have been sent before the capture began, although all later frames were
+    /// captured.
     is_running: bool,
     /// The last packet after a gap.
     gap: Option<u64>,
-    /// The first replies without a request.
+    /// The first replies for which no request was captured.
     unasked: Vec<CapturedFrame>,
 }
 
@@ -64,7 +65,7 @@ pub(super) struct TrafficJudge {
     pub(super) tally: CaptureTally,
     /// Requests without a reply, by connection and invoke ID.
     waiting: BTreeMap<(u64, u32), VecDeque<CapturedFrame>>,
-    /// The same keys, ordered by invoke ID.
+    /// The keys of `waiting` with their parts swapped: invoke ID and connection.
     waiting_ids: BTreeSet<(u32, u64)>,
     /// For each connection, the numbers and invoke IDs of its waiting requests.
     waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
@@ -219,7 +220,8 @@ impl TrafficJudge {
         self.is_crossed |= asked.way.connection != reply.way.connection;
         let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
-        // Any reply is allowed to a request that does not belong to one of the services.
+        // A request that does not belong to one of the services is not judged, and neither is its
+        // reply.
         let Ok(Some(call)) = Call::from_frame(&sent) else { return };
         let exchange = Exchange {
             sent: asked.frame.clone(),

@@ -10,8 +10,9 @@ use super::{CapturedFrame, EarlyReplies, TrafficJudge, location};
 use crate::judge::Checks as _;
 use crate::rules::{Topic, service_clause};
 
-/// Maximum number of waiting requests of a connection, and maximum memory of those of all
-/// connections. Beyond that, the oldest request of the connection is dropped.
+/// Maximum number of waiting requests of a connection, and maximum memory in bytes of the waiting
+/// requests of all connections. If a request exceeds one of these limits, the oldest request of its
+/// connection is dropped.
 const WAITING_MAX: usize = 4096;
 const WAITING_BYTES_MAX: usize = 0x100_0000;
 
@@ -22,11 +23,12 @@ const EARLY_BYTES_MAX: usize = 0x100_0000;
 /// Maximum number of packets by which a reply may be captured before its request.
 pub(super) const REORDERED_MAX: u64 = 256;
 
-/// Maximum number of requests or replies with the same invoke ID that are compared; a wrong order of
-/// capture affects fewer.
+/// Maximum number of requests or replies with the same invoke ID that are compared. In a capture
+/// whose packets are out of order, fewer of them are affected.
 const ALIKE_MAX: usize = 512;
 
-/// Maximum number of replies without a request that are shown for a connection, and of bytes of each.
+/// Maximum number of replies without a request that are shown for a connection, and maximum number
+/// of bytes shown of each reply.
 const SHOWN: usize = 4;
 const SHOWN_BYTES: usize = 0x400;
 
@@ -77,8 +79,9 @@ impl CapturedFrame {
         self.header.source == reply.header.target && self.header.target == reply.header.source
     }
 
-    /// Whether the sender of this request had already received the reply, which thus answers an
-    /// earlier request. The TCP acknowledgement shows this in any order of capture.
+    /// Whether the client had received `reply` before it sent this request, so that `reply` belongs
+    /// to an earlier request. The TCP acknowledgement of the request proves this, even if the
+    /// packets were captured out of order.
     fn follows(&self, reply: &Self) -> bool {
         let got = self.span.last.acknowledged;
         self.way.connection == reply.way.connection
@@ -110,7 +113,8 @@ impl TrafficJudge {
             count(&mut self.tally.forgotten);
             self.lost.entry(connection).or_default().joined = true;
             if self.forget((connection, oldest), 0).is_none() {
-                // This request itself is the oldest, because other connections use all the memory.
+                // The new request itself is the oldest one of its connection, because the requests
+                // of other connections use all the memory.
                 self.waiting_bytes = self.waiting_bytes.saturating_sub(seen.memory());
                 self.waiting_of.entry(connection).or_default().remove(&seen.number);
                 return;
@@ -120,14 +124,15 @@ impl TrafficJudge {
         self.waiting.entry((connection, id)).or_default().push_back(seen);
     }
 
-    /// The invoke ID of the oldest waiting request of a connection that exceeds a limit.
+    /// The invoke ID of the oldest waiting request of a connection; `None` if no limit is exceeded.
     fn oldest_beyond(&self, connection: u64) -> Option<u32> {
         let numbers = self.waiting_of.get(&connection)?;
         let is_full = numbers.len() > WAITING_MAX || self.waiting_bytes > WAITING_BYTES_MAX;
         numbers.first_key_value().map(|(_, id)| *id).filter(|_| is_full)
     }
 
-    /// Removes and returns a waiting request with this key.
+    /// Removes and returns the waiting request with this key (connection and invoke ID) and this
+    /// index among the requests with the same key.
     pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<CapturedFrame> {
         let all = self.waiting.get_mut(&key)?;
         let one = all.remove(place)?;
@@ -142,8 +147,8 @@ impl TrafficJudge {
         Some(one)
     }
 
-    /// Whether another request of this client with this invoke ID waits for its reply; `None` if that
-    /// reply may be missing in the capture.
+    /// Whether an earlier request of this client with this invoke ID still waits for its reply;
+    /// `None` if the capture may lack the reply to the earlier request.
     pub(super) fn is_repeated(
         &self,
         seen: &CapturedFrame,
@@ -175,7 +180,8 @@ impl TrafficJudge {
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
         let matches = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
         let here = self.waiting.get(&key).and_then(|all| {
-            // A client reuses an invoke ID after receiving the reply, so that reply is in the gap.
+            // A client reuses an invoke ID only after it has received the reply to the earlier
+            // request. That reply was lost in the gap, so this reply belongs to the latest request.
             if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
                 latest.into_iter().find(|&place| all.get(place).is_some_and(matches))
@@ -199,7 +205,7 @@ impl TrafficJudge {
         self.forget(key, place)
     }
 
-    /// Judges replies whose request can no longer arrive.
+    /// Judges replies whose requests can no longer follow in the capture.
     pub(super) fn judge_expired(&mut self, table: &ConnectionTable) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
             let back = SegmentDirection { from: first.way.to, to: first.way.from, ..first.way };
@@ -221,13 +227,14 @@ impl TrafficJudge {
         }
     }
 
-    /// Judges a reply without a request whose addresses match.
+    /// Judges a reply for which no request with matching addresses was captured.
     fn judge_unmatched(&mut self, reply: CapturedFrame) {
         let header = reply.header;
         let connection = reply.way.connection;
         let key = (connection, header.invoke_id);
         let is_whole = self.lost.get(&connection).is_none_or(|lost| lost.gap.is_none());
-        // A request with the same invoke ID and command matches, although the addresses are wrong.
+        // A reply with wrong addresses still belongs to a request with the same invoke ID and
+        // command.
         let place = self.waiting.get(&key).filter(|_| is_whole).and_then(|all| {
             all.iter()
                 .take(ALIKE_MAX)

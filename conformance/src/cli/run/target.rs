@@ -188,8 +188,8 @@ impl Run {
     }
 }
 
-/// Prints the result of the discovery, and how many requests all cases would send: `about` that number, or
-/// for a selection of them at most that number.
+/// Prints what the discovery found, and the expected number of requests of all cases. `about` is
+/// the text before this number: "about", or "at most about" if only some of the cases are run.
 fn print_forecast(discovery: &Discovery, about: &str) {
     let found = &discovery.found;
     print_error(format_args!("found {}", found.summary()));

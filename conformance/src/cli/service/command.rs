@@ -22,8 +22,9 @@ const GRACE: Duration = Duration::from_millis(500);
 /// Interval at which the command is polled.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
-/// Maximum number of processes that keep the stdout of an ended command open: each takes a thread.
-/// Only a process in its own session survives the command.
+/// Maximum number of processes that may keep the stdout of an ended command open. Each such process
+/// occupies a thread of this tool. Only a process that started its own session can outlive the
+/// command.
 const HOLDERS_MAX: usize = 8;
 
 /// The command that answers each request.
@@ -123,7 +124,7 @@ impl CapturedOutput {
                 drop(tell);
             };
             if thread::Builder::new().name("stdout".to_owned()).spawn(read).is_err() {
-                // Without a thread there is no output; the answer reports that.
+                // Without the thread, no output is read, so the response of the service is empty.
                 readers.fetch_sub(1, Ordering::SeqCst);
             }
         }
@@ -140,8 +141,8 @@ impl CapturedOutput {
     }
 }
 
-/// Stores the beginning and reads to the end, because a command whose stdout is not read would
-/// block.
+/// Stores the first [`STDOUT_MAX`] bytes, but reads to the end, because a command whose stdout is
+/// not read would block.
 fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     let mut chunk = [0; 4096];
     while let Ok(len @ 1..) = from.read(&mut chunk) {

@@ -204,7 +204,7 @@ impl ServiceArguments {
         ));
         while answers.is_none_or(|answers| serving.answered < answers) {
             let is_idle = serving.step(&mut session)?;
-            // Complete an answer that was begun.
+            // Exit only between two answers, so that an answer that was begun is completed.
             if is_idle && (serving.is_enough(answers) || interrupt.sleep(self.poll)) {
                 break;
             }

@@ -30,7 +30,7 @@ pub(super) struct ServiceResponse {
 /// How a command ended.
 #[derive(Debug)]
 pub(super) enum Ended {
-    /// By itself, or by a signal.
+    /// The command exited by itself, or a signal ended it.
     Exited(ExitStatus),
     /// The command exceeded this time limit.
     TimeOver(Duration),
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
-        // `Interrupted` uses stdout without changes.
+        // With `Interrupted`, `answer` adds nothing to stdout.
         let ServiceResponse { response, warnings, .. } = answer(&Ended::Interrupted, stdout);
         (response.as_bytes().to_vec(), warnings)
     }

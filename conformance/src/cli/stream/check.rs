@@ -35,7 +35,7 @@ pub(super) fn check<'a>(
         let (line, column) = (finding.line, finding.column);
         let level = if finding.kind.ends_streaming() { "error" } else { "warning" };
         ends = ends.saturating_add(usize::from(finding.kind.ends_streaming()));
-        // Replace the finding's own position by the format of compilers.
+        // Print the position in the format of compilers instead of the format of the finding.
         let whole = finding.to_string();
         let place = format!("line {line}, column {column}: ");
         let what = whole.strip_prefix(&place).unwrap_or(&whole);
@@ -92,7 +92,7 @@ mod tests {
         (String::from_utf8(out).unwrap(), ends)
     }
 
-    /// The line numbers are those of the codec.
+    /// The line numbers are the same as in the errors of the codec.
     #[test]
     fn every_line_that_cannot_be_sent_is_reported() {
         let long = [&b"\r"[..], &[b'X'; 991]].concat();

@@ -23,7 +23,7 @@ pub(super) struct Retry {
 pub(super) enum SendEnd {
     /// The CNC has accepted all packets.
     Done,
-    /// A signal.
+    /// A signal interrupted sending.
     Interrupted,
     /// A packet was rejected as busy too often.
     GivenUp(AdsError),
@@ -93,7 +93,7 @@ impl Sending<'_> {
         }
     }
 
-    /// A summary of the accepted lines and of the others.
+    /// A summary of the lines that were accepted and of the lines that were not.
     pub(super) fn summary(
         &self,
         name: &str,

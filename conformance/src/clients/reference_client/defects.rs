@@ -53,7 +53,7 @@ macro_rules! client_faults {
 
 client_faults! {
     defects {
-    // Frames that the client sends.
+    // Defects in the frames that the client sends.
     TcpLength "client.tcp-length" ADS_5 "says one byte more in the AMS/TCP header";
     AmsLength "client.ams-length" ADS_5 "says one byte less in the AMS header";
     ResponseFlag "client.response-flag" ADS_5 "marks its requests as responses";
@@ -64,7 +64,7 @@ client_faults! {
     WriteLength "client.write-length" ADS_2 "says one byte more in a Write";
     BothLength "client.read-write-length" ADS_3 "says one byte less written in a ReadWrite";
     ReadForBoth "client.read-for-read-write" ADS_3 "reads where a ReadWrite is taken";
-    // Addresses that the client uses.
+    // Defects in the addresses that the client uses.
     Port "client.port" GEN_4 "asks the COM task for what the SDA task has";
     NoChannel "client.no-channel" ADR_5 "leaves the channel out of the group";
     OtherChannel "client.other-channel" ADR_5 "asks channel 1 for what is of another";
@@ -95,7 +95,7 @@ client_faults! {
     ValuePlace "client.value-place" VAR_14 "reads by name where handles are taken";
     ExtendedPlace "client.extended-place" VAR_15 "asks for what is extended one place beside";
     AxisFromZero "client.axis-from-zero" VAR_26 "counts axes from 0";
-    // Data that the client sends.
+    // Defects in the data that the client sends.
     NoNul "client.no-nul" VAR_9 "sends names without NUL";
     KindOpen "client.kind-open" VAR_1 "sends kinds without NUL";
     KindDot "client.kind-dot" VAR_1 "sends kinds with a final dot";
@@ -105,7 +105,7 @@ client_faults! {
     WriteNoCount "client.write-no-count" VAR_12 "leaves it out of writes";
     NoSeparator "client.no-separator" VAR_13 "sends no NUL between name and value";
     ValueSwapped "client.value-swapped" GEN_1 "writes contents in big-endian";
-    // Replies that the client accepts.
+    // Defects in the checks of replies: the client accepts invalid replies.
     AnyInvokeId "client.any-invoke-id" ADS_5 "takes replies to any invoke ID";
     AnyCommand "client.any-command" ADS_5 "takes replies to any command";
     AnyFlags "client.any-flags" ADS_5 "takes requests for replies";
@@ -130,7 +130,7 @@ client_faults! {
     DiesOfError "client.dies-of-error" ADS_6 "dies of a reply without payload";
     Hangs "client.hangs" CLIENT "waits for ever for a reply";
     Garbles "client.garbles" CLIENT "answers the suite with text that is not JSON";
-    // NC programs.
+    // Defects in streaming NC programs.
     StreamPlace "client.stream-place" STM_1 "streams one place beside";
     StreamLong "client.stream-long" STM_2 "sends packets of 1000 bytes";
     StreamSplit "client.stream-split" STM_4 "splits lines between packets";
@@ -141,7 +141,7 @@ client_faults! {
     StreamAny "client.stream-any" STM_7 "streams what is not ASCII";
     StreamOrder "client.stream-order" STM_15 "sends the second packet first";
     StreamLine "client.stream-line" STM_20 "splits a line that is too long";
-    // Services.
+    // Defects of the client as a service or as an NC program that requests a service.
     ServiceText "client.service-text" SVC_1 "fills its response up to 200 bytes";
     ServiceAny "client.service-any" SVC_2 "answers requests to other services";
     ServiceIdle "client.service-idle" SVC_2 "answers while REQUEST_STATE is 0";

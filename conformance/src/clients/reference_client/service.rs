@@ -34,8 +34,8 @@ fn write(
     wire.call(&write, &mut Vec::new()).map(drop)
 }
 
-/// Acts as the service: responds to each request with the text of the request, until `requests` requests
-/// or `seconds` seconds are over. Returns the number of responses.
+/// Acts as the service: responds to each request with the text of the request, to at most `requests`
+/// requests and for at most `seconds` seconds. Returns the number of responses.
 pub(super) fn serve(
     wire: &mut Connection,
     channel: Channel,

@@ -11,7 +11,7 @@ use super::{
 
 const FIND: &[Function] = &[Function::FindInstance];
 
-/// Changes channel and axis in the request for an instance.
+/// The reply to a `FindInstance` request with its channel and axis changed by `other`.
 fn with_instance(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -57,7 +57,7 @@ pub(in crate::faults) use crate::simulator::ReplyData;
 pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;
 
-/// All rows.
+/// The rows of all tables of defects.
 pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
     let areas: [&'static [CncSeed]; 29] = [
         variable_consistency::ROWS,

@@ -7,8 +7,8 @@ use ads_cnc::{Kind, VariableCount};
 use super::Walker;
 use super::walker::{GAP, NUMBER_MAX};
 
-/// The active channels in ascending order of their numbers. `is_there` checks a number; its
-/// argument is whether the channels of the CNC have objects.
+/// The active channels in ascending order of their numbers. `is_there` checks whether a channel exists;
+/// its last argument is whether any channel of the CNC has COM objects.
 pub(crate) fn active_channels<W: Walker>(
     walker: &mut W,
     mut is_there: impl FnMut(&mut W, Channel, bool) -> Result<bool, W::Error>,
@@ -17,7 +17,7 @@ pub(crate) fn active_channels<W: Walker>(
     for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
         let is_listed = walker.count_objects(rank)?.is_some();
         has_objects |= is_listed;
-        // A rank that one task rejects may be known to the other task.
+        // If COM reports no objects for a rank, the channel may still have variables in SDA.
         if !is_listed && (!has_objects || !has_variables(walker, rank)?) {
             break;
         }

@@ -13,10 +13,11 @@ use super::{Attributes, CLASSES, Walk, Walker as _};
 use crate::session::ToolError;
 use crate::values::Type;
 
-/// Maximum number that fits into an index offset.
+/// Maximum element number that fits into an index offset.
 const ELEMENTS_MAX: u32 = 0xFFFF;
 
-/// Maximum number of different elements that are stored for one element number of a class.
+/// Maximum number of elements with different names whose attributes are stored for one element number of
+/// a class.
 const ALIKE_MAX: usize = 64;
 
 impl Walk<'_> {
@@ -127,7 +128,7 @@ impl Walk<'_> {
             None => {
                 let read = self.attributes(element, name)?;
                 let alike = self.alike.entry(key).or_default();
-                // Beyond the limit, different instances are read every time.
+                // Attributes that are not stored because of the limit are read again for each instance.
                 if alike.len() < ALIKE_MAX {
                     alike.push(read.clone());
                 }

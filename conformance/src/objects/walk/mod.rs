@@ -112,7 +112,7 @@ pub(crate) fn channels_of(session: &mut Session) -> Result<Vec<Channel>, ToolErr
     Walk::new(session, &Options::default(), &mut |_| {}).channels()
 }
 
-/// Those of these channels that the CNC does not have.
+/// Returns those of `channels` that the CNC does not have.
 pub(crate) fn absent_of(
     session: &mut Session,
     channels: &[Channel],

@@ -29,8 +29,8 @@ pub(crate) const CLASSES: [Class; 6] = [
     Class::Spindle,
 ];
 
-/// Decodes a number of elements. Its size is not documented, so a shorter one is decoded like a
-/// length.
+/// Decodes a number of elements. The size of this number is not documented, so data of fewer bytes than
+/// `ElementCount` is decoded like the length of an element.
 pub(crate) fn decode_element_count(data: &[u8]) -> Option<u32> {
     let count = ElementCount::decode(data).map(|count| count.0);
     count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
@@ -67,8 +67,8 @@ pub(crate) trait Walker: Sized {
         Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
     }
 
-    /// Visits numbers until [`GAP`] consecutive ones are rejected. Returns the number of those that
-    /// are not rejected.
+    /// Calls `is_there` for each number, until [`GAP`] consecutive numbers are rejected. Returns how many
+    /// numbers were not rejected.
     fn each(
         &mut self,
         numbers: impl IntoIterator<Item = u32>,
@@ -119,7 +119,8 @@ pub(crate) trait Walker: Sized {
 
     /// Visits every instance of a class by channel and axis; `is_there` checks whether the target
     /// has it. With `aliases`, the axes of the platform are also visited in the HLD of every
-    /// channel; otherwise, in that of the first channel if the platform has none (E-30).
+    /// channel; otherwise only in the HLD of the first channel, and only if the HLD of the platform has
+    /// no axes (E-30).
     fn instances_of(
         &mut self,
         class: Class,

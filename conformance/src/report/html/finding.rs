@@ -28,7 +28,8 @@ struct EvidenceView {
     sent: Option<BytesView>,
     received: Option<BytesView>,
     expected: Option<BytesView>,
-    /// The headers and services of the request and the reply, if the finding is about these.
+    /// The headers and service fields of the request and the reply, if the finding is about the
+    /// frames.
     frames: Vec<Vec<BytesView>>,
     frame_sent: String,
     frame_received: String,

@@ -28,8 +28,8 @@ pub(super) struct Device {
     profile: Profile,
     /// An `--allow-write` file with every writable value, except axis numbers.
     allowed: Allowed,
-    /// The digests of the replies without a defect, for the requests that the gate allows: queries,
-    /// writes too, malformed requests too.
+    /// The digests of the correct replies, by the requests that the gate allows: queries; queries and
+    /// writes; queries, writes and malformed requests.
     right: [OnceLock<Vec<u64>>; 3],
     /// Digests like those in `right`, but without the values that the configuration of a CNC determines.
     right_if_configured: [OnceLock<Vec<u64>>; 3],

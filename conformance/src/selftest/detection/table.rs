@@ -23,7 +23,7 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionRow {
     pub id: String,
-    /// The hash of the defect's row and of the CNC's replies with the defect ([`hash`](super::hash)).
+    /// The hash of the defect's row and of the CNC's replies with the defect, as `super::hash` returns it.
     pub hash: String,
     /// The result in each mode.
     pub modes: BTreeMap<Mode, Detection>,
@@ -57,7 +57,12 @@ pub struct Figures {
 
 /// The hash of the common inputs of all rows.
 pub fn inputs() -> String {
-    let mut text = DEFAULT_MODEL.to_owned();
+    let is_comment = |line: &&str| line.trim_start().starts_with('#');
+    let mut text: String = DEFAULT_MODEL
+        .lines()
+        .filter(|line| !is_comment(line))
+        .flat_map(|line| [line, "\n"])
+        .collect();
     let mut cases = suite::cases();
     cases.sort_by(|one, other| one.id.cmp(&other.id));
     for case in cases {
@@ -104,8 +109,8 @@ impl DetectionTable {
     }
 
     /// The number of requirements that fail for one defect in the mode `ReadOnly`: median and 90th
-    /// percentile over the defects for which at least one requirement fails. With `of_fields`, the defects of a single field are
-    /// counted, otherwise all other defects of a CNC.
+    /// percentile over the defects for which at least one requirement fails. With `of_fields`, the
+    /// defects of a single field are counted, otherwise all other defects of a CNC.
     pub fn blame(&self, of_fields: bool) -> (usize, usize) {
         let of_field = |row: &&DetectionRow| {
             let seed = faults::by_id(&row.id);

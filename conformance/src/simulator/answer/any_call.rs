@@ -1,4 +1,5 @@
-//! Tests that any call is answered with data that the function's stream decodes, or an error number.
+//! Tests that the CNC answers any call with data that decodes as the reply stream of the function,
+//! or with an error number.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -55,7 +56,7 @@ const NAMES: &[&[u8]] = &[
     b"\0\0\0\0\0\0\0\0",
 ];
 
-/// A random call near existing addresses, so that some of them exist.
+/// A random call at or near the address of a function, so that some calls succeed.
 fn call<'a>(random: &mut PseudoRandom, data: &'a [u8]) -> Call<'a> {
     use Service::{Read, ReadWrite, Write};
     let axis = random.of(&[0, 0, 0, 0x1000, 0x1_0000, 0x2_0000, 0x6_0000, 0xFFFF_0000]);
@@ -107,7 +108,7 @@ fn any_call_is_answered() {
         assert!(u32::try_from(reply.len()).unwrap() <= call.read_length);
         assert!(request.decode_reply(&reply).is_ok(), "{call:?}: {reply:?}");
     }
-    // With fewer successful replies, the test would prove little.
+    // Fewer successful replies would not test enough.
     assert!(answered > 5_000, "{answered}");
     assert!(functions.len() > 25, "{functions:?}");
 }

@@ -35,7 +35,7 @@ impl AnsweringCnc<'_> {
         self.locate(address).is_ok().then_some(address)
     }
 
-    /// The content; for the first element, the number of the other elements.
+    /// The content of an element; for the first element, the number of the other elements.
     pub(super) fn read_element(&self, address: ElementAddress) -> ReplyData {
         match self.locate(address)? {
             (owner, None) => encode(ElementCount(to_u32(content::items(self.model, owner).len()))),
@@ -53,7 +53,7 @@ impl AnsweringCnc<'_> {
         Ok(Vec::new())
     }
 
-    /// The name; for the first element, that of the instance.
+    /// The name of an element; for the first element, the name of the instance.
     pub(super) fn element_name(&self, address: ElementAddress) -> ReplyData {
         match self.element(address)? {
             (_, Some(item)) => encode_text(item.name.as_cnc_str()),
@@ -83,14 +83,15 @@ impl AnsweringCnc<'_> {
         encode(flag)
     }
 
-    /// The element at an address; `None` for the first of an instance.
+    /// Owner and element at an address; the element is `None` for the first element of an instance.
     fn element(&self, address: ElementAddress) -> Result<(Owner, Option<&Item>), AdsError> {
         let (owner, index) = self.locate(address)?;
         let item = index.map(|index| content::items(self.model, owner).get(index));
         Ok((owner, item.map(|item| item.ok_or(AdsError::INVALID_OFFSET)).transpose()?))
     }
 
-    /// Owner and index of the element at an address; `None` for the first.
+    /// Owner and index of the element at an address; the index is `None` for the first element of
+    /// an instance.
     ///
     /// The instances of a class are those of SDA-5. It is assumed that the position controller itself
     /// has no elements, and that every HLD contains the platform axes (E-30).

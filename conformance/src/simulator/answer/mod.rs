@@ -107,7 +107,8 @@ impl Cnc {
 
     /// The CNC at the current time.
     fn answering(&self) -> AnsweringCnc<'_> {
-        // No panic can occur under the lock, and each value would be valid after one.
+        // Ignore that the lock may be poisoned: no panic can occur while the lock is held, and the
+        // state would be valid even after a panic.
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let now = self.now();
         state.advance(now);
@@ -132,7 +133,7 @@ impl Cnc {
     /// | 0x703 | index offset without a function; no such object or element; 0x4C on a CNC that is too old |
     /// | 0x704 | write to a read-only value |
     /// | 0x705 | wrong size of a request, a value or the read length |
-    /// | 0x706 | index out of bounds, or too many indices; handle of no variable of the channel, or of a kind that is accessible by name only; write to a place without an axis; impossible axis exchange; no room for NC text now |
+    /// | 0x706 | index out of bounds, or too many indices; a handle that no variable of the channel has; a request for the handle of a variable that is accessible by name only; write to a place without an axis; impossible axis exchange; NC text that does not fit into the buffer now |
     /// | 0x710 | no such name or kind |
     pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
         self.answering().answer(call)
@@ -191,7 +192,8 @@ impl AnsweringCnc<'_> {
             Request::DynamicValueByName(op) => self.dynamic_by_name(op),
             Request::DynamicValueByIndex(op) => self.dynamic_by_index(op),
             Request::WriteProgramStream(op) => self.write_program_stream(op),
-            // `Request` is non-exhaustive; the following assertion fails for a new function.
+            // `Request` is non-exhaustive, so this arm is required; the assertion below fails if a
+            // function is added.
             _ => Err(AdsError::INVALID_OFFSET),
         }
     }
@@ -205,7 +207,8 @@ impl Responder for Cnc {
     }
 
     fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
-        // Locking the state, reading the clock and advancing the programs take longer than a request.
+        // Lock the state, read the clock and advance the programs once for all frames, because
+        // these steps take longer than the answer to a request.
         let mut cnc = self.answering();
         while let Some(frame) = frames.next(answers) {
             respond(&mut |call| cnc.answer(call), net_id, &frame, answers);
@@ -217,7 +220,7 @@ impl Responder for Cnc {
     }
 }
 
-/// The CNC while it answers a request.
+/// The CNC while it answers requests, with its state locked.
 struct AnsweringCnc<'a> {
     model: &'a Model,
     state: MutexGuard<'a, CncState>,

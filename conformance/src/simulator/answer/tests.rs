@@ -155,7 +155,7 @@ fn a_rank_is_not_a_number() {
     for group in [0x12_2303, 0x12_2305, 0x12_23FF, 0x02_2304, 0x02_2306] {
         assert_eq!(channel(group), Err(AdsError::INVALID_GROUP), "{group:#x}");
     }
-    // Elements may exist there, but channel 0 has no variables.
+    // Elements may exist in this group, but channel 0 has no variables.
     assert_eq!(channel(0x12_2300), Err(AdsError::INVALID_OFFSET));
 }
 
@@ -258,13 +258,14 @@ fn object_lists() {
     for absent in [0x13_0105, 0x03_0104, 0x13_0200, 0x13_0206] {
         assert_eq!(count(absent), Err(AdsError::INVALID_GROUP), "{absent:#x}");
     }
-    // A group of contents.
+    // A group of contents, which has no object list.
     assert_eq!(count(0x12_0101), Err(AdsError::INVALID_OFFSET));
     assert_eq!(com(0x13_0101, 0, 3), Err(AdsError::INVALID_SIZE));
 
     let read = |first, length| com(0x13_0101, first, length).map(|bytes| bytes.len() / 84);
     assert_eq!((read(1, 84), read(1, 168), read(1, 30 * 84)), (Ok(1), Ok(2), Ok(30)));
-    // The reply contains at most the existing ones, or one if the length is not a multiple.
+    // The reply contains at most the existing descriptors, and only whole descriptors if the read
+    // length is not a multiple of 84 bytes.
     assert_eq!((read(29, 4 * 84), read(1, 31 * 84), read(1, 100)), (Ok(2), Ok(30), Ok(1)));
     assert_eq!(read(1, 84 * 10_000_000), Ok(30));
     assert_eq!(read(1, 83), Err(AdsError::INVALID_SIZE));
@@ -307,8 +308,8 @@ fn every_object_matches_its_descriptor() {
     }
 }
 
-/// With sixteen or more platform axes, the offsets with the stride 0x1000 reach the range of the other
-/// stride.
+/// With sixteen or more platform axes, the offsets with the stride 0x1000 reach the range of the
+/// offsets with the stride 0x10000.
 #[test]
 fn many_platform_axes() {
     let axes: String = (1..=40).map(|n| format!("[[axis]]\nname = \"A{n}\"\n")).collect();
@@ -331,7 +332,7 @@ fn many_platform_axes() {
     }
 }
 
-/// Packets are written to the program of an existing channel.
+/// The CNC accepts packets for the program of an existing channel only.
 #[test]
 fn packets_of_the_program_stream() {
     let write = |group| {

@@ -6,8 +6,8 @@ use super::{Meaning, Model};
 use crate::profile::Profile;
 
 impl Model {
-    /// The complete profile of a device with this model. It does not claim the printed examples, which
-    /// a model cannot show.
+    /// The complete profile of a device with this model. It does not claim that the device answers
+    /// the printed examples, because the model does not determine this.
     pub fn profile(&self) -> Profile {
         let active = || self.channels.iter().filter(|channel| channel.active);
         let is_absent = |number: &u8| !self.channels.iter().any(|one| one.number == *number);

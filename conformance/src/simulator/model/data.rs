@@ -16,7 +16,7 @@ pub struct Model {
     pub(in crate::simulator) version: Option<CncVersion>,
     /// The channels in the order of their numbers.
     pub(in crate::simulator) channels: Vec<ChannelModel>,
-    /// The axes in the configured order, which is that of the platform axes.
+    /// The axes in the configured order, which is also the order of the platform axes.
     pub(in crate::simulator) axes: Vec<AxisModel>,
     pub(in crate::simulator) spindles: usize,
     pub(in crate::simulator) platform: Objects,

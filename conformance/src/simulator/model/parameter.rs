@@ -27,7 +27,8 @@ pub(in crate::simulator) struct Times {
 }
 
 impl Times {
-    /// Created at `comes`, deleted at `goes`, and repeated after `period`.
+    /// The times of a parameter that is created at `comes` and deleted at `goes`, repeated after
+    /// `period`.
     pub(super) fn new(
         comes: Duration,
         goes: Option<Duration>,
@@ -46,7 +47,7 @@ impl Times {
         Ok(Self { comes, goes, period })
     }
 
-    /// Whether it always exists.
+    /// Whether the parameter always exists.
     pub(in crate::simulator) fn is_always(&self) -> bool {
         *self == Self::default()
     }

@@ -157,7 +157,7 @@ const fn unsigned_max(size: usize) -> i64 {
         1 => 0xFF,
         2 => 0xFFFF,
         4 => 0xFFFF_FFFF,
-        // TOML has no larger numbers.
+        // Integers in TOML are at most `i64::MAX`.
         _ => i64::MAX,
     }
 }

@@ -28,7 +28,7 @@ pub enum ServiceOutcome {
     TimedOut,
 }
 
-/// The latest outcomes, and the number of all.
+/// The latest outcomes, and the number of all outcomes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     pub(super) kept: VecDeque<ServiceAnswer>,

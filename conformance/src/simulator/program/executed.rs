@@ -1,6 +1,7 @@
 //! The executed lines of a program.
 
-/// The executed lines of a program: the number and digest of all, and the text of the latest.
+/// The executed lines of a program: the number and digest of all lines, and the text of the latest
+/// lines.
 ///
 /// ```
 /// use std::time::Duration;

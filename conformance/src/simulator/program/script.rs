@@ -55,7 +55,7 @@ pub enum Wait {
 /// The number of repetitions of the list of requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
-    /// Without end.
+    /// The list is executed without end.
     Endless,
     /// The list is executed this number of times.
     Times(u32),
@@ -113,9 +113,9 @@ pub enum ScriptState {
 /// UUID, REQUEST and REQUEST_STATE, reads RESPONSE_STATE in each cycle until a response exists, and
 /// then reads RESPONSE.
 ///
-/// [Advance](Self::advance) the script before each access of others to the interface; then the result
-/// is the same as if the script ran continuously. The number of steps executed at a time is limited:
-/// after a long time, the remaining steps are dropped.
+/// [Advance](Self::advance) the script before anything else accesses the interface; then the result
+/// is the same as if the script ran continuously. The number of steps executed at a time is
+/// limited: after a long time, the remaining steps are dropped.
 ///
 /// ```
 /// use std::time::Duration;

@@ -46,7 +46,8 @@ impl ProgramSegment {
         let (mut end, mut fault) = (None, None);
         for found in found {
             match found {
-                // Ignore findings after a program end, whose lines are not executed.
+                // Ignore findings in lines after a program end, because these lines are not
+                // executed.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
                 CheckEvent::Diagnostic(finding) if finding.kind.ends_streaming() => {
                     fault = Some(SegmentEnd::Fault(finding));

@@ -210,7 +210,8 @@ fn frames_up_to_the_maximum_length_are_accepted() {
     for piece in longest.chunks(50_000) {
         stream.write_all(piece).unwrap();
     }
-    // A write length that differs from that of the data is an error of the request's size.
+    // A write length that differs from the length of the data is rejected as a wrong size of the
+    // request.
     let mut refused = ANSWER[..46].to_vec();
     (refused[2], refused[26], refused[42]) = (40, 8, 0);
     refused[38..40].copy_from_slice(&[5, 7]);
@@ -290,10 +291,11 @@ fn an_incomplete_frame_ends_its_connection() {
     let server = serving(hasty(1000));
     let mut half = client(&server);
     works(&half);
-    // The next frame may begin later, but must be complete in time after that.
+    // The next frame may begin later than the frame limit, but must then be complete within the
+    // limit.
     thread::sleep(Duration::from_millis(1200));
     half.write_all(&COUNT[..50]).unwrap();
-    // The same for the beginning of a frame that follows a complete one.
+    // The same limit applies to the beginning of a frame in the same segment as a complete frame.
     let mut next = client(&server);
     next.write_all(&[COUNT, &COUNT[..1]].concat()).unwrap();
     expect(&next, ANSWER);

@@ -14,7 +14,7 @@ use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_re
 use crate::text::plural;
 use crate::wire_service::clause;
 
-/// TCP may split a frame anywhere: only its length field determines its end.
+/// Sends frames in pieces: TCP may split a frame anywhere, so only its length field determines its end.
 pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 2] =
@@ -35,7 +35,7 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target claims no function that can be requested")
 }
 
-/// Whether the length of a reply is documented, or given by a text.
+/// Whether the length of a reply is documented, or depends on the length of a text.
 #[derive(Clone, Copy)]
 enum LengthRule {
     /// Fixed by this requirement.
@@ -71,7 +71,8 @@ pub(super) fn read_length(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The requirement that fixes the length of a reply. A variable may be a text.
+/// The requirement that fixes the length of a reply. The length of a variable's value is `Open`, because
+/// the variable may be a text.
 fn length_rule(request: &Request<'_>) -> LengthRule {
     let spec = request.function().spec();
     let is_number = spec.reply.is_some_and(|stream| stream.layout().is_fixed());
@@ -116,7 +117,7 @@ fn lengths(
     let shown = |found: Option<usize>| {
         move || found.map_or_else(|| "an error".to_owned(), |len| plural(len, "byte"))
     };
-    // For a text at the end of a reply, the CNC may require space for a NUL.
+    // Only for fixed lengths: for a text at the end of a reply, the CNC may require space for a NUL.
     if let Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
@@ -134,14 +135,15 @@ fn lengths(
     if !probe.target.client.gate().lets_malformed_pass() {
         return Ok(());
     }
-    // No data follows the reply.
+    // A longer read length must not return more data.
     if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
         let expected = || format!("{} of {what}, or an error", plural(there, "byte"));
         let rules = [rule.into(), own];
         probe.check(&rules[..], fits, expected, shown(found));
     }
-    // If a large read length is accepted, one byte less makes no difference.
+    // If a large read length is accepted, a read length that is one byte smaller must return the same
+    // number of bytes.
     let is_number =
         request.function().spec().reply.is_some_and(|stream| stream.layout().is_fixed());
     let much = there.saturating_add(0x1_0000);

@@ -47,7 +47,7 @@ pub(super) const CASES: &[CaseRow] = &[
 /// Maximum number of items that are requested of a list.
 const ITEMS_MAX: u32 = 8;
 
-/// The data of a request that must be answered.
+/// Sends a request to a claimed function and checks that it succeeds. Returns the data of the reply.
 fn ask_for_data<'a>(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -68,7 +68,8 @@ fn number(data: &[u8]) -> u32 {
     ObjectCount::decode(data).map_or(0, |count| count.0)
 }
 
-/// Descriptors: a different one at each offset, and the same ones in a range.
+/// Checks that a Read returns a different descriptor at each index offset, and the same descriptors in a
+/// range.
 fn read_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_1;
     for list in probe.lists()? {
@@ -105,7 +106,8 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Variables: one at each index, with the same value by handle and by name.
+/// Checks that a ReadWrite returns a different variable at each index, and the same value by handle and
+/// by name.
 fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_3;
     let mut steady = Steady::default();

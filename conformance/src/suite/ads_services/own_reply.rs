@@ -13,7 +13,8 @@ use crate::wire_service::clause;
 
 /// Maximum number of requests of a function that are sent to find two with different replies.
 const CALLS_MAX: usize = 6;
-/// How often a wrong reply must be repeated: a value may change between two requests.
+/// Number of attempts that must all return a wrong reply, because a value may change between two
+/// requests.
 const TRIES: usize = 3;
 
 pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
@@ -26,7 +27,8 @@ pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
             let first = data_of(probe, &call)?;
             let evidence = probe.evidence();
             let (second, third) = (data_of(probe, &call)?, data_of(probe, &call)?);
-            // A value that changes by itself may equal the earlier reply by chance.
+            // If `second` and `third` differ, the value changes by itself, and `first` may equal the
+            // earlier reply by chance.
             let is_another = first.as_ref().is_some_and(|first| *first != earlier);
             is_own |= first == second || second != third || is_another;
             probe.set_evidence(evidence);

@@ -13,7 +13,8 @@ const ITEMS_MAX: usize = 3;
 
 const RULE: ClauseId = ADS_2;
 
-/// A written value is read by another service at the same address, and at no other address.
+/// Checks that another service reads the written value at the same address, and that the value at a
+/// neighbouring address does not change.
 pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
@@ -43,7 +44,7 @@ fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     for object in objects.iter().filter(|one| one.is_writable() && !one.is_text()) {
         let address = &object.address;
         let name = object.name.to_string();
-        // A place without an axis has no content to write.
+        // A place without an axis may lose a written value. Its content is zero, so zeros are skipped.
         let of_axis = address.content().is_some_and(|(_, offset)| offset.get() >= 0x1000);
         let filled = match address.read() {
             Ok(read) if !probe.is_blank(object) && probe.may(read)? => {
@@ -86,7 +87,7 @@ fn write_beside(
         },
     )?;
     let after = look(probe)?;
-    // A value that changes by itself proves nothing.
+    // If the neighbouring value changes by itself, nothing is judged.
     if let (Some(before), Some(meanwhile)) = (&before, meanwhile)
         && after.as_ref() == Some(before)
     {

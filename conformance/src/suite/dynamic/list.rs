@@ -32,7 +32,7 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
             probe.check(rules, plausible, "a number of parameters", || format!("{count:?}"));
         }
-        // Other functions of the decoder have the same index group.
+        // The numbers of variables, which have the same index group, must be available too.
         if probe.claims(Function::CountVariables) == Claim::Yes {
             for (_, kind) in KINDS {
                 let kind = CountVariables::new(channel, kind);
@@ -44,7 +44,7 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The reply to a request for the name of an index.
+/// The reply to a request for the name of the parameter at an index.
 struct NameReply {
     index: u32,
     data: Option<Vec<u8>>,
@@ -67,10 +67,10 @@ fn ask_name(
 /// The names of a kind, read while no parameter is created or deleted.
 struct ParameterList {
     count: u32,
-    /// By index, up to the first index that is rejected.
+    /// The replies in the order of their indices, up to the first rejected index.
     names: Vec<NameReply>,
     beyond: NameReply,
-    /// An index whose name depends on the order of the requests.
+    /// The reply for the first index whose name depends on the order of the requests.
     unsteady: Option<NameReply>,
 }
 
@@ -86,7 +86,7 @@ impl ParameterList {
     }
 }
 
-/// How often a list that changes is read again.
+/// Maximum number of attempts to read a list that changes during the read.
 const TRIES: usize = 5;
 
 fn names_ascending(
@@ -196,7 +196,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
     for reply in names {
         probe.set_evidence(reply.evidence.clone());
         let expected = || format!("a name for index {} of {count} {}", reply.index, prefix(kind));
-        // The count or the range may be wrong; at the first index, also the function.
+        // If there is no name, the count or the range of indices is wrong; at the first index, the
+        // function may be wrong too.
         let rules: &[ClauseId] = match reply.index {
             1 => &[DYN_1, DYN_5, SDA_12, DYN_2],
             _ => &[DYN_1, DYN_5, SDA_12],
@@ -227,7 +228,7 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
             || format!("the same name for index {} in any order of requests", other.index);
         probe.check(DYN_2, false, expected, found);
     }
-    // A CNC with one parameter more than its count returns that parameter's name.
+    // A CNC that has one parameter more than it reports returns the name of this parameter.
     probe.set_evidence(beyond.evidence.clone());
     let data = beyond.data.as_deref().unwrap_or_default();
     let name = DynamicName::decode(data).map(|name| name.name.text.to_string());
@@ -252,7 +253,8 @@ fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     all
 }
 
-/// Sends a request for a missing index; the count must stay unchanged meanwhile.
+/// Sends a request for a missing index, and returns its check; no check if the number of parameters has
+/// changed.
 fn refused_of(
     probe: &mut Probe<'_>,
     count: u32,

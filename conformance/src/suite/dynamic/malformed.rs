@@ -57,7 +57,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Whether a name needs a NUL is not specified.
+/// Sends names without a NUL, and names padded with NULs: whether a name needs a NUL is not specified.
 pub(super) fn forms(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, _| {
         let known = first(probe, channel, kind)?;

@@ -49,7 +49,7 @@ fn value(
     let by_name = Request::from(DynamicValueByName { channel, kind, name: text });
     let by_index = DynamicValueByIndex::new(channel, kind, index)?;
     let named = probe.send(by_name)?;
-    // The returned name must be found.
+    // A request with the name that the CNC returned must succeed.
     let rules: &[ClauseId] = match name.as_bytes().len() {
         LONG.. => &[DYN_3, DYN_2, DYN_6],
         _ => &[DYN_3, DYN_2],
@@ -78,7 +78,7 @@ fn value(
     Ok(checks)
 }
 
-/// Names similar to an existing name: longer, shorter, or with another end.
+/// Names similar to an existing name: longer, shorter, or with another last character.
 fn near(kind: DynamicKind, known: &str) -> Vec<String> {
     let mut shorter = known.to_owned();
     let last = shorter.pop();

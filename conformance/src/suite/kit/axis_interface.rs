@@ -9,9 +9,10 @@ use crate::judge::Step;
 use crate::objects::ValueAddress;
 use crate::suite::kit::Probe;
 
-/// Maximum number of places of a channel that are requested.
+/// Maximum number of axis places of a channel at which handles are requested.
 pub(crate) const PLACES_MAX: u32 = 64;
-/// Maximum number of consecutive places without an axis: such a place need not answer.
+/// Maximum number of consecutive places without a handle before the search ends: a place without an axis
+/// need not return a handle.
 const GAP_MAX: u32 = 4;
 
 /// Maximum number of names of a channel in a sample, because each is requested at every place.
@@ -48,7 +49,8 @@ pub(crate) fn answering_places(
     Ok(all)
 }
 
-/// The address of an axis variable at the place of the handle in its description.
+/// The address of a variable on the axis interface, at the place that returns the handle in its
+/// description.
 pub(crate) fn axis_address(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -90,7 +92,7 @@ pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncStri
     names
 }
 
-/// The name on the axis interface of the first variable that an axis has.
+/// The name, on the axis interface, of the first axis variable.
 pub(crate) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
     variables.iter().find_map(|variable| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;

@@ -26,7 +26,8 @@ pub(crate) struct ChannelItems {
 }
 
 impl ChannelItems {
-    /// Lists that cannot be read are left empty; other cases judge them.
+    /// Reads the first items of a channel. A list that cannot be read is left empty; other cases
+    /// judge it.
     pub(crate) fn read(probe: &mut Probe<'_>, channel: Channel) -> Step<Self> {
         let all = probe.variables(channel).if_known()?.unwrap_or_default();
         let name = name_on_axes(&all);
@@ -70,7 +71,7 @@ impl ChannelItems {
             let name = name.as_cnc_str().into();
             requests.push(DynamicValueByName { channel, kind: *kind, name }.into());
         }
-        // A device may return a name that is too long for a request.
+        // A device may have returned a name that is too long for a request.
         requests.retain(is_sendable);
         Ok(requests)
     }

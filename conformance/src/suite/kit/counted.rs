@@ -47,7 +47,7 @@ impl Counted {
         Ok(counted)
     }
 
-    /// The kind of the items; `None` for parameters, which are created and deleted at any time.
+    /// The kind of the items; `None` for parameters, which programs create and delete at any time.
     pub(crate) const fn kind(&self) -> Option<ItemKind> {
         match self {
             Self::Objects(_) => Some(ItemKind::Object),

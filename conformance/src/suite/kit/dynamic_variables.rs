@@ -27,7 +27,7 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     Ok(all)
 }
 
-/// Whether the V.P, V.L and V.S that exist at the moment are also variables, as the German edition
+/// Whether the V.P, V.L and V.S that exist at the moment can be read as variables, as the German edition
 /// states.
 pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     let (channel, all) = (probe.channel()?, dynamic_names(probe)?);

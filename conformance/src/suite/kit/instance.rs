@@ -11,12 +11,12 @@ pub(crate) struct Instance {
     pub(crate) first: ElementAddress,
     /// The number of elements that the target reports.
     pub(crate) reported: u32,
-    /// The elements after element 0. Element 0 holds their number; whether the number includes
-    /// element 0 is not documented.
+    /// The number of elements after element 0. The content of element 0 is the reported number; whether
+    /// the reported number includes element 0 is not documented.
     pub(crate) count: u32,
     /// The number of elements up to the last one that has a name.
     pub(crate) reached: u32,
-    /// The numbers of the elements that the cases read, starting at 1.
+    /// The numbers of the elements that the cases read; the numbers start at 1.
     pub(super) chosen: Vec<u32>,
 }
 

@@ -26,11 +26,11 @@ pub(crate) const OBJECTS_MAX: u32 = 10_000;
 /// Maximum number of axes and spindles that are requested.
 pub(crate) const INSTANCES_MAX: u32 = 255;
 
-/// Classes with an instance for each channel, and one for each of its axes.
+/// Classes that have an instance for each channel, and one for each axis of the channel.
 pub(crate) const OF_PLACES: [Class; 3] =
     [Class::Interpolator, Class::Decoder, Class::PathPreparation];
 
-/// The attributes of an element.
+/// The requests for the attributes of an element.
 pub(crate) fn attribute_reads(element: ElementAddress) -> [Request<'static>; 5] {
     [
         ReadElementName::new(element).into(),
@@ -69,8 +69,8 @@ impl Probe<'_> {
         (1..).zip(channels).find(|(_, channel)| **channel == number).map(|(rank, _)| rank)
     }
 
-    /// The address of an object in the group that addresses its channel by rank; `None` unless its
-    /// group is logical. The numbers of the platform and its axes are the same in both groups.
+    /// The address of an object in the group that addresses its channel by rank; `None` if the group of
+    /// the object is not logical. The platform and its axes have the same numbers in both groups.
     pub(crate) fn address_by_rank(&self, object: &Object) -> Option<ValueAddress> {
         let (group, offset) = object.address.content()?;
         let Some(Group::Com(com)) = group.parts() else { return None };
@@ -87,13 +87,14 @@ impl Probe<'_> {
         })
     }
 
-    /// The axis places to which a channel assigns no axis, according to the profile or their
-    /// contents.
+    /// The axis places that have no axis according to the profile, and those to which the run does not
+    /// write, because it is unknown whether they have an axis.
     fn empty_places(&self) -> impl Iterator<Item = &(u32, u32)> {
         self.target.profile.empty_places.iter().chain(&self.target.unwritten_places)
     }
 
-    /// Whether an object belongs to an axis place without an axis: a value written there is not kept.
+    /// Whether an object belongs to an axis place that has no axis, or may have none: a value written to
+    /// such a place is lost.
     pub(crate) fn is_blank(&self, object: &Object) -> bool {
         let List::Channel(number) = object.list else { return false };
         self.empty_places().filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
@@ -114,7 +115,7 @@ impl Probe<'_> {
         Ok(platform.chain(channels).chain(axes?).collect())
     }
 
-    /// The items of a list that the cases read, in order.
+    /// Selects the items of a list that the cases read, in ascending order.
     pub(crate) fn sample(&self, kind: ItemKind, items: Range<u32>) -> Vec<u32> {
         self.target.sample.of(items, self.target.sample_sizes.of(kind))
     }
@@ -148,7 +149,7 @@ impl Probe<'_> {
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
-    /// Whether an instance is at an axis place without an axis.
+    /// Whether an instance is at an axis place that has no axis, or may have none.
     pub(crate) fn is_at_empty_place(&self, instance: &Instance) -> bool {
         let at = (instance.channel, instance.axis);
         OF_PLACES.contains(&instance.class) && self.empty_places().any(|empty| *empty == at)
@@ -188,7 +189,8 @@ impl Probe<'_> {
         }
         let reported = self.count_elements(first)?.unwrap_or_default();
         let reached = self.last_named(first, reported.min(OBJECTS_MAX))?;
-        // If the elements with names are one fewer than the number, the number includes element 0.
+        // If the last element with a name is one before the reported number, that number includes
+        // element 0.
         let is_itself = reported > 0
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);

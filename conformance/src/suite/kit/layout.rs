@@ -8,7 +8,8 @@ use ads_cnc_vectors::ids::*;
 use crate::judge::{Rule, Step, assumed};
 use crate::rules::element_count;
 
-/// Size of one element in bytes; the texts of an array have equal shares of its size.
+/// Size of one element in bytes. The size of a text in an array is the size of the array divided by the
+/// number of its elements.
 pub(crate) fn element_size(variable: &Description) -> Option<usize> {
     let share =
         variable.size.checked_div(element_count(&variable.dimensions)).filter(|size| *size > 0);
@@ -18,8 +19,8 @@ pub(crate) fn element_size(variable: &Description) -> Option<usize> {
 /// Maximum number of elements at the start of an array that are read one by one.
 const ELEMENTS_MAX: usize = 64;
 
-/// Whether an element is read: the first ones, those with the same low byte of the index, and the
-/// last.
+/// Whether the element with this position is read: the first 64 elements, those at the limit of an index
+/// of one byte (255 to 257), and the last two.
 fn is_tried(number: usize, count: usize) -> bool {
     number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
 }
@@ -54,8 +55,8 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
     })
 }
 
-/// The order of several dimensions, and of texts in an array, is assumed; that of numbers in one
-/// dimension is printed in the manual.
+/// The rule for the order of the elements: assumed for several dimensions and for texts; for numbers in
+/// one dimension, the manual prints the order.
 pub(crate) fn order(variable: &Description) -> Rule {
     let texts = variable.var_type == VariableType::STRING;
     if variable.dimensions.len() > 1 || texts { assumed(VAR_21) } else { VAR_14.into() }
@@ -66,7 +67,7 @@ pub(crate) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
     move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
 }
 
-/// The rule for names with indices: several pairs of brackets, and texts in an array, are assumed.
+/// The rule for names with indices: assumed for several pairs of brackets, and for texts in an array.
 pub(crate) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
         Some(Level::Info) => assumed(VAR_20),

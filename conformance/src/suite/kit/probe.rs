@@ -47,7 +47,7 @@ pub struct Probe<'s> {
     requests: usize,
     /// Whether the case was stopped because the run is interrupted.
     pub(crate) interrupted: bool,
-    /// Why a value that the file names was not written.
+    /// Why the gate rejected the write of a value that the file of `--allow-write` names.
     ambiguity: Option<String>,
     /// Whether the target has an item that the case applies to.
     has_subject: bool,
@@ -91,7 +91,8 @@ impl<'s> Probe<'s> {
         first.or_not_applicable("the target claims no channel")
     }
 
-    /// Whether the gate lets a request pass; for a write by handle, the handle is confirmed first.
+    /// Whether the gate allows a request to a claimed function. For a write by handle, queries first
+    /// confirm the handle.
     pub(crate) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
         if self.claims(request.function()) == Claim::No {
@@ -107,8 +108,8 @@ impl<'s> Probe<'s> {
         Ok(checked.is_ok())
     }
 
-    /// The result of the case: inconclusive if the gate rejected a write of a value that the file
-    /// names.
+    /// The result of the case. If the gate rejected the write of a value that the file of
+    /// `--allow-write` names, the case is not complete.
     pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.ambiguity.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
@@ -123,7 +124,7 @@ impl<'s> Probe<'s> {
     }
 
     /// Ends a case that has tried all items: not applicable for the reason `why` if the target has no
-    /// item that the case applies to. Any check shows that it has one.
+    /// item that the case applies to. A recorded check shows that the target has such an item.
     pub(crate) fn finish(&self, why: &str) -> Step {
         applicable(self.has_subject || self.record.checks > 0, why)
     }
@@ -213,8 +214,7 @@ impl<'s> Probe<'s> {
             self.target.rules.reply(&exchange, cnc, &call, &exchange, &[]);
         }
         if let Some(fault @ ExchangeError::Malformed(_)) = fault {
-            // Without a valid frame the data of a function is unknown; another check judges the
-            // frame.
+            // Without a valid frame, the reply data is unknown. Another check judges the frame.
             return Err(Stop::Inconclusive(format!("{exchange}: {fault}")));
         }
         if exchange.contradicts_itself() {
@@ -234,7 +234,7 @@ impl<'s> Probe<'s> {
         Ok(exchange)
     }
 
-    /// Ends the case if the target no longer answers.
+    /// Ends the case if the run is interrupted, the deadline has passed, or the target no longer answers.
     pub(crate) fn target(&mut self) -> Step {
         if interrupt::is_requested() {
             self.interrupted = true;
@@ -264,7 +264,8 @@ impl<'s> Probe<'s> {
         match fault {
             Some(ExchangeError::Refused(refusal)) => {
                 let why = format!("{what}: {refusal}");
-                // The target, not the user, gave the address of a query.
+                // If the file of `--allow-write` is not the reason, the request has an address from a
+                // reply of the target, which the user cannot correct.
                 let is_of_user = refusal.reason.is_of_file();
                 return Err(if is_of_user { Stop::Refused(why) } else { Stop::Inconclusive(why) });
             }
@@ -310,7 +311,7 @@ impl<'s> Probe<'s> {
         let request = request.into();
         let exchange = self.send(request)?;
         let mut rules: Vec<Rule> = rules.rules().collect();
-        // A function that is claimed by name must work, even if it is only assumed.
+        // A function that the profile claims by name must work, even if its rule is only assumed.
         if self.target.profile.names(request.function()) {
             rules.iter_mut().for_each(|rule| rule.level = Some(Level::Must));
         }
@@ -349,7 +350,7 @@ impl<'s> Probe<'s> {
         })
     }
 
-    /// Sets the variable or object that the checks are about, from the last call on.
+    /// Sets the variable or object that the last call and all following calls are about.
     pub(crate) fn set_subject(&mut self, subject: impl Display) {
         self.subject = Some(subject.to_string());
         if let Some(last) = &mut self.last {
@@ -369,7 +370,7 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Lets the next check compare only replies from now on.
+    /// Ends a comparison: the next check compares only replies that are received from now on.
     pub(crate) fn end_comparison(&mut self) {
         self.compared.clear();
     }

@@ -14,7 +14,7 @@ use crate::suite::kit::{Probe, RawCall};
 /// How often a value that changes is read again.
 const TRIES: usize = 3;
 
-/// The result of comparing a value, which is read before and after, with another reading in between.
+/// The result of a comparison: a value is read twice, and another reading is made between the two reads.
 pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
@@ -88,7 +88,7 @@ impl Steady {
         Ok(())
     }
 
-    /// Compares the value that a request by index reads with the one that `logical` reads.
+    /// Compares the value that the request `by_index` reads with the value that `logical` reads.
     ///
     /// `clause` fails if they differ.
     pub(crate) fn by_index<'a, 'b>(
@@ -155,11 +155,12 @@ impl Steady {
     }
 }
 
-/// The clauses by which a request by index is judged. `found`: whether its reply is the expected one;
-/// `None` for an error.
+/// The clauses for which the reply to a request by index is judged. `found`: whether the reply is the
+/// expected one; `None` for an error.
 ///
-/// An error for an index that equals the logical number shows that the function has no base without the
-/// logical bit (ADR-12); other errors and replies show the instance that the index addresses.
+/// A function that returns an error even if the index equals the logical number rejects every group
+/// without the logical bit: its errors violate ADR-12 only. Any other wrong reply shows that the index
+/// addresses a wrong instance, which violates `clause`.
 pub(crate) fn rules_by_index(
     probe: &mut Probe<'_>,
     clause: ClauseId,
@@ -197,9 +198,9 @@ pub(crate) fn between<G: PartialEq, T>(
     Ok((guard(probe)?.as_ref() == Some(&before)).then_some(found))
 }
 
-/// Number of attempts while parameters are created and deleted.
+/// Maximum number of attempts, because parameters may be created and deleted during an attempt.
 const TRIES_OF_PARAMETERS: usize = 5;
-/// Number of failed attempts, with none that passed, that count as a failure.
+/// Number of failed attempts after which a failure is recorded, if no attempt has passed.
 const FAILURES: usize = 3;
 
 /// A check before it is recorded.

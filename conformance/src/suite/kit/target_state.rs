@@ -21,12 +21,12 @@ pub struct TargetState {
     pub client: Client,
     /// The claims of the target.
     pub profile: Profile,
-    /// Axis places, by channel, whose contents are all zero: they may have no axis, in which case a
-    /// value written there is lost.
+    /// Axis places (channel and place) to which the run does not write. Without a profile, it is unknown
+    /// whether they have an axis, and a value written to a place without an axis is lost.
     pub(in crate::suite) unwritten_places: Vec<(u32, u32)>,
     /// Which items of a long list the cases read.
     pub(in crate::suite) sample: Sample,
-    /// Maximum number of these items.
+    /// Maximum number of items of a long list that the cases read.
     pub(in crate::suite) sample_sizes: SampleSizes,
     /// Descriptions of the variables of each kind and channel.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
@@ -42,15 +42,15 @@ pub struct TargetState {
     pub(in crate::suite) without_base: HashSet<Function>,
     /// Whether any reply was a success.
     pub(in crate::suite) any_success: bool,
-    /// An error that came with data.
+    /// The last error reply that contained data.
     pub(in crate::suite) error_with_data: Option<Evidence>,
     /// Consecutive requests without a reply.
     pub(in crate::suite) silences: usize,
     /// Why no more requests are sent.
     pub(in crate::suite) gone: Option<String>,
-    /// In which case the target stopped answering, and after how many requests.
+    /// The text that names the case in which the target stopped answering, and the number of requests.
     pub(in crate::suite) ended: Option<String>,
-    /// After how many more failed cases the rest is not run; `None` for all.
+    /// Number of further failed cases after which the remaining cases are not run; `None` for no limit.
     pub(in crate::suite) failures_left: Option<usize>,
     /// Violations of the rules for frame headers.
     pub(in crate::suite) broken: Record,
@@ -119,7 +119,7 @@ impl TargetState {
         &self.changes
     }
 
-    /// Sets after how many failed cases the rest is not run.
+    /// Sets the number of failed cases after which the remaining cases are not run.
     pub const fn stop_after(&mut self, failures: usize) {
         self.failures_left = Some(failures);
     }

@@ -25,8 +25,8 @@ pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()
 }
 
-/// A value that differs as little as possible: one bit of the first byte is changed. A text gets
-/// another first character; a text of a single byte has no space for one.
+/// Returns a value that differs from `value` as little as possible: in one bit of the first byte. A text
+/// gets another first character; a text of a single byte has no space for one, and stays unchanged.
 pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
@@ -185,9 +185,9 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Writes a value that differs from the original one in every byte. If it is accepted, it must
-    /// be read back, or another value if it is out of range; but not the original one, nor a
-    /// mixture of both.
+    /// Writes a value that differs from the original one in every byte. If the CNC accepts the write, the
+    /// written value must be read back. If the CNC limits the value to its range, another value may be
+    /// read back, but neither the original value nor a mixture of the bytes of both values.
     fn change_every_byte(
         &mut self,
         write_check: &WriteCheck<'_>,

@@ -30,7 +30,7 @@ const PAUSE: Duration = Duration::from_millis(200);
 /// on a new connection.
 const REQUESTS_MAX: u32 = 60;
 
-/// The sum of the pauses between these attempts, for both rounds.
+/// Upper limit of the sum of all pauses, in the attempts of a case and in those at the end of the run.
 const PAUSES: Duration = Duration::from_secs(8);
 
 impl Probe<'_> {

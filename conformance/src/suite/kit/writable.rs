@@ -13,7 +13,8 @@ use crate::judge::{Rule, Step, Stop, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Instance, NOTHING_WRITABLE, Probe, WriteCheck, name_of};
 
-/// Other cases write the variables of the Service Interface, because such writes have side effects.
+/// Whether a variable belongs to the Service Interface. Writes to these variables have side effects, so
+/// only the cases of the Service Interface write them.
 pub(crate) fn is_of_service(variable: &Description) -> bool {
     ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
 }
@@ -54,7 +55,7 @@ pub(crate) fn handle_of(
     Ok(handle.unwrap_or(variable.handle))
 }
 
-/// A writable variable with its current value, to which a rejected write is compared.
+/// A writable number with its current value, which a rejected write must not change.
 pub(crate) struct WritableNumber {
     pub(crate) channel: Channel,
     pub(crate) variable: Description,
@@ -122,8 +123,7 @@ pub(crate) fn is_taken(
     Ok(exchange.success().is_some())
 }
 
-/// Requires that the target accepts the correct request, from which the rejected one differs only
-/// by its fault.
+/// Ends the case as inconclusive unless the target accepts `good`, the same request without the fault.
 pub(crate) fn require_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,

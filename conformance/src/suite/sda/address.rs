@@ -24,7 +24,8 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let own = seen.insert((group, offset));
         probe.check(SDA_1, own, "an address that no other instance has", found);
     }
-    // If several instances have the same address, the one after the last is not requested.
+    // The list of instances ends before an axis that has the address of another instance, so the axis
+    // after each instance is requested here.
     for one in probe.instances()? {
         let beyond = probe.address_of(one.class, one.channel, one.axis.saturating_add(1))?;
         let Some(beyond) = beyond.filter(|address| *address != ObjectAddress::NONE) else {
@@ -34,7 +35,7 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{beyond:?} also for the axis after {one}");
         probe.check(SDA_1, own, "an address that no other instance has", found);
     }
-    // In another order, every instance must have the same address.
+    // Requested in reverse order, every instance must have the same address as before.
     for one in probe.instances()?.iter().rev() {
         let again = probe.address_of(one.class, one.channel, one.axis)?;
         let first = ObjectAddress::from(one.first);
@@ -72,7 +73,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target names no instance")
 }
 
-/// A request of another length, and a read length shorter than the reply.
+/// Sends requests with too many or too few bytes, and a read length shorter than the reply.
 pub(super) fn bad_queries(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
     for class in OF_PLACES.into_iter().chain([Class::Hld]) {

@@ -48,7 +48,7 @@ fn is_blank(bytes: &[u8]) -> bool {
 }
 
 fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance]) -> Step {
-    // The number of elements is also a content.
+    // The number of elements is the content of element 0, so it must be readable too.
     probe.ask(SDA_11, CountElements::new(one.first)?)?;
     let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
     for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
@@ -67,7 +67,7 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
         };
         let content = probe.ask(SDA_11, read)?;
         let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
-        // The content at an empty place must not equal that of an axis, unless it is zero.
+        // The content at a place without an axis must not equal that of an axis, unless it is zero.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
         probe.check(SDA_11, !of_axis, "blank content, different from that of any axis", found);
         probe.check(assumed(SDA_11), is_blank(&content), "zeros", found);

@@ -28,7 +28,8 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
         probe.check(SDA_13, mine.is_some(), expected, "no such instance");
         let Some(mine) = mine else { continue };
         if mine.count != axis.count {
-            // If both have the next element too, or neither, only a number is wrong, which SDA-4 judges.
+            // If both instances have the element after the smaller number, or neither has it, only a
+            // reported number is wrong, which SDA-4 judges.
             let next = mine.count.min(axis.count).saturating_add(1);
             let mut has_next = |one: &Instance| -> Step<bool> {
                 let Ok(element) = one.first.nth(next) else { return Ok(false) };

@@ -41,7 +41,7 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let expected =
             || format!("the {} ({channel}, {axis}) in a group that no other class has", class);
         probe.check(SDA_1, same, expected, found);
-        // Every instance has a number of elements.
+        // Every instance must return its number of elements.
         let count = CountElements::new(first)?;
         let exchange = probe.send(count)?;
         let read = exchange.success().is_some();
@@ -59,7 +59,7 @@ fn of_axes(class: Class, id: ClauseId) -> Rule {
     if class == Class::PathPreparation { assumed(id) } else { id.into() }
 }
 
-/// Requests an instance that cannot exist in the range given by these requirements.
+/// Requests an instance that cannot exist: `rules` are violated if the reply contains its address.
 fn is_nowhere(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -82,7 +82,7 @@ fn is_nowhere(
     let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class);
     let found = || Hex(data.to_vec());
     probe.check(SDA_2, none, expected, found);
-    // The reply addresses an instance that cannot exist.
+    // This check fails if the reply contains the address of an element.
     let is_found = address.is_ok_and(|address| matches!(address.first_element(), Ok(Some(_))));
     probe.check(rules, !is_found, expected, found);
     Ok(())
@@ -101,7 +101,7 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
             probe.check(SDA_1, is_address, "an address of the first axis, or (0, 0)", found);
         }
     }
-    // An axis place exists with or without an axis.
+    // An axis place must have an instance even if it has no axis.
     let empty_places = probe.target.profile.empty_places.clone();
     for class in OF_PLACES.into_iter().filter(|_| !empty_places.is_empty()) {
         // If no instance of the first channel is found, the group of the class may be wrong.
@@ -157,7 +157,7 @@ fn last_axis(all: &[Instance], class: Class, channel: u32) -> Option<u32> {
 pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let mut any = false;
-    // The axes of a channel have the same limit in these classes.
+    // A channel must have the same number of axes in all of these classes.
     for channel in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
         let lasts = OF_PLACES.map(|class| (class, last_axis(&all, class, channel)));
         let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
@@ -168,7 +168,7 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
             is_there(probe, &[of_axes(class, SDA_5)], class, channel, axis)?;
         }
     }
-    // The platform has the same number of axes in all classes.
+    // The platform must have the same number of axes in the position controller and in the HLD.
     let lasts =
         [Class::PositionController, Class::Hld].map(|class| (class, last_axis(&all, class, 0)));
     let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
@@ -181,13 +181,14 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     applicable(any, "no class has an axis")
 }
 
-/// Checks that the axis after the last does not exist, nor one with the lower 16 bits of the last.
+/// Checks that the axis after the last one does not exist, nor an axis with the lower 16 bits of the last
+/// one.
 fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Step {
     is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
     is_nowhere(probe, &[SDA_5], class, channel, last | 0x1_0000)
 }
 
-/// Every class has a last instance, in any configuration.
+/// Checks that no instance exists after the last instance of each class, in any configuration.
 pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let has = |class| all.iter().any(|one| one.class == class);
@@ -236,8 +237,8 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
             let channel = one.channel.wrapping_add(bit);
             is_nowhere(probe, &[SDA_5], one.class, channel, one.axis)?;
         }
-        // A read at such an address must fail too. Only the addresses of the decoder's axes are
-        // printed.
+        // A read at such an address must fail too. This is checked for the decoder only, because the
+        // manuals print addresses of axes only for this class.
         if one.class == Class::Decoder && one.axis < 0x100 {
             let group = one.first.class_group();
             for bit in [0x100_0000, 0x8000_0000_u32] {

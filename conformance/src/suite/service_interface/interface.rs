@@ -99,7 +99,8 @@ fn restoring(
     let address = ValueAddress::Name { channel, name: variable.name().parse()? };
     let is_text = variable.var_type() == VariableType::STRING;
     if is_text {
-        // Without its padding, because a device may reject more bytes than the text has.
+        // The text is restored without its padding, because a device may reject more bytes than the text
+        // has.
         was = [until_nul(&was), b"\0"].concat();
     }
     let write_check = WriteCheck { what: variable.name(), rules: &[], is_text, name: None };

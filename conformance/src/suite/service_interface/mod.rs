@@ -62,7 +62,7 @@ fn variables(probe: &mut Probe<'_>) -> Step {
             let Some(own) = own else { continue };
             let found = || format!("{:?} of {name}", own.var_type);
             let expected = || format!("{:?}", variable.var_type());
-            // An unknown type is not a type of variables at all, which VAR-5 judges.
+            // A type number without a name violates VAR-5, which another case judges.
             let is_other = own.var_type.name().is_some() && own.var_type != variable.var_type();
             probe.check(SVC_1, !is_other, expected, found);
             // A service writes these two variables.

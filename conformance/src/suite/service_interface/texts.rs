@@ -31,7 +31,8 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// `len` printable characters, starting with that of number `first`.
+/// Returns `len` printable characters, starting with the character that has the index `first` among all
+/// printable characters.
 fn characters(first: u8, len: usize) -> Vec<u8> {
     let no_character = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
     let all = (b' '..=0xFF).filter(|byte| *byte != 0x7F && !no_character.contains(byte));
@@ -57,7 +58,7 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Texts of any length, written by name and read by handle, and vice versa.
+/// Writes texts of several lengths by name and reads them by handle, and vice versa.
 pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
     for_each_text(probe, |probe, channel, variable| {
         let name = variable.name();

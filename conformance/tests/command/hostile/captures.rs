@@ -1,4 +1,4 @@
-//! Captures with many requests that wait for replies.
+//! Captures with many requests whose replies have not come yet.
 
 use std::net::SocketAddr;
 use std::time::Duration;
@@ -25,7 +25,7 @@ fn frame(header: AmsHeader, payload: &[u8]) -> Vec<u8> {
     FrameRef::new(header, payload).unwrap().encode_to_vec().unwrap()
 }
 
-/// A capture of requests on one connection, with the given replies.
+/// A capture of `count` requests on one connection, each with the reply that `answer` returns, if any.
 fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -> TestFile {
     let file = TestFile::new(".pcapng", b"");
     let mut capture = Capture::create(&file.0).unwrap();
@@ -43,7 +43,8 @@ fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -
     file
 }
 
-/// Long and short requests without replies, on one connection or on many open ones.
+/// Long and short requests without replies, on one connection or on many open connections, do not use
+/// too much memory.
 #[test]
 fn requests_without_replies_are_dropped() {
     for (connections, requests, bytes) in
@@ -69,7 +70,7 @@ fn requests_without_replies_are_dropped() {
     }
 }
 
-/// Twice the number of requests takes at most about twice the time, with any replies.
+/// The time for a check grows linearly with the number of requests, whatever the replies are.
 #[test]
 fn captures_are_checked_in_linear_time() {
     type Answer = fn(u32, &AmsHeader) -> Option<AmsHeader>;
@@ -96,7 +97,8 @@ fn captures_are_checked_in_linear_time() {
         if usual.is_zero() {
             usual = ended.time;
         }
-        // With a linear search of the waiting requests, this took more than thirty times as long.
+        // With a linear search through the waiting requests, the check took more than thirty times as
+        // long.
         assert!(ended.time < usual * 6 + Duration::from_secs(2), "{what}: {:?}", ended.time);
     }
 }

@@ -1,4 +1,4 @@
-//! A deadline ends every command.
+//! The option `--deadline` ends every command in time.
 
 use std::fs;
 use std::thread;
@@ -9,7 +9,8 @@ use ads_cnc_conformance::simulator::Cnc;
 use super::{against, everything, right, run, serving};
 use crate::common::file::TestFile;
 
-/// With a slow device, a run ends at the deadline, and the notes of the remaining cases state this.
+/// With a slow device, a run ends at the deadline, and the notes of the remaining cases state the
+/// deadline as the reason.
 #[test]
 fn a_deadline_ends_a_run() {
     let cnc = Cnc::with_default_model().unwrap();
@@ -27,7 +28,7 @@ fn a_deadline_ends_a_run() {
     assert!(report.matches("the deadline of 2 s has passed").count() > 50);
 }
 
-/// A changed value is restored after the deadline, and no other value is changed.
+/// A run restores a changed value even after the deadline, but changes no other value.
 #[test]
 fn a_deadline_ends_writes() {
     let cnc = Cnc::with_default_model().unwrap();
@@ -53,7 +54,7 @@ fn a_deadline_ends_writes() {
         assert_eq!(value(Some(&addr)), value(None));
     }
 
-    // The search for an object by its name reads lists without end.
+    // On this device, the search for an object by its name reads lists without end.
     let allow = TestFile::allowing("[[object]]\nchannel = 1\nname = \"no_such_object\"\n");
     let addr = everything().to_string();
     let set = ["set", "no_such_object", "1", "--allow-write", allow.path(), "--deadline", "2"];
@@ -62,7 +63,8 @@ fn a_deadline_ends_writes() {
     assert!(ended.stderr.contains("the deadline of 2 s has passed"), "{}", ended.stderr);
 }
 
-/// A testee that needs half a second for each answer, and a client that never ends.
+/// A deadline also ends a run with a testee that needs half a second for each answer, and a run with a
+/// client that never ends.
 #[cfg(unix)]
 #[test]
 fn a_deadline_ends_a_testee_and_a_client() {

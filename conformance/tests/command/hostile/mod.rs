@@ -1,5 +1,5 @@
-//! Limits of memory and time with hostile peers: runs the built command against servers, testees,
-//! clients and captures that send without end.
+//! Limits of memory and time with hostile peers: the tests run the built command against servers,
+//! testees, clients and captures that send data without end.
 
 mod captures;
 mod deadline;
@@ -21,10 +21,10 @@ use ads_cnc::operation::{Call, Request};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 
-/// Maximum peak memory of a tool in bytes.
+/// Maximum peak memory in bytes that a tool may use.
 const MEMORY_MAX: u64 = 100 << 20;
 
-/// The result of a tool.
+/// The result of a tool that has ended.
 struct Ended {
     code: Option<i32>,
     stdout: String,
@@ -32,13 +32,14 @@ struct Ended {
     time: Duration,
 }
 
-/// Runs the command to its end and checks that it never uses more than `MEMORY_MAX`.
+/// Runs the command to its end, and checks that it never uses more memory than `MEMORY_MAX`.
 #[track_caller]
 fn run(args: &[&str]) -> Ended {
     run_beside(args, |_| ()).0
 }
 
-/// Like [`run`], with something else running at the same time; it gets the file that stderr is written to.
+/// Like [`run`], but also calls `beside` while the command runs, with the path of the file that contains
+/// the command's stderr.
 #[track_caller]
 fn run_beside<T>(args: &[&str], beside: impl FnOnce(&Path) -> T) -> (Ended, T) {
     let (out, err) = (TestFile::new(".out", b""), TestFile::new(".err", b""));
@@ -53,7 +54,7 @@ fn run_beside<T>(args: &[&str], beside: impl FnOnce(&Path) -> T) -> (Ended, T) {
     let id = child.id();
     let watch = thread::spawn(move || {
         let mut most = 0;
-        // A zombie process has no such line.
+        // `peak` returns `None` when the process has ended, even if it is still a zombie.
         while let Some(now) = peak(id) {
             most = now.max(most);
             thread::sleep(Duration::from_millis(2));
@@ -79,7 +80,7 @@ fn run_beside<T>(args: &[&str], beside: impl FnOnce(&Path) -> T) -> (Ended, T) {
     (Ended { code: status.code(), stdout: read(&out), stderr: read(&err), time }, done)
 }
 
-/// The peak memory of a process.
+/// The peak memory of a process in bytes; `None` if the process has ended.
 #[cfg(target_os = "linux")]
 fn peak(id: u32) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{id}/status")).ok()?;
@@ -93,7 +94,7 @@ fn peak(_: u32) -> Option<u64> {
     None
 }
 
-/// A server that calls `react` for each request.
+/// Starts a server that calls `react` for each request, and returns its address.
 fn serving(
     react: impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()> + Send + Sync + 'static,
 ) -> SocketAddr {
@@ -128,21 +129,21 @@ fn serve(
     }
 }
 
-/// The reply of the simulated CNC.
+/// The frame with which the simulated CNC replies to a request.
 fn right(cnc: &Cnc, frame: &FrameRef<'_>) -> Vec<u8> {
     let mut answer = Vec::new();
     cnc.respond(NET_ID, frame, &mut answer);
     answer
 }
 
-/// A frame to the client of this frame, with another invoke ID.
+/// A response frame to the sender of this frame, with an invoke ID that it did not use.
 fn stray(frame: &FrameRef<'_>) -> Vec<u8> {
     let header = frame.header();
     let header = AmsHeader { invoke_id: header.invoke_id ^ 0x8000_0000, ..header.response() };
     FrameRef::new(header, &[0; 8]).unwrap().encode_to_vec().unwrap()
 }
 
-/// A successful reply with data, for the service of the request.
+/// A successful reply with this data, in the form of the service of the request.
 fn success(frame: &FrameRef<'_>, data: &[u8]) -> Vec<u8> {
     let mut payload = vec![0; 4];
     if frame.header().command != AdsCommand::WRITE {
@@ -194,7 +195,8 @@ fn unsolicited_frames_before_every_reply_of_a_run() {
     assert!(ended.stdout.contains("a reply to invoke ID"), "{}", ended.stdout);
 }
 
-/// A device that uses AMS/TCP, but wrongly from the first frame on, fails; exit code 3 is for silence.
+/// A run against a device that sends AMS/TCP frames, but wrong ones from the first on, fails. Exit code 3
+/// is only for a device that sends nothing.
 #[test]
 fn broken_frames_from_the_first_one_on() {
     let whole = |frame: &FrameRef<'_>| frame.encode_to_vec().unwrap();
@@ -214,7 +216,8 @@ fn broken_frames_from_the_first_one_on() {
     }
 }
 
-/// A reply with an invoke ID that was never sent is judged at once, without waiting for another reply.
+/// A reply with an invoke ID that the tool never sent is judged at once, without waiting for another
+/// reply.
 #[test]
 fn errors_with_another_invoke_id_and_port() {
     let cnc = Cnc::with_default_model().unwrap();
@@ -258,7 +261,7 @@ fn replies_of_a_megabyte_with_wrong_flags_and_addresses() {
     assert!(report.contains("the first 4096 of "), "nothing says that evidence is cut");
 }
 
-/// A device on which every requested item exists.
+/// Starts a device that has every item that is requested, without end.
 fn everything() -> SocketAddr {
     const DESCRIPTION: &[u8] = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
     serving(|frame, out| {
@@ -301,7 +304,7 @@ fn a_device_on_which_everything_exists() {
         assert!(ended.stderr.contains(&why), "{tool:?}: {}", ended.stderr);
         assert!(ended.stdout.lines().count() > least, "{tool:?}");
     }
-    // No name matches, so that the tool requests everything.
+    // No name matches the filter, so the tool requests items until the deadline.
     let ended =
         run(&against(&addr, &["browse", "--variables", "--filter", "no", "--deadline", "3"]));
     assert_eq!(ended.code, Some(3), "{}", ended.stderr);
@@ -313,7 +316,7 @@ fn a_device_on_which_everything_exists() {
     assert!(matches!(ended.code, Some(1 | 3)), "{}", ended.stderr);
 }
 
-/// Testees with long answers.
+/// Testees that send very long answers.
 #[cfg(unix)]
 #[test]
 fn a_testee_with_long_answers() {
@@ -323,7 +326,7 @@ fn a_testee_with_long_answers() {
         (120_000, "a", r#"{"seq":%s,"reject":{"class":"%s","message":"%s"}}"#),
         (250_000, "a", r#"{"seq":%s,"ok":{"value":"%s"}}"#),
         (300_000, "a", r#"{"seq":%s,"error":{"message":"%s"}}"#),
-        // The JSON that needs the most memory per byte.
+        // The JSON that occupies the most memory per byte when it is parsed.
         (4000, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
         (500, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
     ] {
@@ -357,13 +360,13 @@ fn a_testee_with_long_answers() {
     }
 }
 
-/// The address that the tool listens on, once it has printed it.
+/// The address on which the tool listens; `None` until the tool has printed it.
 fn listens_on(stderr: &str) -> Option<SocketAddr> {
     let (addr, _) = stderr.split_once("waiting for a client on ")?.1.split_once(',')?;
     addr.parse().ok()
 }
 
-/// A client that sends without end, over more connections than allowed.
+/// A client that sends requests without end, over more connections than the limit.
 #[test]
 fn a_client_without_end() {
     let long = {

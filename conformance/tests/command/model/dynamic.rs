@@ -1,11 +1,11 @@
-//! Dynamic parameters.
+//! Dynamic parameters of the simulated CNC.
 
 use ads_cnc_conformance::simulator::DEFAULT_MODEL;
 
 use super::timed::Timed;
 use super::{CHANNEL_1, Cnc};
 
-/// Count, name by index, value by name, value by index of each kind.
+/// The index offsets of the functions of a kind: count, name by index, value by name, value by index.
 const P: [u32; 4] = [0x02, 0x1B, 0x1C, 0x1D];
 const VL: [u32; 4] = [0x03, 0x1E, 0x1F, 0x20];
 const VP: [u32; 4] = [0x04, 0x21, 0x22, 0x23];
@@ -45,7 +45,7 @@ fn every_kind_has_its_functions() {
             assert_eq!(sda.ask(CHANNEL_1, by_name, name.as_bytes()), real(value), "{name}");
             assert_eq!(sda.ask(CHANNEL_1, by_index, &index), real(value), "{name}");
         }
-        // Indices are 1 to n; a name must have the kind.
+        // Indices count from 1. A name of another kind does not exist.
         for index in [0, names.len() as u8 + 1, 255] {
             let wanted = if index == 0 { 0x705 } else { 0x706 };
             assert_eq!(sda.ask(CHANNEL_1, name_at, &[index, 0, 0, 0]), Err(wanted));
@@ -54,15 +54,15 @@ fn every_kind_has_its_functions() {
         assert_eq!(sda.ask(CHANNEL_1, by_name, b"V.X.nobody\0"), Err(0x710));
         assert_eq!(sda.ask(CHANNEL_1, by_name, b"P\0"), Err(0x710));
         assert_eq!(sda.ask(CHANNEL_1, by_name, &[b'x'; 97]), Err(0x705));
-        // Channel 6 has none.
+        // Channel 6 has no parameters, and channel 3 does not exist.
         assert_eq!(sda.read(0x12_2306, count, 4), Ok(vec![0; 4]));
         assert_eq!(sda.read(0x12_2303, count, 4), Err(0x702));
     }
     assert_eq!(sda.ask(CHANNEL_1, 0x1C, b"V.L.depth\0"), Err(0x710));
 }
 
-/// While a subroutine runs, its parameter precedes the other one, whose index changes but not its name
-/// (DYN-4).
+/// While a subroutine runs, its parameter is the first of the list. The other parameter then has another
+/// index, but the same name (DYN-4).
 #[test]
 fn a_subroutine_shifts_indices() {
     let cnc = Cnc::start(&[]);
@@ -83,7 +83,7 @@ fn a_subroutine_shifts_indices() {
     assert_eq!(sda.ask(CHANNEL_1, 0x20, &[2, 0, 0, 0]), Err(0x706));
 }
 
-/// A channel with these parameters.
+/// A CNC whose channel 1 has these parameters.
 fn with_parameters(parameters: &str) -> Timed {
     let edition = "edition = \"de-1.051\"\n";
     Timed::new(&format!("{edition}[[channel]]\nnumber = 1\nparameters = [\n{parameters}\n]\n"))
@@ -102,7 +102,8 @@ impl Timed {
     }
 }
 
-/// The indices after a created or deleted parameter change; a deleted parameter has no value or name.
+/// When a parameter is created or deleted, the indices of the parameters after it change. A deleted
+/// parameter has no value and no name.
 #[test]
 fn parameters_are_created_and_deleted_in_time() {
     let cnc = with_parameters(
@@ -134,8 +135,8 @@ fn parameters_are_created_and_deleted_in_time() {
     assert_eq!(cnc.names(VL), "V.L.late V.L.always");
 }
 
-/// On the interface of variables, the parameter is created and deleted, too. A parameter that is created
-/// again has its initial value, even if no request came while it did not exist.
+/// A parameter is also created and deleted on the interface of variables. A parameter that is created
+/// again has its initial value, even if no request was sent while it did not exist.
 #[test]
 fn a_recreated_parameter_has_its_initial_value() {
     let cnc = with_parameters(
@@ -151,7 +152,7 @@ fn a_recreated_parameter_has_its_initial_value() {
     assert_eq!(write("V.P.stays", 8.0), Ok(()));
     cnc.pass(999);
     assert_eq!((read("V.P.often"), cnc.ask(VP[3], &[1, 0, 0, 0])), (real(9.0), real(9.0)));
-    // A whole period later.
+    // One whole period later, without a request in between.
     cnc.pass(4000);
     assert_eq!((read("V.P.often"), read("V.P.stays")), (real(1.5), real(8.0)));
     cnc.pass(1);
@@ -159,7 +160,8 @@ fn a_recreated_parameter_has_its_initial_value() {
     assert_eq!(read("V.P.often"), Err(0x710));
 }
 
-/// A parameter with times and an object needs both to exist.
+/// A parameter for which the model names both times and an object exists only while both conditions are
+/// true.
 #[test]
 fn times_and_object_both_apply() {
     let timed = "while = \"example_subroutine_w\", comes = \"2s\"";
@@ -174,7 +176,7 @@ fn times_and_object_both_apply() {
     assert_eq!(cnc.names(VL), "V.L.depth");
 }
 
-/// The example in a comment of the default model is valid.
+/// The example of a parameter in a comment of the default model is valid TOML, and has its effect.
 #[test]
 fn the_commented_parameter_is_valid() {
     let row = DEFAULT_MODEL.lines().find_map(|line| {

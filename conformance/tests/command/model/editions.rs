@@ -1,8 +1,9 @@
-//! The features of editions of the manual and versions of the CNC.
+//! The features of a simulated CNC by the edition of the manual and the version of the CNC.
 
 use super::{CHANNEL_1, Cnc};
 
-/// V.P by name, a handle of V.P, a handle of V.CYC, V.CYC by name, the description by name.
+/// The replies to requests for: V.P by name, a handle of V.P, a handle of V.CYC, V.CYC by name, and a
+/// description by name.
 fn answers(options: &[&str]) -> [Result<Vec<u8>, u32>; 5] {
     let cnc = Cnc::start(options);
     let sda = cnc.sda();
@@ -20,7 +21,7 @@ fn answers(options: &[&str]) -> [Result<Vec<u8>, u32>; 5] {
 fn editions_differ() {
     let count = Ok(3.0_f64.to_le_bytes().to_vec());
     let cyclic = Ok(vec![42, 0, 0, 0]);
-    // UNS16, writable, two bytes, no dimension.
+    // The description by name: UNS16, writable, two bytes, no dimensions.
     let described = Ok(b"\x04\0\0\x02\x05\0\0\0\x02\0\0\0\x02\0\0\0\0\0\0\0".to_vec());
     let english = [Err(0x710), Err(0x710), Err(0x706), cyclic.clone(), described.clone()];
     assert_eq!(answers(&[]), english);
@@ -28,7 +29,8 @@ fn editions_differ() {
     let german = [count, Err(0x706), Err(0x706), cyclic.clone(), described];
     assert_eq!(answers(&["--edition", "de-1.051"]), german);
 
-    // A version without the description by name, and one also without V.P on this interface.
+    // A version without the description by name, and a version that also lacks V.P on the interface
+    // of variables.
     let old = ["--edition", "de-1.051", "--cnc-version", "V3.1.3115"];
     assert_eq!(answers(&old)[4], Err(0x703));
     assert!(answers(&old)[0].is_ok());
@@ -48,10 +50,10 @@ fn parameters_on_the_interface_of_variables() {
     assert_eq!(sda.ask(CHANNEL_1, 0x25, b"V.S.radius\0"), Ok(one.to_vec()));
     assert_eq!(sda.write(CHANNEL_1, 0x4A, b"V.S.radius\0\0\0\0\0"), Err(0x705));
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.L.temporary\0"), Err(0x710));
-    // REAL64 without a handle: assumed.
+    // A REAL64 without a handle, which is an assumption.
     let described = b"\0\0\0\0\x08\0\0\0\x02\0\0\0\x08\0\0\0\0\0\0\0";
     assert_eq!(sda.ask(CHANNEL_1, 0x4C, b"V.L.depth\0"), Ok(described.to_vec()));
-    // P parameters have no name there, and the count does not include any.
+    // P parameters have no name on the interface of variables, and parameters are not counted.
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"P1\0"), Err(0x710));
     assert_eq!(sda.ask(CHANNEL_1, 0x44, b"V.P\0"), Err(0x710));
 }
@@ -65,7 +67,7 @@ fn descriptions_by_name() {
     assert_eq!(ask(b"V.E.Variable_3\0"), Ok(printed.to_vec()));
     let axis = b"\x1B\0\x02\x01\x08\0\0\0\x02\0\0\0\x08\0\0\0\0\0\0\0";
     assert_eq!(ask(b"V.A.WCS.Y\0"), Ok(axis.to_vec()));
-    // V.CYC has no handle.
+    // The description of a V.CYC variable contains the handle 0, because it has no handle.
     let cyclic = b"\0\0\0\0\x08\0\0\0\x02\0\0\0\x20\0\0\0\x02\0\0\0\x02\0\0\0\x02\0\0\0";
     assert_eq!(ask(b"V.CYC.matrix\0"), Ok(cyclic.to_vec()));
     for name in ["V.E.nobody", "V.E.test[1]", "V.P.count", "V.E", ""] {

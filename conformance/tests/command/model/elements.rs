@@ -1,8 +1,8 @@
-//! Elements of the classes.
+//! Elements of the classes of SDA and GEO.
 
 use super::Cnc;
 
-/// The group and offset that an object address returns for a channel and an axis.
+/// The index group and offset of an instance, for a channel and an axis.
 fn find(cnc: &Cnc, group: u32, channel: u8, axis: u8) -> (u32, u32) {
     let query = [channel, 0, 0, 0, axis, 0, 0, 0];
     let reply = cnc.sda().ask(group, 0, &query).unwrap();
@@ -24,13 +24,14 @@ fn printed_addresses() {
 #[test]
 fn every_class_has_its_instances() {
     let cnc = Cnc::start(&[]);
-    // Position controller: channel 0, axes from 1.
+    // The position controller has instances for channel 0 and axes from 1 on.
     assert_eq!(find(&cnc, 0x12_0900, 0, 1), (0x12_0300, 0x1_0000));
     assert_eq!(find(&cnc, 0x12_0900, 0, 5), (0x12_0300, 0x5_0000));
     for (channel, axis) in [(0, 0), (0, 6), (1, 0), (1, 1)] {
         assert_eq!(find(&cnc, 0x12_0900, channel, axis), (0, 0), "{channel} {axis}");
     }
-    // Interpolator, decoder, path preparation: channels and their places, including empty ones.
+    // The interpolator, the decoder and the path preparation have instances for channels and for
+    // their places, including places without an axis.
     for (group, content) in [(0x12_1900, 0x12_1300), (0x12_2900, 0x12_2300), (0x12_4900, 0x12_4300)]
     {
         assert_eq!(find(&cnc, group, 6, 0), (content + 6, 0));
@@ -40,30 +41,30 @@ fn every_class_has_its_instances() {
             assert_eq!(find(&cnc, group, channel, axis), (0, 0), "{channel} {axis}");
         }
     }
-    // HLD: channels, platform axes, and both together.
+    // The HLD has instances for channels, for platform axes, and for platform axes of a channel.
     assert_eq!(find(&cnc, 0x12_3900, 0, 5), (0x12_3300, 0x5000));
     assert_eq!(find(&cnc, 0x12_3900, 1, 4), (0x12_3301, 0x4_0000));
     assert_eq!(find(&cnc, 0x12_3900, 6, 1), (0x12_3306, 0x1_0000));
     for (channel, axis) in [(0, 0), (0, 6), (1, 6), (3, 0)] {
         assert_eq!(find(&cnc, 0x12_3900, channel, axis), (0, 0), "{channel} {axis}");
     }
-    // Spindles: from 0, by index only.
+    // Spindles are counted from 0, and only addressed by index.
     assert_eq!(find(&cnc, 0x02_5900, 0, 0), (0x02_5300, 0));
     assert_eq!(find(&cnc, 0x02_5900, 1, 0), (0x02_5301, 0));
     assert_eq!(find(&cnc, 0x02_5900, 2, 0), (0, 0));
     assert_eq!(find(&cnc, 0x02_5900, 0, 1), (0, 0));
-    // By rank: the third active channel.
+    // Addressed by rank, channel 3 is the third active channel, and channel 4 does not exist.
     assert_eq!(find(&cnc, 0x02_1900, 3, 0), (0x02_1303, 0));
     assert_eq!(find(&cnc, 0x02_1900, 4, 0), (0, 0));
-    // A channel with more than eight bits.
+    // A channel number of more than eight bits does not exist.
     let query = [1, 1, 0, 0, 0, 0, 0, 0];
     assert_eq!(cnc.sda().ask(0x12_3900, 0, &query), Ok(vec![0; 8]));
     assert_eq!(cnc.sda().ask(0x12_3900, 0, &query[..7]), Err(0x705));
-    // A group that is not an instance.
+    // Instances are requested at the group of instance 0 only.
     assert_eq!(cnc.sda().ask(0x12_3901, 0, &query), Err(0x702));
 }
 
-/// feedhold.enable, as printed: all attributes.
+/// All attributes of the element feedhold.enable are as printed.
 #[test]
 fn printed_attributes() {
     let cnc = Cnc::start(&[]);
@@ -78,7 +79,7 @@ fn printed_attributes() {
     }
 }
 
-/// Element 0 contains the number of the others and the name of the instance, with every stride.
+/// Element 0 contains the number of elements and the name of the instance, whatever the stride of axes is.
 #[test]
 fn the_first_element_describes_the_instance() {
     let cnc = Cnc::start(&[]);
@@ -98,10 +99,11 @@ fn the_first_element_describes_the_instance() {
         assert_eq!(sda.read(group + 0x200, offset, 256), Ok(b"UNS32\0".to_vec()));
         assert_eq!(sda.read(group + 0x300, offset, 4), Ok(vec![4, 0, 0, 0]));
         assert_eq!(sda.read(group + 0x500, offset, 1), Ok(vec![0]));
-        // Reading the count is a separate function, except where it is a content with the printed stride.
+        // The number of elements cannot be written. At an offset of the printed stride it is the
+        // content of an element, otherwise the reply of a function, so the errors differ.
         let refused = if offset == 0x1000 { 0x704 } else { 0x701 };
         assert_eq!(sda.write(group, offset, &[9, 0, 0, 0]), Err(refused));
-        // No element follows the last one, for any attribute.
+        // No attribute has an element after the last one.
         for attribute in [0, 0x100, 0x200, 0x300, 0x400, 0x500] {
             let behind = offset + u32::from(count) + 1;
             assert_eq!(sda.read(group + attribute, behind, 256), Err(0x703), "{name}");
@@ -113,7 +115,7 @@ fn the_first_element_describes_the_instance() {
 fn contents_are_read_and_written() {
     let cnc = Cnc::start(&[]);
     let sda = cnc.sda();
-    // example.feed of the HLD of channel 1: SGN16 -1500, mm/min.
+    // The element example.feed of the HLD of channel 1: SGN16, -1500, mm/min.
     assert_eq!(sda.read(0x12_3301, 2, 2), Ok(vec![0x24, 0xFA]));
     assert_eq!(sda.read(0x12_3701, 2, 256), Ok(b"mm/min\0".to_vec()));
     assert_eq!(sda.read(0x12_3801, 2, 1), Ok(vec![1]));
@@ -122,28 +124,28 @@ fn contents_are_read_and_written() {
     assert_eq!(sda.read(0x12_3302, 2, 2), Ok(vec![0x24, 0xFA]));
     assert_eq!(sda.write(0x12_3301, 2, &[7]), Err(0x705));
     assert_eq!(sda.read(0x12_3301, 2, 1), Err(0x705));
-    // feedhold.enable is read-only, and names are never writable.
+    // The element feedhold.enable is read-only, and names are never writable.
     assert_eq!(sda.write(0x12_3301, 1, &[1]), Err(0x704));
     assert_eq!(sda.write(0x12_3401, 2, b"x\0"), Err(0x701));
-    // The platform axis is the same at both addresses: SGN08 -21 °C.
+    // Both addresses of the HLD of a platform axis have the same content: SGN08, -21 °C.
     assert_eq!(sda.read(0x12_3300, 0x2002, 1), Ok(vec![0xEB]));
     assert_eq!(sda.read(0x12_3301, 0x2_0002, 1), Ok(vec![0xEB]));
     assert_eq!(sda.read(0x12_3700, 0x2002, 256), Ok(b"\xB0C\0".to_vec()));
     assert_eq!(sda.write(0x12_3300, 0x2001, &[0]), Ok(()));
     assert_eq!(sda.read(0x12_3306, 0x2_0001, 1), Ok(vec![0]));
-    // Spindle 1: 3400.0
+    // The value of spindle 1 is 3400.0.
     assert_eq!(sda.read(0x02_5301, 1, 8), Ok(vec![0, 0, 0, 0, 0, 0x90, 0xAA, 0x40]));
     assert_eq!(sda.read(0x02_5302, 1, 8), Err(0x702));
-    // REAL32 33.5 and a STRING.
+    // A REAL32 33.5, and a STRING.
     assert_eq!(sda.read(0x12_0300, 0x1_0003, 4), Ok(vec![0, 0, 6, 0x42]));
     assert_eq!(sda.write(0x12_1301, 3, b"a.nc"), Ok(()));
     assert_eq!(sda.read(0x12_1301, 3, 32).unwrap()[..8], *b"a.nc\0\0\0\0");
-    // COM has no elements.
+    // The port of COM has no elements.
     assert_eq!(cnc.com().read(0x12_3301, 1, 1), Err(0x702));
 }
 
-/// Functions share addresses with elements of the decoder (SDA-12): attributes belong to the elements,
-/// contents to the functions.
+/// Functions and elements of the decoder have the same index offsets (SDA-12): at the groups of
+/// attributes, the offset is an element; at the group of contents, it is the function.
 #[test]
 fn functions_take_precedence_over_elements() {
     let cnc = Cnc::start(&[]);

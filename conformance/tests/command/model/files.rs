@@ -1,4 +1,4 @@
-//! Models in files: the printed default model is unchanged, and invalid models are rejected.
+//! Data models in files: the default model that `serve` prints is valid, and invalid models are rejected.
 
 use std::process::{Command, Stdio};
 
@@ -18,7 +18,7 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
     (run.status.code(), text(run.stdout), text(run.stderr))
 }
 
-/// An encoding error has a line like any other error.
+/// An error in the encoding of a file has a line number like any other error.
 #[test]
 fn a_file_in_another_encoding_has_a_line() {
     let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
@@ -33,9 +33,9 @@ fn the_printed_model_is_the_default_model() {
     assert_eq!((code, errors.as_str()), (Some(0), ""));
     let model = Model::from_toml(&printed, "printed").unwrap();
     assert_eq!(model, Model::default_model().unwrap());
-    // With comments.
+    // The printed model contains the comments of the default model.
     assert!(printed.lines().filter(|line| line.starts_with('#')).count() > 50);
-    // And without them.
+    // Without its comments, the printed model is also valid.
     let bare = printed.lines().filter(|line| !line.trim_start().starts_with('#'));
     let bare: Vec<&str> = bare.collect();
     assert_eq!(Model::from_toml(&bare.join("\n"), "bare"), Ok(model));
@@ -45,7 +45,7 @@ fn the_printed_model_is_the_default_model() {
     assert_eq!(cnc.sda().ask(CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
 }
 
-/// Omitted settings are 0, empty or absent.
+/// Settings that a model omits are 0, empty or absent.
 #[test]
 fn a_minimal_model_is_valid() {
     let file = TestFile::new(".toml", b"[[channel]]\nnumber = 3\n");
@@ -93,7 +93,7 @@ fn each_error_has_its_line() {
 }
 
 const FAULTS: &[(&str, &str, &str)] = &[
-    // No TOML, unknown keys, wrong types of values.
+    // Invalid TOML, unknown keys, and values of a wrong type.
     ("spindles = 2", "spindles = ", "expected a value"),
     ("spindles = 2", "spindels = 2", "the key spindels is unknown"),
     ("spindles = 2", "spindles = -2", "found the number -2"),

@@ -1,5 +1,5 @@
-//! The data model over the wire, read by the published crate `ads`, a client that is independent of
-//! this project. The expected bytes are literals.
+//! The data model of the simulated CNC as read by the published crate `ads`, a client that is independent
+//! of this project. The expected bytes are literals.
 
 mod axes;
 mod dynamic;
@@ -17,7 +17,7 @@ use std::time::Duration;
 use crate::common::{Serve, task};
 use ads::{AmsAddr, AmsNetId, Client, Source, Timeouts};
 
-/// Variables of channel 1.
+/// The index group of the variables of channel 1.
 const CHANNEL_1: u32 = 0x12_2301;
 
 /// A CNC in a separate process, and a client of it.

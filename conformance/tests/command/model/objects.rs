@@ -1,4 +1,4 @@
-//! Contents of COM objects.
+//! Contents of COM objects of the simulated CNC.
 
 use super::Cnc;
 
@@ -6,17 +6,17 @@ use super::Cnc;
 fn contents_are_read_and_written() {
     let cnc = Cnc::start(&[]);
     let com = cnc.com();
-    // Printed: mc_active_single_block_r and mc_command_single_block_w.
+    // The printed objects mc_active_single_block_r and mc_command_single_block_w.
     assert_eq!(com.read(0x12_0101, 3, 1), Ok(vec![0]));
     assert_eq!(com.write(0x12_0101, 1, &[1]), Ok(()));
     assert_eq!(com.read(0x12_0101, 1, 1), Ok(vec![1]));
-    // The rank leads to the same object, and channel 2 has another one.
+    // The address by rank is the same object, and channel 2 has an object of its own.
     assert_eq!(com.read(0x02_0101, 1, 1), Ok(vec![1]));
     assert_eq!(com.read(0x12_0102, 1, 1), Ok(vec![0]));
     // A longer read returns the whole content.
     assert_eq!(com.read(0x12_0101, 1, 100), Ok(vec![1]));
 
-    // LREAL 1234.5678, REAL 1.5, LWORD, and a CP1252 text with its NULs.
+    // An LREAL 1234.5678, a REAL 1.5, an LWORD, and a CP1252 text with its padding NULs.
     let real = [0xAD, 0xFA, 0x5C, 0x6D, 0x45, 0x4A, 0x93, 0x40];
     assert_eq!(com.read(0x12_0101, 0x1A, 8), Ok(real.to_vec()));
     assert_eq!(com.read(0x12_0101, 0x19, 4), Ok(vec![0, 0, 0xC0, 0x3F]));
@@ -26,7 +26,7 @@ fn contents_are_read_and_written() {
     assert_eq!(com.read(0x12_0101, 0x1B, 21), Ok(text.to_vec()));
     assert_eq!(com.write(0x12_0101, 0x1A, &[0; 8]), Ok(()));
     assert_eq!(com.read(0x12_0101, 0x1A, 8), Ok(vec![0; 8]));
-    // A text may be shorter than its content.
+    // A written text may be shorter than the size of the content.
     assert_eq!(com.write(0x12_0101, 0x1D, b"short\0"), Ok(()));
     let mut text = b"short\0".to_vec();
     text.resize(128, 0);
@@ -37,17 +37,17 @@ fn contents_are_read_and_written() {
 fn invalid_accesses_are_rejected() {
     let cnc = Cnc::start(&[]);
     let com = cnc.com();
-    // Read-only; the size does not matter then.
+    // A write of a read-only object is rejected as such, whatever its size is.
     assert_eq!(com.write(0x12_0101, 3, &[1]), Err(0x704));
     assert_eq!(com.write(0x12_0101, 3, &[1, 2]), Err(0x704));
-    // Wrong size of a write and of a read; a text without a NUL.
+    // A write and a read with a wrong size, and a text without a NUL, are rejected.
     assert_eq!(com.write(0x12_0101, 1, &[]), Err(0x705));
     assert_eq!(com.write(0x12_0101, 1, &[1, 0]), Err(0x705));
     assert_eq!(com.write(0x12_0101, 0x1D, &[b'x'; 128]), Err(0x705));
     assert_eq!(com.write(0x12_0101, 0x1D, &[0; 129]), Err(0x705));
     assert_eq!(com.read(0x12_0101, 0x1A, 7), Err(0x705));
     assert_eq!(com.read(0x12_0101, 1, 1), Ok(vec![0]));
-    // No such object, place, axis, channel.
+    // Objects, places, axes and channels that do not exist are rejected.
     assert_eq!(com.read(0x12_0101, 4, 1), Err(0x703));
     assert_eq!(com.write(0x12_0101, 4, &[1]), Err(0x703));
     assert_eq!(com.read(0x12_0101, 0x1_0004, 1), Err(0x703));
@@ -57,7 +57,7 @@ fn invalid_accesses_are_rejected() {
     assert_eq!(com.read(0x12_0200, 1, 8), Err(0x703));
     assert_eq!(com.read(0x12_0105, 1, 1), Err(0x702));
     assert_eq!(com.read(0x02_0104, 1, 1), Err(0x702));
-    // Not at another task.
+    // The port of another task does not have the objects.
     assert_eq!(cnc.sda().read(0x12_0101, 3, 1), Err(0x702));
 }
 
@@ -74,12 +74,13 @@ fn the_platform_has_two_addresses() {
     assert_eq!(com.read(0x12_0100, 3, 1), Err(0x703));
 }
 
-/// The axis is in the group or in the offset (E-04); at a place of a channel, it has other objects.
+/// The number of a platform axis is in the group or in the offset (E-04). The axis at a place of a
+/// channel has other objects than the platform axis.
 #[test]
 fn platform_axes() {
     let cnc = Cnc::start(&[]);
     let com = cnc.com();
-    // 100.25 and -200.5
+    // The values are 100.25 and -200.5.
     let x = vec![0, 0, 0, 0, 0, 0x10, 0x59, 0x40];
     let y = vec![0, 0, 0, 0, 0, 0x10, 0x69, 0xC0];
     assert_eq!(com.read(0x12_0200, 0x1_0001, 8), Ok(x.clone()));
@@ -106,7 +107,7 @@ fn objects_agree_with_their_descriptors() {
             let (size, writable) = (field(4) as usize, object[8] == 1);
             let (group, offset) = (field(12), field(16));
             if offset == 0x90 {
-                // The program stream is written only.
+                // The program stream can only be written.
                 assert_eq!(com.read(group, offset, 1), Err(0x701));
                 continue;
             }

@@ -1,4 +1,4 @@
-//! The settings of a model for the NC programs of a channel.
+//! The settings of a data model for the NC programs of a channel: streaming, and requests to services.
 
 use ads_cnc::streaming::ProgramEnd;
 use ads_cnc_conformance::simulator::program::{ScriptState, ServiceOutcome, State};
@@ -8,7 +8,7 @@ use super::timed::Timed;
 use super::{CHANNEL_1, Cnc};
 use crate::common::file::TestFile;
 
-/// Data streaming.
+/// The index offset of data streaming.
 const STREAM: u32 = 0x90;
 
 /// Ten lines of ten bytes each.
@@ -21,7 +21,7 @@ fn with_streaming(keys: &str) -> Timed {
     Timed::new(&format!("{channel}[channel.streaming]\n{keys}\n"))
 }
 
-/// The number of executed lines after 100 ms, and a second later.
+/// The number of executed lines 100 ms after a write of `LINES`, and a second later.
 fn lines_run(keys: &str) -> [u64; 2] {
     let cnc = with_streaming(keys);
     assert_eq!(cnc.write_object(STREAM, LINES), Ok(()));
@@ -60,7 +60,7 @@ fn streaming_starts_as_configured() {
             cnc.0.with_program(1, |program| (program.executed().line_count(), program.state()));
         assert_eq!(stands, Ok((lines, state)), "{keys}");
     }
-    // An error contains the name of the file.
+    // The message of an error contains the configured name of the program file.
     let cnc = with_streaming("file = \"part.nc\"");
     assert_eq!(cnc.write_object(STREAM, b"N10 X1"), Ok(()));
     let state = cnc.0.with_program(1, |program| program.state()).unwrap();
@@ -97,17 +97,18 @@ fn answer(cnc: &Timed, response: &[u8], state: u32) {
     assert_eq!(cnc.write("V.G.SERVICE.RESPONSE_STATE", &state.to_le_bytes()), Ok(()));
 }
 
-/// The program sends all requests twice; each wait ends as its step states.
+/// The program sends all requests twice, and waits for each response as the request states.
 #[test]
 fn the_program_sends_the_requests_of_the_model() {
     let cnc = Timed::new(SERVICE);
-    // It begins when it is first looked at: UUID, REQUEST and REQUEST_STATE, a cycle each.
+    // The program begins at the first read: it writes UUID, REQUEST and REQUEST_STATE, one in each
+    // cycle.
     assert_eq!(number(&cnc, "REQUEST_STATE"), 0);
     for round in [1, 2] {
         cnc.pass(30);
         assert_eq!(text(&cnc, "UUID"), "560AACBF-6335-44a9-895A-8B27F3ED5E47");
         assert_eq!((text(&cnc, "REQUEST"), number(&cnc, "REQUEST_STATE")), ("3".to_owned(), 1));
-        // Without the cycle it waits for ever.
+        // A request without `wait` has no maximum wait.
         cnc.pass(1_000_000);
         assert_eq!(number(&cnc, "REQUEST_STATE"), 1);
         answer(&cnc, b"1.732051\0", 1);
@@ -136,13 +137,13 @@ fn the_program_sends_the_requests_of_the_model() {
         (answers.collect::<Vec<_>>(), script.state())
     });
     let (answers, state) = answers.unwrap();
-    // The request's reset of the response state is not @P1 of the last: it goes on at once, and
-    // reads what is left of the response before.
+    // The last request has @P1 = 5, but resets RESPONSE_STATE to 0. Therefore its wait ends at once,
+    // and the program reads the text of the previous response.
     let wanted = ["0 1 1.732051", "1 -", "2 0 1.732051", "0 1 1.732051", "1 9 done", "2 0 done"];
     assert_eq!((answers, state), (wanted.map(str::to_owned).to_vec(), ScriptState::Finished));
 }
 
-/// A change of the model above that makes it bad, and what is said of it, where.
+/// Each change makes the model above invalid; the error contains the reason and the line.
 #[test]
 fn each_fault_is_refused_with_its_line() {
     let long = format!("request = \"{}\"", "3".repeat(128));
@@ -178,7 +179,7 @@ fn each_fault_is_refused_with_its_line() {
     assert_eq!(error, "m:5: a CNC of this version has no Service Interface");
 }
 
-/// What the default model says in a comment can be said.
+/// The example of an NC program in a comment of the default model is valid TOML, and has its effect.
 #[test]
 fn the_commented_program_is_one() {
     let lines = DEFAULT_MODEL.lines().skip_while(|line| *line != "#   [channel.service]");
@@ -191,14 +192,15 @@ fn the_commented_program_is_one() {
     answer(&cnc, b"1.732051\0", 1);
     cnc.pass(3000);
     assert_eq!(text(&cnc, "REQUEST"), "some-command");
-    // Five seconds at most, and two until it asks for roots again.
+    // The program waits for this response for at most five seconds, and two more seconds pass until
+    // it sends the first request again.
     cnc.pass(3000);
     assert_eq!(text(&cnc, "REQUEST"), "some-command");
     cnc.pass(4000);
     assert_eq!(text(&cnc, "REQUEST"), "3");
 }
 
-/// Options of `serve` override it.
+/// Options of `serve` override the settings of the model.
 #[test]
 fn options_override_the_model() {
     let objects = r#"objects = [{ name = "s", type = "STRING", offset = 0x90, size = 4094, writable = true }]"#;
@@ -215,7 +217,8 @@ fn options_override_the_model() {
         let packet = b"N10 X1\r\n".repeat(124);
         let sent = (0..6).take_while(|_| cnc.com().write(0x12_0101, STREAM, &packet).is_ok());
         assert_eq!(sent.count(), taken, "{options:?}");
-        // Still once: behind its end nothing is read.
+        // `--pace` does not change `start = "once"`: lines after the program end remain in the
+        // interface until it is full.
         if options.contains(&"fast") {
             for packet in [&b"M30\r\n"[..], &packet, &packet, &packet, &packet] {
                 assert_eq!(cnc.com().write(0x12_0101, STREAM, packet), Ok(()));

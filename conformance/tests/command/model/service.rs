@@ -1,8 +1,8 @@
-//! The five variables of the Service Interface.
+//! The five variables of the Service Interface of the simulated CNC.
 
 use super::{CHANNEL_1, Cnc};
 
-/// Names, types, declared sizes.
+/// The names, types and declared sizes in bytes of the variables.
 const VARIABLES: [(&str, u8, u8); 5] = [
     ("V.G.SERVICE.UUID", 9, 128),
     ("V.G.SERVICE.REQUEST", 9, 128),
@@ -29,7 +29,8 @@ fn each_channel_has_the_variables() {
     }
 }
 
-/// SVC-3 and SVC-4: a request resets the response state, and a response the request state.
+/// SVC-3 and SVC-4: a write of REQUEST_STATE resets RESPONSE_STATE, and a write of RESPONSE_STATE resets
+/// REQUEST_STATE.
 #[test]
 fn each_state_resets_the_other() {
     let cnc = Cnc::start(&[]);
@@ -49,20 +50,20 @@ fn each_state_resets_the_other() {
     assert_eq!(write(response_state, &[1, 0, 0, 0]), Ok(()));
     assert_eq!((read(request_state), read(response_state)), (vec![0; 4], vec![1, 0, 0, 0]));
     assert_eq!(read(response)[..10], *b"1.732051\0\0");
-    // The handle leads to the same variable.
+    // A write by handle has the same effect as a write by name.
     let handle = sda.ask(CHANNEL_1, 0x46, b"V.G.SERVICE.REQUEST_STATE\0").unwrap();
     let again = [&handle[..], &[0; 4], &[2, 0, 0, 0]].concat();
     assert_eq!(sda.write(CHANNEL_1, 0x49, &again), Ok(()));
     assert_eq!((read(request_state), read(response_state)), (vec![2, 0, 0, 0], vec![0; 4]));
     // Another channel has its own variables.
     assert_eq!(sda.ask(0x12_2302, 0x48, b"V.G.SERVICE.REQUEST_STATE\0"), Ok(vec![0; 4]));
-    // 127 characters and a NUL.
+    // A text has at most 127 characters and a NUL.
     assert_eq!(write(request, &[b'x'; 127]), Ok(()));
     assert_eq!(write(request, &[b'x'; 128]), Err(0x705));
     assert_eq!(write(request_state, &[1]), Err(0x705));
 }
 
-/// An older CNC has none of the variables.
+/// A CNC of an older version has none of these variables.
 #[test]
 fn the_variables_depend_on_the_version() {
     let cnc = Cnc::start(&["--cnc-version", "V2.11.2020"]);

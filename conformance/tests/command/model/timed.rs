@@ -25,7 +25,7 @@ impl Timed {
         self.call(AmsPort::SDA, Service::ReadWrite, CHANNEL_1, offset, data)
     }
 
-    /// Sends a Read to this group.
+    /// Sends a Read to the group of variables of channel 1.
     pub(crate) fn read(&self, offset: u32) -> Result<Vec<u8>, u32> {
         self.call(AmsPort::SDA, Service::Read, CHANNEL_1, offset, &[])
     }

@@ -1,4 +1,5 @@
-//! Foreign texts in a report are escaped in every format: names of a device, another's report, a profile.
+//! Foreign texts in a report are escaped in every format: the names of a device, and the texts of a
+//! foreign report, of a profile and of waivers.
 
 use std::fs;
 
@@ -8,7 +9,7 @@ use serde_json::{Value, json};
 use super::{FORMS, Folder, VERBOSE, ads_cnc, elements, everything};
 use crate::common::Serve;
 
-/// The texts that a device reports are escaped on the console and in every format.
+/// Texts that a device sends are escaped on the console and in every format of a report.
 #[test]
 fn texts_of_a_device_are_escaped() {
     let folder = Folder::new("text");
@@ -17,7 +18,7 @@ fn texts_of_a_device_are_escaped() {
     let acting = "C\u{1b}[31m\u{9b}2J\0\u{202e}\n\n# A heading";
     document["target"]["name"] = json!(odd);
     document["target"]["language"] = json!(acting);
-    // Markdown only contains some failures.
+    // The Markdown report contains only some failures.
     let cases = document["cases"].as_array_mut().unwrap();
     let has_evidence = |case: &Value| case["failures"][0]["evidence"].is_object();
     let at = cases.iter().position(has_evidence).unwrap();
@@ -53,18 +54,18 @@ fn texts_of_a_device_are_escaped() {
             "## ads-cnc: &lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; \\| \\`x\\`"
         )
     );
-    // A fence is longer than any fence in its text.
+    // A fence of a code block is longer than any fence in the text of the block.
     assert!(markdown.contains("````text\n"));
     let badge: Value = serde_json::from_str(&made(report::to_badge)).unwrap();
     assert_eq!(badge["schemaVersion"], 1);
 }
 
-/// Each text of a report in turn is replaced by active content, and must be escaped in every format.
+/// Replaces each text of a report in turn by active content, which must be escaped in every format.
 #[test]
 fn all_texts_of_a_foreign_report_are_escaped() {
     let folder = Folder::new("foreign");
     let mut document = everything(&folder);
-    // Keep one case with each combination of parts, because most cases are alike.
+    // Keeps only one case with each combination of parts, because most cases are alike.
     let cases = document["cases"].as_array_mut().unwrap();
     let failed = cases.iter().position(|case| case.get("failures").is_some()).unwrap();
     let mut case = cases[failed].clone();
@@ -87,7 +88,7 @@ fn all_texts_of_a_foreign_report_are_escaped() {
         }
         let mut foreign = document.clone();
         *foreign.pointer_mut(&path).unwrap() = json!(acting);
-        // Some keys only allow known words; with any other, this is not a report.
+        // Some keys only allow known words; with another word, the JSON is not a report.
         let Ok(report) = Report::from_json(&foreign.to_string()) else { continue };
         let made = |make: fn(&Report, &mut dyn std::io::Write) -> std::io::Result<()>| {
             let mut text = Vec::new();
@@ -133,7 +134,7 @@ fn all_texts_of_a_foreign_report_are_escaped() {
     assert!(why.contains("[2J") && !why.contains(['\u{1b}', '\u{9b}']), "{why:?}");
 }
 
-/// Pointers to all texts.
+/// JSON pointers to all texts in a value.
 fn texts(value: &Value) -> Vec<String> {
     let below = |key: &str, value: &Value| -> Vec<String> {
         let key = key.replace('~', "~0").replace('/', "~1");

@@ -1,4 +1,5 @@
-//! The formats of a report: converted only from the JSON, well-formed, and with the same facts.
+//! The formats of a report: each is converted only from the JSON report, is well-formed, and contains the
+//! same facts.
 
 mod foreign;
 
@@ -12,7 +13,7 @@ use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
 use serde_json::{Value, json};
 
-/// A folder that is removed when dropped.
+/// A temporary folder that is removed when this value is dropped.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -106,7 +107,7 @@ fn json_matches_its_schema_and_is_read_back() {
     }
 }
 
-/// A failure of a protocol names the document of that protocol.
+/// A failure of the protocol of testees or clients names the document that specifies the protocol.
 #[test]
 fn protocol_failures_name_their_document() {
     for (kind, id, text) in [("client", "CLIENT", "CLIENTS.md"), ("testee", "TESTEE", "README.md")]
@@ -117,7 +118,7 @@ fn protocol_failures_name_their_document() {
         let failed = failed.find(|one| one["requirement"] == id).unwrap();
         assert_eq!(failed["sources"], json!([format!("conformance/adapters/{text}")]));
         assert!(failed["clause"].as_str().unwrap().ends_with(&format!("a {kind}.")), "{failed:#}");
-        // The failure is counted.
+        // The totals of the subject count the failure.
         let subject = &report["subjects"][0];
         assert_eq!(subject["totals"]["fail"], 1, "{subject:#}");
         assert_eq!(subject["areas"].as_array().unwrap().last().unwrap()["area"], id);
@@ -147,7 +148,7 @@ fn formats_are_converted_from_the_json_only() {
         assert_eq!(later.status.code(), Some(0), "{form}");
         assert_eq!(later.stdout, folder.read(&format!("with-run.{form}")).into_bytes(), "{form}");
     }
-    // The console output is the same, too.
+    // `report` prints the same output as the run.
     assert_eq!(ads_cnc(&["report", &json]).stdout, output.stdout);
 }
 
@@ -171,7 +172,7 @@ fn invalid_reports_are_rejected() {
     assert_eq!(ads_cnc(&["report", "/no/such/report.json"]).status.code(), Some(2));
 }
 
-/// Elements by their path, each with its attributes.
+/// The elements of an XML document: the path and the attributes of each.
 fn elements(xml: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut reader = Reader::from_str(xml);
     let (mut path, mut all) = (Vec::new(), Vec::new());
@@ -212,14 +213,14 @@ fn junit_has_a_test_for_each_case() {
     };
     let test = "testsuites/testsuite/testcase";
     let cases = document["cases"].as_array().unwrap();
-    // One more for the stale waiver.
+    // The stale waiver is an additional test case.
     assert_eq!(at(test).len(), cases.len() + 1);
     let root = at("testsuites")[0];
     for (name, path) in [("tests", ""), ("failures", "/failure"), ("skipped", "/skipped")] {
         let counted = at(&format!("{test}{path}")).len();
         assert_eq!(value(root, name), counted.to_string(), "{name}");
     }
-    // In seconds.
+    // JUnit states times in seconds.
     let suites = at("testsuites/testsuite");
     let subjects = suites.iter().filter(|suite| value(suite, "name") != "waivers");
     let seconds =
@@ -241,7 +242,8 @@ fn junit_has_a_test_for_each_case() {
     }
 }
 
-/// A statement contains each clause once for each subject; a comparison fails for new failures.
+/// A conformance statement contains each clause once for each subject. A comparison of two reports fails
+/// if there are new failures.
 #[test]
 fn reports_are_converted_to_statements_and_compared() {
     let folder = Folder::new("statement");
@@ -276,8 +278,8 @@ fn reports_are_converted_to_statements_and_compared() {
     assert!(quiet.lines().count() == 1 && quiet.contains(" newly failing, "), "{quiet}");
 }
 
-/// An interrupted run is one line of a comparison and not a success; a comparison of different kinds of
-/// runs has warnings.
+/// A comparison with an interrupted run states the interruption in one line, and is not a success. A
+/// comparison of different kinds of runs has warnings.
 #[test]
 fn a_comparison_with_fewer_verdicts_is_not_a_success() {
     let folder = Folder::new("less");
@@ -307,7 +309,8 @@ fn a_comparison_with_fewer_verdicts_is_not_a_success() {
     }
 }
 
-/// Long rows may break across pages in print, because otherwise the previous page stays empty.
+/// In print, long rows of the HTML report may break across pages, because otherwise the rest of the
+/// previous page would stay empty.
 #[test]
 fn long_rows_may_break_in_print() {
     let folder = Folder::new("print");
@@ -330,7 +333,7 @@ fn long_rows_may_break_in_print() {
     assert!(html.contains("tr:not(.long), blockquote, .area { break-inside: avoid; }"));
 }
 
-/// The HTML report loads no resources, and the verdicts can be read without a script.
+/// The HTML report loads no resources, and contains the verdicts even without a script.
 #[test]
 fn html_is_self_contained() {
     let folder = Folder::new("html");
@@ -353,7 +356,7 @@ fn html_is_self_contained() {
     ] {
         assert!(before.contains(fact), "{fact}");
     }
-    // The differing byte and the expected one, with the clause in both editions.
+    // The report contains the wrong byte and the expected byte, and the clause in both editions.
     for part in [
         "<mark>03</mark> 00 00 00",
         "<mark>02</mark> 00 00 00",
@@ -380,7 +383,7 @@ fn badges_contain_the_result() {
     );
     let failed = badge(&["--defect", DEFECT]);
     assert_eq!(failed["color"], "red");
-    // shields.io rejects other keys.
+    // shields.io rejects a badge with other keys.
     let keys: Vec<&String> = failed.as_object().unwrap().keys().collect();
     assert_eq!(keys, ["color", "isError", "label", "message", "schemaVersion"]);
 }

@@ -17,7 +17,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A folder of this process that is removed when dropped.
+/// A temporary folder that is removed when this value is dropped.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -39,7 +39,7 @@ impl Drop for Folder {
     }
 }
 
-/// The captured traffic of every command that connects to a CNC passes.
+/// `check` passes the captured traffic of every command that connects to a CNC.
 #[test]
 fn the_traffic_of_commands_passes() {
     let folder = Folder::new("tools");
@@ -71,7 +71,7 @@ fn the_traffic_of_commands_passes() {
     assert!(streamed.contains(line), "{streamed}");
 }
 
-/// An incomplete capture is an error.
+/// A capture that cannot be written completely is an error.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_incomplete_capture_is_an_error() {
@@ -120,7 +120,8 @@ fn exchanges_have_names_and_values() {
     assert!(shown("V.E.none").contains(refused));
 }
 
-/// The HTML and JSON reports contain the exchanges, and what stderr states about the traffic.
+/// The HTML and JSON reports contain the exchanges, and the notes about the traffic that `check` prints
+/// to stderr.
 #[test]
 fn reports_contain_the_exchanges_and_notes() {
     let folder = Folder::new("exchanges");
@@ -150,8 +151,8 @@ fn a_capture_needs_an_existing_folder() {
     assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
 }
 
-/// The suite sends requests that no client should send: only the CNC is judged, unless both are
-/// asked for.
+/// The suite sends requests that no client should send. Therefore, `check` judges only the CNC in its
+/// traffic, unless the user also selects the client.
 #[test]
 fn the_suite_fails_as_a_client() {
     let folder = Folder::new("suite");
@@ -182,7 +183,8 @@ fn valid(value: &Value, schema: &str) {
     assert_eq!(errors, [""; 0]);
 }
 
-/// Vectors contain no addresses, and no file is overwritten; `extracted.rs` checks the schema.
+/// `check` extracts vectors without addresses from a capture, and overwrites no file; `extracted.rs`
+/// checks the schema.
 #[test]
 fn vectors_are_extracted() {
     let folder = Folder::new("vectors");
@@ -206,12 +208,12 @@ fn vectors_are_extracted() {
     // The vectors contain neither the NetIds of the conversation nor a requested name.
     assert!(content.contains("192.0.2.10.1.1") && !content.contains("127.0.0.1"));
     assert!(!content.contains("Testvar") && content.contains("V.E.Xxxxxxx"));
-    // All vectors decode.
+    // The tool does not overwrite the file.
     let again = extract(&vectors, &[]);
     assert_eq!(again.status.code(), Some(2));
     assert!(text(&again.stderr).contains("vectors could not be written"));
     assert_eq!(fs::read_to_string(&vectors).unwrap(), content);
-    // Write them to a folder, with the texts.
+    // Vectors can be written to a folder, with the original texts.
     let into = folder.file("folder");
     fs::create_dir(&into).unwrap();
     assert_eq!(extract(&into, &["--keep-texts"]).status.code(), Some(0));
@@ -233,7 +235,7 @@ fn a_file_that_is_not_a_capture_is_wrong_usage() {
     refused(&file, "empty");
     fs::write(&file, "N10 G01 X100\n".repeat(10)).unwrap();
     refused(&file, "neither pcap nor pcapng");
-    // An empty capture judges nothing.
+    // An empty capture is not a success, because nothing is judged.
     fs::write(&file, pcap(&[], Link::Ethernet)).unwrap();
     let checked = ads_cnc(&["check", &file]);
     assert_eq!(checked.status.code(), Some(3), "{}", text(&checked.stdout));

@@ -1,4 +1,4 @@
-//! Defects of either side fail the right requirement in captured traffic.
+//! In captured traffic, a defect of the CNC or of the client fails the requirement that it violates.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::layout::Stream;
@@ -9,10 +9,10 @@ use ads_cnc_conformance::judge::Verdict;
 use super::maker::{Link, Message, Side, checked, passes, pcap, segments, with};
 use super::talk::{a_little, conversation, everything, recorded};
 
-/// The requirements that fail for a CNC with this defect.
+/// The requirements that fail for the captured traffic of a CNC with this defect.
 fn failing(id: &str) -> Vec<String> {
     let defect = FieldDefect::by_id(id).unwrap();
-    // If no reply is valid, a short conversation is enough.
+    // A defect of a header makes every reply invalid, so a short conversation suffices.
     let is_header = id.starts_with("ams-") || id.starts_with("read-");
     let talk = if is_header { a_little } else { everything };
     let checked = checked(&recorded(Some(&defect), talk));
@@ -59,7 +59,7 @@ fn defects_of_a_cnc_fail_their_requirement() {
     }
 }
 
-/// The messages with the defect in the data of each affected request.
+/// The messages with the defect applied to the data of each request that has the field.
 fn spoilt(all: &[Message], defect: &FieldDefect) -> Vec<Message> {
     let spoil = |bytes: &[u8]| -> Option<Vec<u8>> {
         let (frame, _) = FrameRef::split(bytes, u32::MAX).ok()??;
@@ -117,10 +117,10 @@ fn defects_of_a_client_fail_their_requirement() {
     }
 }
 
-/// Judges the frames of all printed examples, which are vectors of the codec.
+/// The frames of all printed examples, whose bytes are in the vectors, pass as captured traffic.
 #[test]
 fn printed_examples_pass() {
-    // Each example is a separate conversation, because one contradicts another.
+    // Each example is a separate conversation, because one example contradicts another.
     let mut judged = 0;
     for reply in ads_cnc_vectors::vectors() {
         let context = &reply.context;
@@ -142,7 +142,7 @@ fn printed_examples_pass() {
         let com = group & 0xF00 == 0x100 && group & 0xF000 == 0
             || group & 0xF00 == 0x200 && group & 0x0F_F000 == 0x2_0000;
         let port = if com { 553_u16 } else { 552 };
-        // Built by hand: headers, numbers of the service, data.
+        // The frame is built without the codec: headers, the numbers of the service, and data.
         let mut asked = Vec::new();
         for number in [group, offset, length] {
             asked.extend(number.to_le_bytes());
@@ -178,7 +178,7 @@ fn printed_examples_pass() {
     assert!(judged >= 20, "{judged}");
 }
 
-/// A write to a group of a channel, and its reply with this result.
+/// A write to the program stream or the variables of channel 1, and the reply with this result.
 pub(crate) fn written(offset: u32, data: &[u8], result: u32) -> [Message; 2] {
     let (group, port) = if offset == 0x90 { (0x12_0101_u32, 553_u16) } else { (0x12_2301, 552) };
     let mut request = words(&[group, offset, u32::try_from(data.len()).unwrap()]);
@@ -190,7 +190,7 @@ fn words(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
-/// A request of an ADS command, and its reply.
+/// The frames of a request of an ADS command and of its reply.
 fn exchange(command: u8, port: u16, request: &[u8], reply: &[u8]) -> [Message; 2] {
     let frame = |is_reply: bool, payload: &[u8]| {
         let mut out = vec![0, 0];
@@ -210,7 +210,7 @@ fn exchange(command: u8, port: u16, request: &[u8], reply: &[u8]) -> [Message; 2
     [(Side::Client, frame(false, request)), (Side::Cnc, frame(true, reply))]
 }
 
-/// The number of parameters may change: a program may create one before the next request.
+/// The number of parameters may change, because a program may create a parameter between two requests.
 #[test]
 fn a_parameter_may_be_created_after_the_count() {
     let count =
@@ -241,7 +241,7 @@ fn failing_writes(writes: &[(u32, &[u8], u32)]) -> Vec<String> {
 fn streams_are_judged() {
     let stream = |requirement: &str| vec![format!("cap-client-stream {requirement}")];
     let none: [&str; 0] = [];
-    // A rejected packet is sent again.
+    // The client sends a rejected packet again, as it should.
     let again: [(u32, &[u8], u32); 3] =
         [(0x90, b"N10 X1\r\n", 0), (0x90, b"N20 X2\r\n", 0x706), (0x90, b"N20 X2\r\n", 0)];
     assert_eq!(failing_writes(&again), none);
@@ -251,7 +251,7 @@ fn streams_are_judged() {
     assert_eq!(failing_writes(&[(0x90, b"N10 X1\nN20 X2\r\n", 0)]), stream("STM-4"));
     assert_eq!(failing_writes(&[(0x90, b"N10 X\xE4\r\n", 0)]), stream("STM-7"));
     assert_eq!(failing_writes(&[(0x90, b"N10 $WHILE 1\r\n", 0)]), stream("STM-8"));
-    // A word in a comment that began in the previous packet is allowed.
+    // A loop word is allowed in a comment that began in the previous packet.
     let comment: [(u32, &[u8], u32); 2] =
         [(0x90, b"#COMMENT BEGIN\r\n", 0), (0x90, b"$WHILE 1\r\n#COMMENT END\r\n", 0)];
     assert_eq!(failing_writes(&comment), none);
@@ -265,7 +265,7 @@ fn services_are_judged() {
     let response: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.RESPONSE\x001.732051\0", 0);
     let state: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.RESPONSE_STATE\0\x01\0\0\0", 0);
     let zero: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.RESPONSE_STATE\0\0\0\0\0", 0);
-    // The client answers without reading a request; the rest is correct.
+    // The client writes a response without having read a request; its writes are correct otherwise.
     assert_eq!(failing_writes(&[response, state]), [of("SVC-2")]);
     assert_eq!(failing_writes(&[state]), [of("SVC-2"), of("SVC-5")]);
     assert_eq!(failing_writes(&[response, zero]), [of("SVC-5")]);

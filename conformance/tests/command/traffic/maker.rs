@@ -1,4 +1,4 @@
-//! Creates captures from messages, with other file formats, link types and segments.
+//! Creates captures from messages, with several file formats, link types and lengths of segments.
 
 use ads_cnc_conformance::capture::{CaptureOptions, Checked, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
@@ -7,20 +7,20 @@ use pcap_parser::pcapng::Block;
 use pcap_parser::traits::PcapNGPacketBlock as _;
 use pcap_parser::{PcapBlockOwned, PcapError, create_reader};
 
-/// The sender.
+/// A side of a connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Client,
     Cnc,
 }
 
-/// Bytes that a side sent at once.
+/// Bytes that one side sent at once.
 pub(crate) type Message = (Side, Vec<u8>);
 
-/// The messages in a recorded file, read strictly with the reader of the library.
+/// The messages in a capture that the tools have written; fails if a packet is not as expected.
 pub(crate) fn messages(file: &[u8]) -> Vec<Message> {
     let mut all = Vec::new();
-    // The port of the connecting side.
+    // The TCP port of the side that connects.
     let mut client = 0;
     for packet in packets(file) {
         let headers = PacketHeaders::from_ethernet_slice(&packet).unwrap();
@@ -57,7 +57,7 @@ pub(crate) fn packets(file: &[u8]) -> Vec<Vec<u8>> {
     }
 }
 
-/// The layers below TCP.
+/// The link layer and the IP version of a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Link {
     Ethernet,
@@ -119,7 +119,7 @@ impl Link {
         }
         out.extend(ty.to_be_bytes());
         out.extend(ip);
-        // Short Ethernet frames are padded.
+        // Short Ethernet frames are padded to 60 bytes.
         if self == Self::Ethernet {
             out.resize(out.len().max(60), 0xEE);
         }
@@ -135,7 +135,7 @@ pub(crate) struct Segment {
     pub(crate) acknowledged: u32,
     pub(crate) syn: bool,
     pub(crate) payload: Vec<u8>,
-    /// Number of captured bytes of the packet.
+    /// Number of bytes of the packet that are captured; `None` for all.
     pub(crate) snap: Option<usize>,
     pub(crate) port: u16,
 }
@@ -167,7 +167,8 @@ impl Segment {
     }
 }
 
-/// Messages as segments of at most `most` bytes, after a handshake.
+/// The segments of a connection: a handshake, and the messages in segments of at most `most` bytes.
+/// `begin` contains the first sequence numbers of both sides.
 pub(crate) fn segments(messages: &[Message], most: usize, begin: (u32, u32)) -> Vec<Segment> {
     let (mut client, mut cnc) = begin;
     let segment = |side, sequence, acknowledged, syn, payload: &[u8]| Segment {
@@ -227,17 +228,17 @@ pub(crate) fn pcap_every(segments: &[Segment], link: Link, millis: u32) -> Vec<u
     file
 }
 
-/// The result of a check of a file.
+/// The result of a check of a capture.
 pub(crate) fn checked(file: &[u8]) -> Checked {
     check(file, CaptureOptions::default()).unwrap()
 }
 
-/// The result of a check of a file with any ports.
+/// The result of a check of a capture, with AMS/TCP at any port.
 pub(crate) fn checked_anywhere(file: &[u8]) -> Checked {
     check(file, CaptureOptions { ports: Ports::Any, vectors: None }).unwrap()
 }
 
-/// The requirements with this verdict, each with its case.
+/// The requirements with this verdict, each with the ID of its case.
 pub(crate) fn with(checked: &Checked, verdict: Verdict) -> Vec<String> {
     let all = checked.outcomes.iter().flat_map(|outcome| {
         let mine = outcome.verdicts.iter().filter(move |one| one.verdict == verdict);
@@ -246,7 +247,7 @@ pub(crate) fn with(checked: &Checked, verdict: Verdict) -> Vec<String> {
     all.collect()
 }
 
-/// Checks that nothing fails, and returns the number of judged checks.
+/// Checks that no requirement fails or is inconclusive, and returns the number of checks.
 pub(crate) fn passes(checked: &Checked) -> usize {
     for verdict in [
         Verdict::Fail,

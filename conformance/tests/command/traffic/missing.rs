@@ -1,5 +1,5 @@
-//! Missing packets, and packets in another order than sent, are no failures: checks that need them are
-//! inconclusive, and other errors still fail.
+//! A capture may lack packets, or contain them in another order than they were sent. Checks that need a
+//! missing packet are inconclusive, and errors elsewhere still fail.
 
 use ads_cnc_conformance::capture::Checked;
 use ads_cnc_conformance::faults::FieldDefect;
@@ -12,7 +12,7 @@ use super::maker::{
 };
 use super::talk::{a_little, conversation, everything};
 
-/// Number of segments of a handshake.
+/// Number of segments of a TCP handshake.
 const SHAKE: usize = 3;
 
 fn whole(most: usize) -> Vec<Segment> {
@@ -34,7 +34,7 @@ fn monotone() -> Vec<Segment> {
     segments(&all, 1460, (1, 1))
 }
 
-/// Checks that nothing fails.
+/// Checks that no requirement fails, and that no warning or difference is reported.
 fn blames_nobody(checked: &Checked, what: &str) {
     for verdict in [Verdict::Fail, Verdict::Warning, Verdict::Differs, Verdict::HarnessError] {
         assert_eq!(with(checked, verdict), [""; 0], "{what}: {:?}", checked.tally.lines());
@@ -76,7 +76,7 @@ fn one_packet_may_be_missing() {
     for gone in (SHAKE..all.len()).step_by(9).chain([SHAKE, all.len() - 2, all.len() - 1]) {
         let what = format!("without {gone}, a packet of the {:?}", all[gone].side);
         let checked = checked(&without(&all, |place, _| place == gone));
-        // Nothing acknowledges the last reply.
+        // If the last segment is missing, no later segment reveals the gap.
         if gone + 1 == all.len() {
             blames_nobody(&checked, &what);
         } else {
@@ -111,7 +111,8 @@ fn several_packets_may_be_missing() {
     }
 }
 
-/// Replies are not matched with other requests if only their order distinguishes them.
+/// If all requests have the same invoke ID and packets are missing, a reply is not matched with a wrong
+/// request.
 #[test]
 fn all_requests_may_have_the_same_invoke_id() {
     let all = monotone();
@@ -134,7 +135,7 @@ fn all_requests_may_have_the_same_invoke_id() {
 fn a_side_may_be_missing() {
     let all = whole(1460);
     for (side, case) in [(Side::Client, "cap-client-frames"), (Side::Cnc, "cap-cnc-frames")] {
-        // With and without the handshake of the other side.
+        // The capture also lacks the first `from` segments: none, the handshake, or more.
         for from in [0, SHAKE, 50] {
             let file = without(&all, |place, one| one.side == side || place < from);
             for checked in [checked(&file), checked_anywhere(&file)] {
@@ -169,7 +170,7 @@ fn packets_may_be_shuffled() {
             let checked = checked(&pcap(&shuffled(&all, SHAKE, seed), Link::Raw));
             passes(&checked);
             assert_eq!((checked.tally.exchanges, checked.tally.gaps), (exchanges, 0), "{seed}");
-            // The handshake is shuffled, too, so the beginning is unknown.
+            // If the handshake is shuffled, too, the beginning of the connection is unknown.
             let from = self::checked(&pcap(&shuffled(&all, 0, seed), Link::Raw));
             blames_nobody(&from, &format!("shuffled by {seed}"));
             assert!(from.tally.exchanges + 8 > exchanges, "{seed}");
@@ -187,7 +188,7 @@ fn packets_may_be_shuffled() {
     }
 }
 
-/// A gap may contain the rejection or the read that a request depends on.
+/// A request may depend on a rejection or a read that a gap contains, so the request does not fail.
 #[test]
 fn preceding_packets_may_be_missing() {
     let talk = |writes: &[(u32, &[u8], u32)], gone: &[usize]| {
@@ -214,7 +215,7 @@ fn preceding_packets_may_be_missing() {
     is_open(&talk(&service, &[SHAKE, SHAKE + 1]), "what was read");
 }
 
-/// A reply without a request fails in a complete capture with any order.
+/// A reply without a request fails in a complete capture, whatever the order of the packets is.
 #[test]
 fn a_reply_without_a_request_fails() {
     let mut talk = conversation(None, everything);
@@ -228,7 +229,7 @@ fn a_reply_without_a_request_fails() {
         assert_eq!(with(&checked, Verdict::Fail), ["cap-cnc-frames ADS-5"], "{seed}");
         assert_eq!(checked.tally.unasked, 1);
     }
-    // More replies than the judge stores.
+    // Repeats a reply more often than the judge stores replies.
     let many: Vec<Message> = std::iter::repeat_n(talk[twice].clone(), 20_000).collect();
     talk.splice(twice..twice, many);
     let checked = checked(&pcap(&segments(&talk, 1460, (1, 1)), Link::Raw));
@@ -236,7 +237,7 @@ fn a_reply_without_a_request_fails() {
     assert_eq!(checked.tally.unasked, 20_001);
 }
 
-/// A request without a reply fails if the capture continues.
+/// A request without a reply fails if the capture continues long enough after the request.
 #[test]
 fn a_request_without_a_reply_fails() {
     let mut talk = conversation(None, everything);
@@ -251,14 +252,15 @@ fn a_request_without_a_reply_fails() {
         assert!(failed.len() == 1 && failed[0].starts_with("cap-cnc-services ADS-"), "{failed:?}");
         assert_eq!(checked.tally.unanswered, 1);
     }
-    // The reply may be in a gap; requests before a gap are inconclusive, even wrong ones.
+    // The missing reply may be in a gap, so a request before a gap is inconclusive, even if the
+    // CNC really did not reply.
     let cut = without(&all, |place, _| place == all.len() - 20);
     blames_nobody(&checked(&cut), "a gap behind it");
     let lone: Vec<Segment> = all[..=SHAKE].to_vec();
     blames_nobody(&checked(&pcap_every(&lone, Link::Raw, 60_000)), "nothing behind it");
 }
 
-/// Defects are detected in any order of packets.
+/// Defects are detected whatever the order of the packets is.
 #[test]
 fn defects_fail_in_any_order() {
     for (defect, requirement) in [

@@ -1,4 +1,5 @@
-//! `ads-cnc check` and its implementation, with captures that the tests make from real conversations.
+//! `ads-cnc check` and its implementation, with captures that the tests make from conversations with the
+//! simulated CNC.
 
 mod cli;
 mod defects;

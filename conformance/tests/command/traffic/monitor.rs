@@ -1,6 +1,7 @@
-//! AMS frames in EtherCAT frames, and NetMon 2.x files, as ADS Monitor writes them.
+//! Captures as ADS Monitor writes them: AMS frames in EtherCAT frames, and NetMon 2.x files.
 //!
-//! No real file of ADS Monitor was available; `.ci/wireshark` uses one that Wireshark writes.
+//! No file of the real ADS Monitor was available for these tests; `.ci/wireshark` uses a file that
+//! Wireshark writes.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc_conformance::capture::{CaptureOptions, FileEnd, FileError, check};
@@ -10,7 +11,7 @@ use ads_cnc_conformance::judge::Verdict;
 use super::maker::{Link, Message, Side, checked, passes, pcap, segments, sum, with};
 use super::talk::{conversation, everything};
 
-/// The AMS frames of a conversation in order, without AMS/TCP headers.
+/// The AMS frames of a conversation in the order in which they were sent, without AMS/TCP headers.
 fn frames(messages: &[Message]) -> Vec<Vec<u8>> {
     let mut begun = [Vec::new(), Vec::new()];
     let mut all = Vec::new();
@@ -40,7 +41,7 @@ fn packets(ams: &[Vec<u8>]) -> Vec<Vec<u8>> {
     ams.iter().map(|ams| packet(ams, &[])).collect()
 }
 
-/// A pcap file, with a packet every `millis` milliseconds.
+/// A pcap file with one packet every `millis` milliseconds.
 fn pcap_of(packets: &[Vec<u8>], millis: usize) -> Vec<u8> {
     let mut file = pcap(&[], Link::Ethernet);
     for (place, packet) in packets.iter().enumerate() {
@@ -54,7 +55,7 @@ fn pcap_of(packets: &[Vec<u8>], millis: usize) -> Vec<u8> {
     file
 }
 
-/// The first frames of a conversation: requests of one client, each with its reply.
+/// The first `number` frames of a conversation: requests of one client, each followed by its reply.
 fn first(number: usize) -> Vec<Vec<u8>> {
     let mut all = frames(&conversation(None, everything));
     all.truncate(number);
@@ -89,7 +90,7 @@ fn netmon(packets: &[Vec<u8>], minor: u8) -> Vec<u8> {
     file
 }
 
-/// The verdicts and the number of checks are the same as for the conversation over TCP.
+/// The verdicts and the number of checks are the same as for the same conversation over TCP.
 #[test]
 fn without_tcp_the_verdicts_are_the_same() {
     let talk = conversation(None, everything);
@@ -123,7 +124,7 @@ fn without_tcp_defects_fail() {
     }
 }
 
-/// The capture may contain replies to earlier requests, but a request without a reply fails.
+/// A capture may begin with replies to requests before its beginning, but a request without a reply fails.
 #[test]
 fn a_capture_may_begin_anywhere() {
     let ams = first(12);
@@ -138,7 +139,8 @@ fn a_capture_may_begin_anywhere() {
     assert!(failed.len() == 1 && failed[0].starts_with("cap-cnc-services ADS-"), "{failed:?}");
 }
 
-/// Clients choose their invoke IDs by themselves; one client must not use an ID twice at a time.
+/// Requests of different clients may have the same invoke ID, but one client must not use an invoke ID
+/// again before the reply.
 #[test]
 fn each_client_has_its_own_invoke_ids() {
     // The AMS port of the client: the source of a request, and the target of a reply.
@@ -171,7 +173,7 @@ fn a_frame_may_be_truncated() {
     let last = all[3].len() - 1;
     all[3].truncate(last.min(16 + 32));
     all.push(all[0][..40].to_vec());
-    // A packet with process data, which is not AMS.
+    // A packet with EtherCAT process data, which is not an AMS frame.
     all.push([&all[0][..14], &[0x10, 0x10], &[0; 44][..]].concat());
     let checked = checked(&pcap_of(&all, 1));
     assert_eq!(with(&checked, Verdict::Fail), [""; 0]);
@@ -200,14 +202,15 @@ fn a_netmon_file_may_end_anywhere() {
             for value in [0, 0x7F, 0xFF] {
                 let mut spoilt = file.clone();
                 spoilt[place] = value;
-                // Any result is valid.
+                // Any result is valid; only a panic fails the test.
                 let _ = check(&spoilt[..], CaptureOptions::default()).is_ok();
             }
         }
     }
 }
 
-/// Missing packets are detected, and wrong counts have no effect.
+/// Packets that a NetMon file lacks are detected with its frame table, and wrong counts in the file have
+/// no effect.
 #[test]
 fn a_netmon_file_is_compared_with_its_frame_table() {
     let all = packets(&first(6));

@@ -1,4 +1,4 @@
-//! Conversations with the simulated CNC, recorded by the client.
+//! Conversations with the simulated CNC, recorded by the client, from which tests make captures.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
@@ -36,7 +36,7 @@ impl Write for Memory {
     }
 }
 
-/// The bytes between a client and a CNC.
+/// Runs `talk` with a simulated CNC with this defect; returns the bytes that each side sent.
 pub(crate) fn conversation(
     defect: Option<&FieldDefect>,
     talk: impl FnOnce(&mut Session),
@@ -53,7 +53,7 @@ pub(crate) fn conversation(
     messages(&bytes)
 }
 
-/// The conversation as a capture with the default AMS port.
+/// The conversation as a capture at the default port of AMS/TCP.
 pub(crate) fn recorded(defect: Option<&FieldDefect>, talk: impl FnOnce(&mut Session)) -> Vec<u8> {
     pcap(&segments(&conversation(defect, talk), 1460, (1, 1)), Link::Ethernet)
 }
@@ -67,7 +67,7 @@ pub(crate) fn everything(session: &mut Session) {
     parameters(session, channel);
 }
 
-/// Reads two numbers.
+/// A short conversation, which reads two numbers.
 pub(crate) fn a_little(session: &mut Session) {
     let channel = Channel::new(1).unwrap();
     let _ = session.call(&CountObjects::new(channel)).is_ok();

@@ -1,4 +1,4 @@
-//! The judgement does not depend on the packets of a conversation; missing bytes are reported.
+//! The verdicts do not depend on how a conversation is split into packets, and missing bytes are reported.
 
 use ads_cnc_conformance::capture::{CaptureOptions, Collector, FileEnd, FileError, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
@@ -28,7 +28,7 @@ fn links_do_not_matter() {
 fn segments_do_not_matter() {
     let all = conversation();
     let expected = sum(&checked(&pcap(&segments(&all, 1460, (1, 1)), Link::Raw)));
-    // Some sequence numbers wrap around.
+    // Some of these sequence numbers wrap around.
     for (most, begin) in [
         (1, (1, 1)),
         (3, (u32::MAX - 100, u32::MAX)),
@@ -41,7 +41,8 @@ fn segments_do_not_matter() {
     }
 }
 
-/// Neighbouring segments of the same side are swapped, and some are repeated or split differently.
+/// Neighbouring segments of the same side may be swapped, and segments may be repeated or split in
+/// another way.
 #[test]
 fn order_does_not_matter() {
     let all = conversation();
@@ -58,7 +59,7 @@ fn order_does_not_matter() {
         mixed.push(segment.clone());
         if place % 7 == 3 {
             let mut again = segment.clone();
-            // Repeat the segment together with the next one.
+            // The repeated segment also contains the bytes of the next segment.
             if let Some(next) = straight.get(place + 1).filter(|next| next.side == again.side) {
                 again.payload.extend(&next.payload);
             }
@@ -88,7 +89,7 @@ fn any_port_is_found() {
     assert_eq!((other.tally.frames, passes(&other)), (0, 0));
 }
 
-/// A capture that began in the middle of a frame.
+/// A capture may begin in the middle of a frame.
 #[test]
 fn the_beginning_may_be_missing() {
     let all = conversation();
@@ -107,7 +108,7 @@ fn the_beginning_may_be_missing() {
     }
 }
 
-/// Only checks that need missing bytes are inconclusive.
+/// With gaps in a capture, only checks that need missing bytes are inconclusive.
 #[test]
 fn gaps_are_inconclusive() {
     let all = conversation();
@@ -123,7 +124,7 @@ fn gaps_are_inconclusive() {
     assert!(open.len() <= 3, "{open:?}");
 }
 
-/// The requirement of the function with a truncated reply is inconclusive.
+/// If a snap length truncates a reply, the requirement of its function is inconclusive.
 #[test]
 fn a_snap_length_makes_replies_inconclusive() {
     let all = conversation();
@@ -137,7 +138,7 @@ fn a_snap_length_makes_replies_inconclusive() {
     assert_eq!(checked.tally.gaps, 1);
 }
 
-/// A file that is truncated anywhere is judged up to there, without failures.
+/// A capture file that is truncated anywhere is judged up to the truncation, without failures.
 #[test]
 fn a_file_may_end_anywhere() {
     let all = conversation();
@@ -187,7 +188,7 @@ fn hostile_files_are_read() {
             for value in [0, 0x7F, 0xFF] {
                 let mut spoilt = file.clone();
                 spoilt[place] = value;
-                // Any result is valid.
+                // Any result is valid; only a panic fails the test.
                 let _ = check(&spoilt[..], CaptureOptions::default()).is_ok();
                 let anywhere =
                     CaptureOptions { ports: Ports::Any, vectors: Some(Collector::new(false)) };

@@ -1,4 +1,4 @@
-//! The examples of the manuals, and the selection of a service.
+//! The examples of the manuals, and the requests that each service serves.
 
 use std::time::Duration;
 

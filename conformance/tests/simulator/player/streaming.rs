@@ -1,4 +1,4 @@
-//! The steps of data streaming.
+//! Plays the steps of a sequence of data streaming.
 
 use std::time::Duration;
 

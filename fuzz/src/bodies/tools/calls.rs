@@ -8,10 +8,11 @@ use ads_cnc_conformance::simulator::NET_ID;
 
 use super::Input;
 
-/// The ports of the calls of a session.
+/// The ports to which calls of a session are sent.
 pub(super) const PORTS: [u16; 4] = [552, 553, 551, 851];
 
-/// A call: port, service, group, offset, read length, length of the data, data.
+/// Reads a call: indices of the port and the service (1 byte each), group and offset (4 bytes each), read
+/// length (2 bytes), length of the data (1 byte), data.
 pub(super) fn call<'a>(input: &mut Input<'a>, ports: &[u16]) -> Call<'a> {
     let port = AmsPort(*input.choose(ports));
     let service = *input.choose(&[Service::Read, Service::Write, Service::ReadWrite]);
@@ -23,7 +24,7 @@ pub(super) fn call<'a>(input: &mut Input<'a>, ports: &[u16]) -> Call<'a> {
     Call { port, service, index_group, index_offset, read_length, data }
 }
 
-/// Writes a call in the form that [`call`] reads; `port` is an index.
+/// Writes a call in the form that [`call`] reads; `port` is an index into the list of ports.
 pub(super) fn written(call: &Call<'_>, port: usize) -> Vec<u8> {
     let byte = |number: usize| u8::try_from(number).expect("short data");
     let service = match call.service {
@@ -40,7 +41,7 @@ pub(super) fn written(call: &Call<'_>, port: usize) -> Vec<u8> {
     bytes
 }
 
-/// Writes a call as a record of a session: kind 1, or kind 6, which checks its effect.
+/// Writes a call as a record of a session: of kind 1, or of kind 6, with which the effect is checked.
 pub(crate) fn write_call(kind: u8, call: &Call<'_>) -> Vec<u8> {
     let port = PORTS.iter().position(|port| *port == call.port.0).unwrap_or(3);
     let mut bytes = vec![kind];

@@ -44,7 +44,7 @@ fn read(
     (end, pieces)
 }
 
-/// Any file is read to its end, or reported as cut; all frames that were read are judged.
+/// Any file is read to its end, or reported as cut, and all frames that were read are judged.
 fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
     let (end, pieces) = read(bytes, ports.clone(), defect);
     let options = CaptureOptions { ports: ports.clone(), vectors: Some(Collector::new(false)) };
@@ -82,7 +82,7 @@ fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
     }
 }
 
-/// The frames of a conversation are those that were sent, or missing bytes are reported.
+/// The frames that are found in a conversation are those that were sent, or missing bytes are reported.
 fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
     let mut conversation = Conversation::new(input);
     if defect.is(2) {
@@ -114,7 +114,7 @@ fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
         false => {
             assert!(is_lost, "bytes were missing");
             for (found, sent) in found.iter().zip(&conversation.sent) {
-                // All frames were sent, in this order.
+                // Frames may be missing, but those that were found were sent in this order.
                 let mut sent = sent.iter();
                 assert!(found.iter().all(|frame| sent.any(|one| one == frame)));
             }

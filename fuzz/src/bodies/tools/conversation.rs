@@ -9,7 +9,7 @@ use crate::common::CALLS;
 /// A captured segment.
 #[derive(Clone)]
 pub(super) struct Segment {
-    /// Whether the client sent it, or the CNC.
+    /// Whether the client sent the segment; otherwise, the CNC sent it.
     pub(super) is_client: bool,
     pub(super) sequence: u32,
     pub(super) payload: Vec<u8>,
@@ -26,7 +26,7 @@ pub(super) struct Conversation {
     pub(super) is_twice: bool,
 }
 
-/// Sequence numbers of the SYN; some of them soon wrap around.
+/// Sequence numbers of a SYN. Some of them are so large that the numbers of the segments wrap around.
 const BEGINS: [u32; 4] = [0, u32::MAX - 50, 0x7FFF_FFF0, u32::MAX];
 
 impl Conversation {
@@ -124,7 +124,7 @@ impl Conversation {
     }
 }
 
-/// An answer to a request, with some data.
+/// The frame of a reply to a request, with `kind` bytes of data.
 fn reply(request: &[u8], kind: u8) -> Vec<u8> {
     let Ok(Some((frame, _))) = FrameRef::split(request, u32::MAX) else { panic!("a frame") };
     let header = frame.header();
@@ -141,7 +141,7 @@ fn reply(request: &[u8], kind: u8) -> Vec<u8> {
         .expect("a frame")
 }
 
-/// Raw IP, without checksums, and TCP.
+/// An IPv4 packet with a TCP segment, without checksums and without a link layer.
 fn packet(is_client: bool, sequence: u32, flags: u8, payload: &[u8]) -> Vec<u8> {
     let (client, cnc) = (([192, 0, 2, 20], 50000_u16), ([192, 0, 2, 10], 48898_u16));
     let (from, to) = if is_client { (client, cnc) } else { (cnc, client) };

@@ -107,18 +107,18 @@ fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
     let refused = common::check_bent(stream, bytes, &Bend::NONE).is_err()
         || stream == Stream::ProgramStream && !is_nc(bytes);
     assert!(faulty || !refused, "{stream} has no fault, but the codec rejects it");
-    // A value may have a different type than the named one.
+    // If the input names a type, the value may not fit this type although the codec accepts the stream.
     assert!(typed || faulty == refused, "{stream} has a fault, but the codec accepts it");
 }
 
-/// Whether a CNC reads these bytes without a fault.
+/// Whether a CNC reads these bytes as NC text without a fault.
 fn is_nc(bytes: &[u8]) -> bool {
     check_line_ends(bytes).is_ok()
         && NcText::new(bytes)
             .is_ok_and(|text| !text.diagnostics().any(|finding| finding.kind.ends_streaming()))
 }
 
-/// The explanation names the function that the codec finds at the address.
+/// The explanation names the function to which the codec dispatches the call.
 fn dispatches(place: &ServiceAddress, bytes: &[u8], explanation: &Explanation, faulty: bool) {
     let (Some(port), Some(service), false) = (place.port, place.service, place.reply) else {
         return;
@@ -156,7 +156,7 @@ fn are_frames(mut bytes: &[u8]) -> bool {
 fn values(input: &mut Input<'_>) -> ValueFormat {
     let ty = usize::from(input.byte()).checked_sub(1).and_then(|ty| DataType::ALL.get(ty).copied());
     let (count, length) = (input.byte(), input.byte());
-    // The highest bit multiplies the length.
+    // The highest bit of the byte makes the length very large.
     let length = u32::from(length & 0x7F) << if length & 0x80 == 0 { 0 } else { 25 };
     let dimensions = [length, 2, 1][..usize::from(count % 4)].to_vec();
     ValueFormat { ty, dimensions }
@@ -174,7 +174,8 @@ fn place(input: &mut Input<'_>) -> ServiceAddress {
     }
 }
 
-/// Hex is read as the bytes that it states: words of pairs of digits, each of which may begin with 0x.
+/// Hex consists of words of pairs of digits; a word may begin with 0x. It is read as the bytes of all
+/// pairs, or rejected with the position of a wrong character.
 fn hex(bytes: &[u8], defect: Defect) -> Outcome {
     let text = String::from_utf8_lossy(bytes);
     let mut read = parse_hex(&text);

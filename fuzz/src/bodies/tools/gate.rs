@@ -29,7 +29,7 @@ pub(crate) const DEFECTS: &[&str] = &[
     "a Read of channel 2 does not pass",
 ];
 
-/// A time at which files are valid, and the time at which they expire.
+/// A time at which the file is valid, and the time at which it expires.
 const NOW: &str = "2026-05-04T17:29:59Z";
 const END: &str = "2026-05-04T17:30:00Z";
 
@@ -83,7 +83,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         let passes = passes(&gate, &frame, now, defect);
         let malformed = malformed && file && !over;
         assert!(!passes || rule.permits(&frame, TARGET, malformed), "{settings:#x} {frame:02x?}");
-        // Frames that pass by default also pass with additional permissions.
+        // A frame that passes without a file also passes with additional permissions.
         assert!(passes || gate::check(&frame).is_err(), "{frame:02x?}");
         passed.push(passes);
     }
@@ -133,7 +133,7 @@ const NAMES: [&str; 8] = [
     "b_w",
 ];
 
-/// The entries of a file that are valid, as they are parsed from the file.
+/// The valid entries of a file, as they are parsed from the printed file.
 fn entries(input: &mut Input<'_>, defect: Defect) -> Vec<Entry> {
     let count = input.byte() % 5;
     let mut entries = Vec::new();
@@ -147,7 +147,7 @@ fn entries(input: &mut Input<'_>, defect: Defect) -> Vec<Entry> {
                 assert_eq!(read.entries, [entry], "{text}");
                 entries.extend(read.entries);
             }
-            // Not every address is permitted.
+            // A file may not name every address.
             Err(error) => {
                 assert!(matches!(entry, Entry::Content { .. }), "{text}\n{error}");
                 assert!(error.to_string().contains("line "), "{error}");

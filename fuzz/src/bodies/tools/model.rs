@@ -32,7 +32,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     Outcome::accepted(said)
 }
 
-/// The answers of a CNC with this model at three times.
+/// The answers of a CNC with this model to all calls, at three times.
 fn serve(model: Model, defect: Defect, turn: usize) -> Vec<Option<Vec<u8>>> {
     let cnc = Cnc::new(model).with_stopped_clock();
     let mut said = Vec::new();
@@ -47,7 +47,7 @@ fn serve(model: Model, defect: Defect, turn: usize) -> Vec<Option<Vec<u8>>> {
     said
 }
 
-/// The first objects of a list, and the read after its last object.
+/// Appends the first objects of a list to `said`, and verifies that a read after the last object fails.
 fn objects(cnc: &Cnc, group: u32, defect: Defect, said: &mut Vec<Option<Vec<u8>>>) {
     let ask = |offset, read_length| {
         let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));

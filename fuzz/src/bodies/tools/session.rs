@@ -113,7 +113,8 @@ impl Session {
         }
     }
 
-    /// Sends a call, and checks that the value is then unchanged, or the written one.
+    /// Sends a call. If it is a write, checks that a rejected write changes nothing, and that a read after
+    /// an accepted write returns the written value.
     fn change(&mut self, call: &Call<'_>) {
         let read = reading(call);
         let before = read.as_ref().map(|read| self.cnc.answer(&read.call()));
@@ -255,7 +256,8 @@ fn reading<'c>(call: &Call<'c>) -> Option<Reading<'c>> {
         }
         _ => return None,
     };
-    // The CNC interprets axis numbers, the Service Interface and texts.
+    // The CNC interprets axis numbers and the variables of the Service Interface, so that a read may return
+    // another value than the written one.
     let is_number = call.index_offset.get() & 0xFFFF == 3;
     Some(Reading {
         port: call.port,

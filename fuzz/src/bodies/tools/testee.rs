@@ -24,7 +24,7 @@ const SEQ: u64 = 258;
 /// Input: the maximum length of a line (1 byte), the number of bytes per read (1 byte), the output.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
-    // Sometimes a long maximum, so that an answer fits.
+    // 0 selects a long maximum, which most answers need.
     let most = match input.byte() {
         0 => 4096,
         most => usize::from(most),
@@ -67,7 +67,7 @@ fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     lines.map(|line| line.strip_suffix(b"\r").unwrap_or(line))
 }
 
-/// Whether a line is an answer, and the answer or the error.
+/// Returns whether a line is an answer, and the answer or the error as text.
 fn judge(line: Vec<u8>, defect: Defect) -> (bool, String) {
     let is_text = std::str::from_utf8(&line).is_ok();
     let read = match defect.is(3) {
@@ -79,7 +79,7 @@ fn judge(line: Vec<u8>, defect: Defect) -> (bool, String) {
         Ok(line) => line,
         Err(why) => return (false, format!("{why:?}")),
     };
-    // An error shows only a readable part of the line.
+    // The message of an error contains at most a part of the line.
     let short = |reaction: &TesteeReaction| match reaction {
         TesteeReaction::Garbled(why) => assert!(why.len() < 2000, "{why}"),
         other => assert!(matches!(other, TesteeReaction::Answer(_)), "{other:?}"),

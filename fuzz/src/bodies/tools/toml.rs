@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::{Defect, Outcome};
 
-/// The first two defects of each target.
+/// The defects of a target for a TOML file: two that all these targets have, then its own.
 macro_rules! placed {
     ($($more:literal),*) => {
         &["a file is parsed differently after a comment", "the line of an error is one too low", $($more),*]
@@ -76,7 +76,7 @@ pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
             let table = if defect.is(3) { table.replace("rank", "channel") } else { table };
             shown.push_str(&format!("{table}\n"));
         }
-        // An expiry outside the dates of TOML cannot be printed.
+        // TOML has no dates outside the years 0 to 9999, so such an expiry cannot be parsed again.
         if expires.to_string().len() == "2026-05-04T17:30:00Z".len() {
             let again =
                 Allowed::from_toml(&shown).unwrap_or_else(|error| panic!("{error}\n{shown}"));
@@ -88,11 +88,12 @@ pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
     Outcome::of(read.map(|allowed| format!("{allowed:?}")))
 }
 
-/// A profile as a file. A report has the same data with other keys.
+/// Prints a profile as a file. A serialized profile has the same data, with `_` for `-` in the keys.
 fn shown(profile: &Profile) -> String {
     let Value::Object(all) = serde_json::to_value(profile).expect("JSON") else { panic!("a map") };
     let lines = all.iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| {
-        // TOML and JSON have the same strings, except for this character.
+        // A string in JSON is also a string in TOML, except that TOML requires an escape for this
+        // character.
         let value = value.to_string().replace('\u{7F}', "\\u007f");
         format!("{} = {value}\n", key.replace('_', "-"))
     });
@@ -100,12 +101,12 @@ fn shown(profile: &Profile) -> String {
 }
 
 pub(super) fn text(data: &[u8]) -> Option<&str> {
-    // A byte order mark is only valid at the beginning.
+    // A byte order mark is valid only at the beginning, and `placed` inserts lines before the text.
     std::str::from_utf8(data).ok().filter(|text| !text.starts_with('\u{FEFF}'))
 }
 
-/// Reads a file, and again after two additional lines. Both give the same value, or errors that name
-/// the line after `word`.
+/// Reads a file, and the same file after two additional lines. Both readings give the same value, or errors
+/// whose numbers of lines, which follow `word`, differ by two.
 pub(super) fn placed<T, E: ToString>(
     text: &str,
     word: &str,
@@ -125,7 +126,7 @@ pub(super) fn placed<T, E: ToString>(
         (Err(error), Err(again)) => {
             let at = line(error, word).unwrap_or_else(|| panic!("no line: {error}"));
             assert!(at as usize <= text.matches('\n').count() + 1, "{error}");
-            // A missing key is reported in the first line.
+            // The error for a missing key names the first line of both files.
             let first = at == 1 && line(again, word) == Some(1) && !defect.is(2);
             assert!(first || line(again, word) == Some(at + moved), "{error}\n{again}");
         }
@@ -139,7 +140,7 @@ fn alike<T: Debug>(one: &T, other: &T) -> bool {
     format!("{one:?}") == format!("{other:?}")
 }
 
-/// The word before the line number in an error.
+/// The word before the number of the line in an error.
 const LINE: &str = "line ";
 
 /// The line number in an error.

@@ -14,7 +14,7 @@ use crate::text::plural;
 /// Which differences between the replies of two CNCs count.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::selftest::detection) enum Compare {
-    /// All differences.
+    /// All differences count.
     Bytes,
     /// Only differences that no configuration of the CNC explains. Configurable are names, types and
     /// units of elements, extended descriptions and, in a mode without writes, the write flags of

@@ -23,7 +23,8 @@ pub(super) enum Resolved {
 pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
 
 impl AnsweringCnc<'_> {
-    /// Checks whether edition and version have a function for a kind.
+    /// Checks whether the edition and the version of the CNC have a function for a kind of
+    /// variables.
     pub(super) fn permit(&self, function: Function, kind: Kind<'_>) -> Result<(), AdsError> {
         let answer = self.model.edition.permits(function, kind, self.model.version);
         match (answer.available, function) {
@@ -36,7 +37,8 @@ impl AnsweringCnc<'_> {
         }
     }
 
-    /// The variables of a kind in the order of their indices; V.A only of existing axes.
+    /// The variables of a kind in the order of their indices; for V.A, only the variables of places
+    /// with an axis.
     pub(super) fn of_kind(
         &self,
         channel: usize,
@@ -78,8 +80,8 @@ impl AnsweringCnc<'_> {
         at.copied().ok_or(AdsError::INVALID_DATA)
     }
 
-    /// Resolves a name on the channel interface to a variable and the indices of an element. On a CNC
-    /// that is too old for the function, the offset is invalid.
+    /// Resolves a name on the channel interface to a variable and the indices of an element. Fails
+    /// with an invalid offset if the version of the CNC does not have the function.
     pub(super) fn named<'n>(
         &self,
         function: Function,
@@ -155,7 +157,7 @@ impl AnsweringCnc<'_> {
         variable.ok_or(AdsError::INVALID_DATA)
     }
 
-    /// The name; for an axis variable, with the name of the axis at the end.
+    /// The name of a variable; the name of an axis variable ends with the name of the axis.
     pub(super) fn name(&self, channel: usize, at: VariableRef) -> Result<CncString, AdsError> {
         let variable = self.variable(channel, at)?;
         let VariableRef::Axis { place, .. } = at else { return Ok(variable.name.clone()) };
@@ -165,7 +167,7 @@ impl AnsweringCnc<'_> {
         path.with_axis(axis.name.as_cnc_str()).map_err(|_| UNKNOWN)
     }
 
-    /// The handle; 0 for a variable that is accessible by name only.
+    /// The handle of a variable; 0 if the variable is accessible by name only.
     pub(super) fn handle(&self, channel: usize, at: VariableRef) -> Result<Handle, AdsError> {
         let handle = self.variable(channel, at)?.handle.unwrap_or(Handle(0));
         let number = self.model.channels.get(channel).map_or(0, |channel| channel.number);
@@ -179,7 +181,7 @@ impl AnsweringCnc<'_> {
     }
 }
 
-/// Kind and name of a V.P, V.L or V.S.
+/// Kind and name of a V.P, V.L or V.S parameter; an error for any other name.
 pub(super) fn parameter(name: CncStr<'_>) -> Result<(DynamicKind, CncString), AdsError> {
     let name = CncString::from(name);
     match parameter_kind(&name) {

@@ -20,9 +20,9 @@ const CONTENT_MAX: usize = 0xFFF8;
 /// Size of a STRING without a declared size (VAR-25).
 pub(super) const STRING_DEFAULT: u32 = 21;
 
-/// Offsets of objects must be smaller, because offsets from here on belong to axes.
+/// Objects must have smaller offsets, because offsets from this value on belong to axes.
 const OFFSET_OF_AXES: u32 = 0x1_0000;
-/// Element numbers must be smaller, because numbers from here on belong to the next axis.
+/// Elements must have smaller numbers, because numbers from this value on belong to the next axis.
 const HLD_AXIS_STRIDE: usize = 0x1000;
 
 /// A declared value of an object, element or variable.
@@ -93,7 +93,8 @@ impl DeclaredValue<'_> {
     }
 }
 
-/// The meaning that `is` declares; `of` is the allowed meaning.
+/// The meaning that `is` declares. `of` specifies the owner of the item: "number" for a platform
+/// axis, "place" for an axis of a channel, `None` for any other owner.
 fn meaning(
     source: Source<'_>,
     is: Option<&Spanned<String>>,
@@ -125,7 +126,7 @@ fn holds_numbers(
     Err(source.error(&span.span(), "axis-number needs an integer type of at least two bytes"))
 }
 
-/// The objects of a list; `of` is the allowed meaning of an axis number.
+/// The objects of a list; for `of`, see [`meaning`].
 pub(super) fn objects(
     source: Source<'_>,
     rows: &[ObjectRow],

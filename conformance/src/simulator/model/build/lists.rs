@@ -54,7 +54,8 @@ pub(super) fn fill(
         );
     }
     let axes = (1_u32..).zip(&model.axes).map(|(place, _)| {
-        // The axis is in the offset, as in the manual's example, not as in its table (E-04).
+        // The offset contains the axis, as in the manual's example; in the manual's table, the
+        // group contains the axis (E-04).
         let group = content(ComTable::Axis, 0);
         of_axis(&model.platform_axis, group, place, &mut ids)
             .collect::<Result<Descriptors, Error>>()
@@ -107,7 +108,7 @@ fn descriptor(
         .with_content(group, offset))
 }
 
-/// Objects of a channel; for channel 0, of the platform.
+/// Descriptors of the objects of a channel itself; for channel 0, of the platform.
 fn own(
     objects: &Objects,
     number: u8,
@@ -124,7 +125,7 @@ fn own(
     Ok(list)
 }
 
-/// Objects of a channel, followed by those of its axes.
+/// Descriptors of the objects of a channel itself, and then of the objects of its axes.
 fn of_channel(
     channel: &ChannelModel,
     of_places: &Objects,
@@ -152,7 +153,8 @@ fn of_axis(
     })
 }
 
-/// The group of the contents of a channel, of the platform (0), or of the platform axes.
+/// The index group of the contents of a channel, of the platform (instance 0), or of the platform
+/// axes.
 fn content(table: ComTable, instance: u8) -> IndexGroup {
     let (addressing, access) = (Addressing::Logical, Access::Element);
     ComGroup { addressing, access, table, instance }.index_group()

@@ -79,7 +79,8 @@ fn description(variable: &Variable) -> DescriptionRef<'_> {
     }
 }
 
-/// The extended description, only for V.E; by default that of the printed example.
+/// The extended description, which only V.E has; the defaults are the values in the example of the
+/// manual.
 fn extended(
     source: Source<'_>,
     row: &VariableRow,

@@ -75,12 +75,14 @@ pub enum CallStep<'a> {
     Write(ServiceVariable, &'a [u8]),
     /// Wait, then call [`ServiceCall::poll`].
     Wait {
-        /// The time at which the maximum wait ends; `None` without a limit. Poll no later.
+        /// The time at which the maximum wait ends; `None` without a limit. Poll at this time at
+        /// the latest.
         until: Option<Duration>,
     },
     /// The service has responded.
     Done { state: u32, response: CncStr<'a> },
-    /// No response arrived within the maximum wait. The variables keep the request until the next one.
+    /// No response arrived within the maximum wait. The variables keep the request until the next
+    /// request is written.
     TimedOut,
 }
 
@@ -177,7 +179,8 @@ impl ServiceCall {
             CallPhase::Waiting(waiting) => match waiting.step() {
                 WaitStep::Read(variable) => CallStep::Read(variable),
                 WaitStep::Wait { until } => CallStep::Wait { until },
-                // This phase has no response, because the step after a response is to read it.
+                // `Done` cannot occur here: when a response exists, the phase changes to
+                // `Response`.
                 WaitStep::TimedOut | WaitStep::Done { .. } => CallStep::TimedOut,
             },
             CallPhase::Response(_) => CallStep::Read(ServiceVariable::Response),

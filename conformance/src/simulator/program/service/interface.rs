@@ -42,7 +42,7 @@ pub struct ServiceInterface {
 }
 
 /// The event at which the interface sets REQUEST_STATE to 0 (SVC-4). The event is not documented; a
-/// [`Host`] works with all of them.
+/// [`Host`] works with each of these events.
 ///
 /// [`Host`]: ads_cnc::service::Host
 ///

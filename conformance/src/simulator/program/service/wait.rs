@@ -158,7 +158,8 @@ pub enum WaitStep {
     Read(ServiceVariable),
     /// Wait, then call [`Waiting::poll`].
     Wait {
-        /// When the maximum wait ends: polling later than that is not needed.
+        /// The time at which the maximum wait ends; `None` without a limit. Poll at this time at
+        /// the latest.
         until: Option<Duration>,
     },
     /// A response with this state exists.

@@ -108,7 +108,7 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// A description that is judged, but read only once for all cases.
+    /// Returns a description that the case judges. It is read only if no case has read it before.
     pub(crate) fn judged_description(
         &mut self,
         rule: ClauseId,
@@ -128,7 +128,7 @@ impl Probe<'_> {
         Ok(variable)
     }
 
-    /// Reads a stream that other cases judge.
+    /// Reads and decodes a reply that other cases judge; a failure makes this case inconclusive.
     fn read_unjudged<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<T>
     where
         T: for<'b> Decode<'b>,

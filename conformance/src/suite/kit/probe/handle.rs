@@ -22,7 +22,7 @@ impl Probe<'_> {
             *channel == number && all.descriptions().any(|variable| variable.handle == op.handle)
         });
         if is_described && !self.target.client.gate().knows_handle(op.channel, op.handle) {
-            // They were read on another connection, perhaps before a restart of the device.
+            // The descriptions were read on another connection, perhaps before a restart of the device.
             self.target.variables.retain(|(channel, _), _| *channel != number);
             self.variables(op.channel)?;
         }
@@ -31,8 +31,8 @@ impl Probe<'_> {
         {
             self.try_ask(HandleByName { channel: op.channel, name: name.as_cnc_str().into() })?;
         }
-        // The handle was requested on this connection, but the descriptions were read on an earlier
-        // one.
+        // The handle is still not confirmed if the descriptions were read on an earlier connection, so
+        // the description of this variable is requested again.
         if let Some(name) = self.unconfirmed(request)?
             && self.claims(Function::DescribeByName) != Claim::No
         {

@@ -34,7 +34,7 @@ impl Probe<'_> {
                 let expected = || format!("{}, and a success without this fault", expected());
                 let found = || format!("an error also without the fault: {}", accepted.result());
                 for rule in rules {
-                    // A sibling that is only assumed may be rejected too.
+                    // If the rule is only assumed, the target may also reject the sibling.
                     let verdict = match rule.level {
                         Some(Level::Must) => Verdict::Vacuous,
                         Some(level) => Verdict::missed(level),

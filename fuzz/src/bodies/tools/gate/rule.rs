@@ -9,11 +9,12 @@ use super::harmless::{is_harmless, number};
 /// A channel as in an index group: the bit for logical addressing, and the number.
 type At = (bool, u32);
 
-/// The frames that a session may send.
+/// The rule that decides which frames a session may send.
 pub(super) struct Rule<'e> {
     entries: &'e [Entry],
-    /// By channel and handle: the requested name, and the name in the description.
+    /// The handles that replies contain: channel, handle, and the requested name.
     handles: Vec<(At, u32, Vec<u8>)>,
+    /// The descriptions in replies: channel, handle, and the name of the variable.
     described: Vec<(At, u32, Vec<u8>)>,
     /// Descriptors that were read, with the index group of their list.
     objects: Vec<(u32, Vec<u8>)>,
@@ -63,7 +64,7 @@ impl<'e> Rule<'e> {
             let named = |name: Option<&[u8]>| name.map(|name| (at, handle, name.to_vec()));
             match offset {
                 0x46 if reply.len() == 4 => self.handles.extend(named(until_nul(call.data))),
-                // After the handle, type, access, size and dimensions.
+                // The name follows the handle, type, access, size and dimensions.
                 0x45 if reply.len() > 20 => {
                     let skip = 20 + 4 * usize::try_from(number(reply, 16)).unwrap_or(usize::MAX);
                     let name = reply.get(skip..);
@@ -175,7 +176,7 @@ impl<'e> Rule<'e> {
         let call = frame.len() >= 50 && [2, 3, 9].contains(&command);
         let address = call.then(|| (number(frame, 38), number(frame, 42)));
         let sums = address.is_some_and(|(group, _)| (0xF080..=0xF08F).contains(&group));
-        // A write without data, or with too much, is not the documented one.
+        // A write to the stream without data or with more than 992 bytes is malformed: it needs no entry.
         let stream = address.is_some_and(|(group, offset)| {
             let is_stream = group & !0x10_00FF == 0x2_0100 && offset == 0x90;
             let is_undocumented = command != 3 || group & 0xFF == 0;
