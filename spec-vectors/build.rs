@@ -1,5 +1,5 @@
-//! Writes a constant for each ID of a requirement or a part, so that a program that cites an unknown ID
-//! fails to compile, and the lists of the files that the loader embeds.
+//! Generates a constant for each ID of a requirement or a part, so that a program that cites an unknown ID
+//! fails to compile. Also generates the lists of the data files that the crate embeds.
 
 use std::path::Path;
 use std::{env, fs, io};
@@ -17,7 +17,8 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// A constant for each ID, documented by the title of the requirement or the text of the part, and `EVERY`.
+/// The code of a constant for each ID, documented by the title of the requirement or the text of the
+/// part, and of the constant `EVERY`.
 fn constants(requirements: &str) -> String {
     let (mut items, mut names) = (String::new(), Vec::new());
     for entry in requirements.split("\"id\": \"").skip(1) {
@@ -25,7 +26,7 @@ fn constants(requirements: &str) -> String {
         let id = entry.split('"').next().unwrap_or_default();
         // The ID of a part has a dot.
         let doc = text_after(if id.contains('.') { "\"text\": \"" } else { "\"title\": \"" });
-        // rustdoc would take a bracket for a link.
+        // Escape brackets, which rustdoc would interpret as links.
         let doc = doc.unwrap_or_default().replace('[', r"\\[");
         let name = id.replace(['-', '.'], "_");
         let item = format!("pub const {name}: ClauseId = ClauseId::new(\"{id}\");");
@@ -41,7 +42,7 @@ fn included(folder: &str) -> io::Result<String> {
     println!("cargo::rerun-if-changed={folder}");
     let files = fs::read_dir(folder)?.map(|file| Ok(file?.file_name()));
     let mut files = files.collect::<io::Result<Vec<_>>>()?;
-    // An editor may leave other files in the folder.
+    // Ignore other files in the folder, such as those of an editor.
     files.retain(|file| Path::new(file).extension().is_some_and(|extension| extension == "json"));
     files.sort();
     let files = files.iter().map(|file| {

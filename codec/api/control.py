@@ -1,4 +1,5 @@
-"""A crate that shows a stranger in every way there is: the check has to find each of them."""
+"""The negative control: a crate that exposes a type of another crate in every possible way. The check must
+report each of these ways."""
 
 import pathlib
 import re
@@ -9,7 +10,7 @@ pub struct Thing;
 pub trait Trait { type Out; fn act(&self) {} }
 """
 
-# Each `bad` shows the stranger, each `good` uses it where nobody sees.
+# Each item with `bad` in its name exposes the crate `stranger`; each item with `good` uses it privately.
 LEAKS = """
 #![no_std]
 pub use stranger::Thing as bad_use;
@@ -51,7 +52,7 @@ impl Good { fn good(&self) -> &stranger::Thing { &self.0.0 } }
 
 
 def strangers(run, read, options):
-    """The public items in which strangers are found, and those in which they have to be."""
+    """The public items in which the check finds types of other crates, and those in which it must find them."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "stranger.rs").write_text(STRANGER)
@@ -63,5 +64,5 @@ def strangers(run, read, options):
     found = {re.split("[:<]", place)[0] for place, _ in shown}
     declared = re.findall(r"(?:pub|Thing as) (?:[a-z]+ )?(\w+)", LEAKS)
     bad = {name for name in declared if re.match("bad_|BAD_|Bad[A-Z]", name)}
-    # What the stranger itself gets stands with the stranger.
+    # An impl for `stranger::Thing` is reported under the name of this type.
     return found, bad | {"Thing"}

@@ -1,4 +1,4 @@
-"""The lists as people read them."""
+"""Formats the lists of the public API as text."""
 
 import re
 import textwrap
@@ -7,7 +7,8 @@ WIDTH = 100
 
 
 def signatures(elements, heads, given):
-    """Items by their place, what they have below them; after `in` what was there before."""
+    """Items sorted by their paths, each followed by its members. `in` marks an item of `given`: only the
+    members that `given` lacks follow it."""
     text = []
     for path in sorted({path for path, _ in elements}, key=lambda path: (path.count("::"), path)):
         new = (path, "") in elements or (path, "") not in given
@@ -20,12 +21,12 @@ def signatures(elements, heads, given):
 
 
 def order(line):
-    """Fields and variants, constants, functions."""
+    """The sort key of a member: first fields and variants, then constants, then functions."""
     return ("fn " in line) + ("fn " in line or line.startswith("const ")), line
 
 
 def packed(start, between, words):
-    """As many words on a line as fit, each line with the same start."""
+    """Distributes the words over lines of at most WIDTH characters, each of which begins with `start`."""
     lines = []
     for word in words:
         if lines and len(lines[-1]) + len(between) + len(word) <= WIDTH:
@@ -36,7 +37,7 @@ def packed(start, between, words):
 
 
 def names(crate, elements):
-    """By module, the names alone; a borrowed and an owned reading of the same stand together."""
+    """Lists only the names, by module. The borrowed and the owned type of a stream share an entry."""
     modules = {}
     for path, line in elements:
         *way, name = path.split("::")
@@ -48,7 +49,7 @@ def names(crate, elements):
 
 
 def paragraph(way, items):
-    """Items with the same members share a line."""
+    """The names of a module. Items with the same members share a line."""
     shared = {}
     for name in sorted(items):
         owned = name.removesuffix("Ref")
@@ -56,7 +57,7 @@ def paragraph(way, items):
             continue
         members = items[name] | items.get(owned, set())
         title = f"{name}, {owned}" if owned != name and owned in items else name
-        # A newtype's number and the way from one reading to the other say nothing more.
+        # Omits the field of a newtype and the conversions between borrowed and owned type, which add nothing.
         members = " ".join(sorted(members - {"0", "as_ref", "to_owned"}))
         shared.setdefault(members, []).append(title)
     plain = shared.pop("", [])

@@ -1,17 +1,19 @@
-"""The public API of a crate, from rustdoc's JSON: what it has, and which strangers it shows."""
+"""Reads the public API of a crate from rustdoc's JSON: its items, and the types of other crates it exposes."""
 
 from signature import Signature
 
-FORMATS = {57}  # tried; another may name things otherwise
+FORMATS = {57}  # tested; other formats may have different keys
 KINDS = ("struct", "enum", "union", "trait", "function", "constant", "static", "type_alias", "macro")
-MARKERS = ("StructuralPartialEq", "TrivialClone")  # of the compiler, with a derive
+MARKERS = ("StructuralPartialEq", "TrivialClone")  # added by the compiler to a derive
 
 
 class Api(Signature):
-    """`elements`: pairs of an item and a line of it, an empty line for the item itself.
-    `heads`: the line that an item begins with.
-    `strangers`: pairs of a place and what it shows of a crate that is neither this one nor core nor
-    alloc nor `shown`. Traits of the crates `hosts` may be implemented: that is what a feature is for.
+    """`elements`: pairs of the path of an item and one of its members as a line. The line is empty for the item
+    itself.
+    `heads`: for each path, the first line of its item.
+    `strangers`: pairs of the path of an item and a type or trait that it exposes from another crate. Types of
+    core, alloc and the crates in `shown` are permitted. Traits of the crates in `hosts` may be implemented,
+    because features exist for these implementations.
     """
 
     def __init__(self, document, hosts=(), shown=()):
@@ -32,10 +34,10 @@ class Api(Signature):
             self.heads[path] = f"use {path}"
         self.foreign_impls()
 
-    # Where an item may be reached; the shortest way is its name.
+    # Collects the paths of all items. The shortest path of an item is its name.
 
     def collect(self, module, way):
-        """Breadth first, so that a shorter way is met before a longer one."""
+        """Searches breadth-first, so that it finds a shorter path of an item before a longer one."""
         queue = [(module, way)]
         while queue:
             module, way = queue.pop(0)
@@ -74,7 +76,7 @@ class Api(Signature):
     def inner(item):
         return next(iter(item["inner"].items()))
 
-    # What an item has.
+    # Collects the members of an item.
 
     def item(self, item, path):
         kind, inner = self.inner(item)
@@ -139,14 +141,14 @@ class Api(Signature):
                 members = [self.index[str(member)] for member in implementation["items"]]
                 public = (member for member in members if member["visibility"] == "public")
                 lines += [self.line(path, member) for member in public]
-            # An impl for another type is listed here too if it names this one.
+            # rustdoc also lists impls for other types that mention this type; these are omitted.
             elif self.names.get(target) == path and trait["path"] not in MARKERS:
                 lines.append(self.implementation(path, implementation))
         return lines
 
     @staticmethod
     def target(implementation):
-        """The number of the type that gets the trait, if it is one that has a name."""
+        """The ID of the type that implements the trait; "None" for a type without an ID, such as `u32`."""
         target = implementation["for"]
         while "borrowed_ref" in target:
             target = target["borrowed_ref"]["type"]
@@ -169,7 +171,7 @@ class Api(Signature):
         return text + (f" with {', '.join(named)}" if named else "")
 
     def foreign_impls(self):
-        """What types from elsewhere get here: `impl From<Own> for u32`."""
+        """Collects the impls of this crate for types of other crates, such as `impl From<Own> for u32`."""
         for item in list(self.index.values()):
             kind, inner = self.inner(item)
             if item["crate_id"] != 0 or kind != "impl" or not inner["trait"] or inner["blanket_impl"]:
@@ -208,10 +210,10 @@ class Api(Signature):
         selves = {"Self": "self", "&Self": "&self", "&mut Self": "&mut self"}
         return selves[text] if name == "self" and text in selves else f"{name}: {text}"
 
-    # Who shows up.
+    # Collects the exposed types of other crates.
 
     def look(self, place, node):
-        """Every path below `node`, wherever types stand."""
+        """Checks every path below `node` in rustdoc's JSON; `place` is the path of the item."""
         if isinstance(node, dict):
             if "path" in node and "id" in node:
                 self.stranger(place, node["id"], node["path"])

@@ -1,4 +1,4 @@
-"""How rustdoc's JSON writes types, as Rust writes them; `names` has the items' public paths."""
+"""Converts types and signatures from rustdoc's JSON to Rust syntax. `names` maps IDs to public paths."""
 
 
 class Signature:

@@ -1,9 +1,9 @@
-"""Instructions of the cases against their limits and the committed counts; tables for the README.
+"""Compares the instructions of the cases with limits and committed counts; writes the tables of the README.
 
-    results.py read GUNGRAUN CASES    counts of one build, from what gungraun has left
-    results.py check RESULTS          against limits and instructions.tsv
-    results.py --renew RESULTS        writes instructions.tsv, then as check
-    results.py time RESULTS           writes time.tsv and says what is missed
+    results.py read GUNGRAUN CASES    prints the counts of one build, from the output files of gungraun
+    results.py check RESULTS          compares the counts with the limits and with instructions.tsv
+    results.py --renew RESULTS        writes instructions.tsv, then checks like `check`
+    results.py time RESULTS           writes time.tsv, and prints the ratios above their goals
 """
 
 import json
@@ -61,7 +61,7 @@ def read(gungraun, cases):
 
 
 def counted(results):
-    """{key: {build: (units, instructions)}}"""
+    """The counts by case and build: {key: {build: (units, instructions)}}."""
     counts = {}
     for build in BUILDS:
         for subject, who, units, instructions in rows(results / f"{build}.tsv"):
@@ -78,7 +78,7 @@ def missed(cases, counts, build):
     """The cases that exceed their limits."""
     for case in cases:
         if case.key not in counts:
-            continue  # one that takes long: `--renew` alone counts it
+            continue  # a long case, which only `--renew` counts
         for kind, other, most in case.limits:
             here = each(counts, case.key, build)
             if kind == "instructions":

@@ -5,7 +5,7 @@
     generate.py javascript OUTPUT  the type declarations of the functions and records of the npm package
     generate.py exports OUTPUT     the functions of the npm package
 
-The tables are those of the library in the Python package, so this script contains no function or field.
+The tables are read from the library in the Python package, so this script lists no functions or fields.
 """
 
 import pathlib
@@ -15,7 +15,7 @@ import types
 
 HERE = pathlib.Path(__file__).resolve().parent
 package = types.ModuleType("ads_cnc")
-# Without its __init__, which needs the generated module.
+# A package without its __init__, because that imports the generated module.
 package.__path__ = [str(HERE / "python" / "src" / "ads_cnc")]
 sys.modules["ads_cnc"] = package
 from ads_cnc import _codec  # noqa: E402
@@ -68,7 +68,7 @@ def camel(name):
 
 
 def record(name):
-    """The name of a record; a repeating stream has the records of its single stream."""
+    """The class name of a record; a stream of records uses the class of the stream of one record."""
     one = name[:-1] if _codec.STREAMS[name].repeats else name
     return "".join(word.capitalize() for word in (one if one in _codec.STREAMS else name).split("-"))
 

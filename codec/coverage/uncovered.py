@@ -1,7 +1,7 @@
-"""Holds the lines that no test ran against uncovered.txt: `uncovered.py <lcov file> [--renew]`.
+"""Compares the lines that no test runs with uncovered.txt: `uncovered.py <lcov file> [--renew]`.
 
-A line is known by its file, the function it is in and its text, so that the list outlives edits
-elsewhere in the file. An entry that is run by now, or gone, has to leave the list.
+A line is identified by its file, its function and its text, so that edits elsewhere in the file do not
+change the list. It is an error if a listed line is run or does not exist any more.
 """
 
 import collections
@@ -13,34 +13,34 @@ HERE = pathlib.Path(__file__).resolve().parent
 LIST = HERE / "uncovered.txt"
 LEAST = 98.0
 HEAD = """\
-# Lines of codec/src that no test of the codec runs. codec/coverage/run holds this list against what
-# is counted; codec/coverage/run --renew writes it anew. Above each group stands why nobody can run
-# it.
+# The lines of codec/src that no test of the codec runs. codec/coverage/run compares this list with the
+# measured coverage; codec/coverage/run --renew rewrites it. The comment above each group states why no test
+# can run its lines.
 """
 WANTED = "# (no reason yet)"
 FUNCTION = re.compile(r"^(\s*)(?:pub(?:\([^)]*\))? )?(?:const )?fn (\w+|\$\w+)")
 
 
 def function(source, number):
-    """The function that line `number` is in: the last that began further out, or on the line."""
+    """The function that contains line `number`: the last one before the line with less indentation."""
     depth = len(source[number - 1]) - len(source[number - 1].lstrip())
     for at in range(number, 0, -1):
         found = FUNCTION.match(source[at - 1])
         if found and (len(found[1]) < depth or at == number):
             return found[2]
-        # Its closing brace stands as far out as its first line.
+        # The closing brace of a function has the same indentation as its first line.
         if found and len(found[1]) == depth and source[number - 1].strip() == "}":
             return found[2]
     return "-"
 
 
 def counted(path):
-    """How many lines there are, and those not run: (file, function, text) in their order."""
+    """The number of lines, and the lines that are not run, in order: (file, function, text)."""
     total, missed, file, source = 0, [], "", []
     for line in path.read_text(encoding="utf-8").splitlines():
         key, _, rest = line.partition(":")
         if key == "SF":
-            # Of another system they have other separators.
+            # On Windows, paths contain backslashes.
             file = rest.replace("\\", "/").split("/codec/src/")[-1]
             source = pathlib.Path(rest).read_text(encoding="utf-8").splitlines()
         elif key == "DA":
@@ -52,11 +52,11 @@ def counted(path):
 
 
 def listed(text):
-    """The entries, each with its reason."""
+    """The entries of uncovered.txt, each with its reason."""
     entries, reason, place = [], "", None
     for line in text.removeprefix(HEAD).splitlines():
         if line.startswith("#"):
-            # A reason of more lines than one.
+            # A reason may have several lines.
             reason = f"{reason}\n{line}" if place == "reason" else line
             place = "reason"
         elif line.startswith(" "):
@@ -67,7 +67,7 @@ def listed(text):
 
 
 def written(entries):
-    """The text of the list: by reason, then in the order given."""
+    """The text of uncovered.txt: grouped by reason, in the order of the entries."""
     groups = collections.defaultdict(list)
     for key, reason in entries:
         groups[reason].append(key)

@@ -1,10 +1,11 @@
-//! The tests of the codec, in a program that the first failure ends. The first pass skips tests that generate
-//! many cases; the second pass runs them on the survivors.
+//! The tests of the codec, in a program that the first failure ends. The first pass skips tests that
+//! generate many cases; the second pass runs them on the survivors.
 
 #[path = "../tests/main.rs"]
 mod tests;
 
-/// The first failure is enough: nothing is drawn again to shrink it, no other test is waited for.
+/// Ends the program at the first failure, because one failure detects the mutant: no case is shrunk, and no
+/// other test runs to its end.
 #[test]
 fn a_failure_ends_the_run() {
     let shown = std::panic::take_hook();

@@ -173,7 +173,7 @@ impl fmt::Display for Character {
     }
 }
 
-/// If a field stands for the argument of a constructor: its name, minimum and maximum.
+/// The name, minimum and maximum of the constructor argument that an error reports by this field.
 fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     const COUNT: Field = Field::of::<ObjectCount>("count");
     match field {
@@ -183,7 +183,7 @@ fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     }
 }
 
-/// If a field is a number that must equal another number: its name and its unit.
+/// The name and the unit of a number that must equal another number, if an error reports it by this field.
 fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
     match field {
         typed_value::COUNT => Some(("value", ["element", "elements"])),

@@ -5,14 +5,14 @@
 //! # #[cfg(feature = "alloc")] mod example {
 //! use ads_cnc::address::Channel;
 //! use ads_cnc::ads::AmsPort;
-//! use ads_cnc::operation::{DescribeByName, Operation, ReadByName, Service};
+//! use ads_cnc::operation::{AdsService, DescribeByName, Operation, ReadByName};
 //! use ads_cnc::VariablePath;
 //! use std::error::Error;
 //!
 //! /// Your transport: sends an ADS request to a port of the CNC and returns the data of the reply.
 //! trait Transport {
 //!     fn send(
-//!         &mut self, port: AmsPort, service: Service, index_group: u32, index_offset: u32,
+//!         &mut self, port: AmsPort, service: AdsService, index_group: u32, index_offset: u32,
 //!         read_length: u32, data: &[u8],
 //!     ) -> Result<Vec<u8>, Box<dyn Error>>;
 //!
@@ -37,7 +37,7 @@
 //! }
 //! # struct Cnc;
 //! # impl Transport for Cnc {
-//! #     fn send(&mut self, port: AmsPort, _: Service, group: u32, offset: u32, _: u32, data: &[u8])
+//! #     fn send(&mut self, port: AmsPort, _: AdsService, group: u32, offset: u32, _: u32, data: &[u8])
 //! #         -> Result<Vec<u8>, Box<dyn Error>> {
 //! #         assert_eq!((port, group), (AmsPort::SDA, 0x12_2301));
 //! #         match (offset, data) {
@@ -91,6 +91,15 @@
 //! encode to the bytes that they were decoded from. A stream of numbers only has one type. [`sections`]
 //! maps the sections of the manuals to this crate; [`layout`] contains the field table of every stream.
 //! Where the manuals contradict each other, [`errata`] lists the reading that this crate implements.
+//!
+//! # Examples
+//! The folder `examples` of the package has four programs. They use the published client
+//! [`ads`](https://docs.rs/ads/0.4) as the transport:
+//!
+//! - `read_variable` reads a variable of any type by its name.
+//! - `list_objects` lists all objects of a CNC.
+//! - `stream_program` sends an NC program to a channel.
+//! - `square_root_service` is a host of the Service Interface.
 //!
 //! # Common mistakes
 //! - Decode the bytes that were received, not the whole buffer: a reply may be shorter than the read
@@ -155,7 +164,7 @@
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
-#![deny(missing_docs)]
+#![deny(missing_docs, missing_debug_implementations)]
 // This crate processes input from outside, which must not cause a panic.
 #![cfg_attr(
     not(test),

@@ -22,6 +22,10 @@ use crate::layout::{Size, Stream};
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    note = "the type that borrows is `XRef<'a>`, the type that owns its data is `X`",
+    note = "for content of your own, implement `Decode` with `value::Reader`"
+)]
 pub trait Decode<'a>: Sized {
     /// The stream that this type decodes, with its field table.
     const STREAM: Stream;

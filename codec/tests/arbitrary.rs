@@ -6,7 +6,7 @@ use ads_cnc::ads::*;
 use ads_cnc::*;
 use proptest::prelude::*;
 
-use super::common::{Bend, SUBJECTS, made};
+use super::common::{Mutation, SUBJECTS, made};
 use super::kept;
 
 proptest! {
@@ -16,7 +16,7 @@ proptest! {
     #[test]
     fn values_encode(bytes in prop::collection::vec(any::<u8>(), 0..4000)) {
         for subject in SUBJECTS {
-            (subject.made)(&bytes, &Bend::NONE);
+            (subject.made)(&bytes, &Mutation::NONE);
         }
     }
 }

@@ -1,10 +1,10 @@
 //! `BinRead` and `BinWrite`: behaviour that the laws of all streams do not cover.
 
-#![cfg(all(feature = "binrw", feature = "std"))]
-
-use std::io::{self, Cursor, Read, Seek, SeekFrom};
+#![cfg(feature = "binrw")]
 
 use ads_cnc::ads::WriteRequest;
+// `binrw::io` exists without `std`, too.
+use ads_cnc::binrw::io::{self, Cursor, Read, Seek, SeekFrom};
 use ads_cnc::binrw::{self, BinRead, BinWrite};
 use ads_cnc::{Description, Error, ErrorKind, ExtendedReply, Handle, HandleRead};
 

@@ -1,4 +1,5 @@
-//! The numbers of codes, types, classes and attributes, as the manuals and the vendors' help pages print them.
+//! The numbers of codes, types, classes and attributes, as the manuals and the vendors' help pages print
+//! them.
 
 use ads_cnc::address::{Addressing, Attribute, Class, ClassGroup};
 use ads_cnc::ads::{AdsError, AdsState, Command, StateFlags};

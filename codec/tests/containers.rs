@@ -1,5 +1,8 @@
 //! Lists and iterators: their lengths and items.
 
+use std::iter::FusedIterator;
+
+use ads_cnc::streaming::NcText;
 use ads_cnc::value::DataType;
 use ads_cnc::*;
 
@@ -44,6 +47,39 @@ fn views_of_lists_return_all_items() {
         );
         counts_down(numbers.iter(), count);
     }
+}
+
+/// Checks the promise of `FusedIterator`: after its end, an iterator returns no more items.
+#[track_caller]
+fn stays_at_its_end(mut items: impl FusedIterator, count: usize) {
+    assert_eq!(items.by_ref().count(), count);
+    for _ in 0..3 {
+        assert!(items.next().is_none());
+    }
+}
+
+#[test]
+fn iterators_stay_at_their_end() {
+    let indices = VariablePath::new("V.E.s[3].t[4][5]").unwrap().elements();
+    let wire = HandleReadRef::decode(&[1, 0, 0, 2, 1, 0, 0, 0, 9, 0, 0, 0]).unwrap();
+    for (numbers, count) in [(U32List::from(&[3, 9]), 2), (wire.indices, 1), (indices, 2)] {
+        stays_at_its_end(numbers.iter(), count);
+    }
+    stays_at_its_end(DescriptorsRef::decode(&[0; 168]).unwrap().iter(), 2);
+    let elements = Elements::new(DataType::Uns16, U32List::from(&[2]), &[1, 0, 2, 0]).unwrap();
+    stays_at_its_end(elements.iter(), 2);
+    // A skip past the end is an end, too.
+    let mut skipped = elements.iter();
+    assert_eq!(skipped.nth(5), None);
+    stays_at_its_end(skipped, 0);
+    let mut backward = elements.iter();
+    assert!(backward.next_back().is_some());
+    stays_at_its_end(backward, 1);
+    for name in [CncStr::new("V.E.s[3].t").unwrap(), CncStr::from_bytes(b"V.E.s[3].t").unwrap()] {
+        stays_at_its_end(VariablePath::from_text(name).unwrap().parts(), 2);
+        stays_at_its_end(name.chars(), 10);
+    }
+    stays_at_its_end(NcText::new(b"N10\r\n\nN20").unwrap().lines(), 3);
 }
 
 #[cfg(feature = "alloc")]

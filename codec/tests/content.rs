@@ -19,7 +19,7 @@ fn content(group: u32, offset: u32) -> Call<'static> {
 fn addresses_of_functions_are_rejected_for_content() {
     let rows = Function::ALL.iter().map(|function| function.spec());
     let of_decoder = rows.filter(|spec| {
-        spec.group == GroupRule::ChannelOf(Class::Decoder) && spec.service != Service::Read
+        spec.group == GroupRule::ChannelOf(Class::Decoder) && spec.service != AdsService::Read
     });
     let offsets = of_decoder.flat_map(|spec| match spec.offset {
         OffsetRule::At(at) => vec![at],
@@ -80,7 +80,7 @@ fn the_count_of_a_platform_axis_is_a_read_of_content() {
 fn content_of_a_platform_axis_has_two_addresses() {
     let call = |group, offset| Call {
         port: AmsPort::COM,
-        service: Service::Read,
+        service: AdsService::Read,
         index_group: IndexGroup::new(group),
         index_offset: IndexOffset::new(offset),
         read_length: 8,

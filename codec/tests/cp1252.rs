@@ -5,7 +5,7 @@ use ads_cnc::text::{char_to_cp1252, cp1252_to_char};
 use encoding_rs::WINDOWS_1252;
 use proptest::prelude::*;
 
-use super::common::text::{CncStrBend, check_cp1252, check_utf8};
+use super::common::text::{CncStrMutation, check_cp1252, check_utf8};
 use super::kept;
 
 /// Every byte has the same character as in the crate `encoding_rs`.
@@ -78,11 +78,11 @@ proptest! {
 
     #[test]
     fn any_bytes_obey_the_laws_of_texts(bytes in prop::collection::vec(any::<u8>(), 0..40)) {
-        let _ = check_cp1252(&bytes, CncStrBend::NONE);
+        let _ = check_cp1252(&bytes, CncStrMutation::NONE);
     }
 
     #[test]
     fn any_characters_obey_the_laws_of_texts(text in "[\\PCaä€\0\u{81}]{0,20}") {
-        let _ = check_utf8(&text, CncStrBend::NONE);
+        let _ = check_utf8(&text, CncStrMutation::NONE);
     }
 }

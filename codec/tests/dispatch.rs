@@ -38,14 +38,14 @@ fn calls_have_only_the_parts_of_their_service() {
         let mut buf = [0; 4096];
         let call = request.encode(&mut buf).unwrap();
         match call.service {
-            Service::Read => assert!(call.data.is_empty(), "{}", sample.slug),
-            Service::Write => assert_eq!(call.read_length, 0, "{}", sample.slug),
-            Service::ReadWrite => assert_ne!(call.read_length, 0, "{}", sample.slug),
+            AdsService::Read => assert!(call.data.is_empty(), "{}", sample.slug),
+            AdsService::Write => assert_eq!(call.read_length, 0, "{}", sample.slug),
+            AdsService::ReadWrite => assert_ne!(call.read_length, 0, "{}", sample.slug),
         }
     }
 }
 
-fn refusal(change: impl FnOnce(&mut Call<'_>)) -> DispatchError {
+fn error_of(change: impl FnOnce(&mut Call<'_>)) -> DispatchError {
     let sample = CALLS.iter().find(|sample| sample.slug == "handle-printed").unwrap();
     let mut call = sample.call;
     change(&mut call);
@@ -58,62 +58,64 @@ fn a_call_with_one_fault_is_rejected_for_it() {
     let group = IndexGroup::new;
     let offset = IndexOffset::new;
     let cases = [
-        (refusal(|call| call.port = AmsPort(851)), DispatchError::Port(AmsPort(851)), 0x6),
+        (error_of(|call| call.port = AmsPort(851)), DispatchError::Port(AmsPort(851)), 0x6),
         // The task COM does not serve classes, the task SDA does not serve objects.
-        (refusal(|call| call.port = AmsPort::COM), DispatchError::Group(group(0x12_2301)), 0x702),
+        (error_of(|call| call.port = AmsPort::COM), DispatchError::Group(group(0x12_2301)), 0x702),
         (
-            refusal(|call| call.index_group = group(0x13_0101)),
+            error_of(|call| call.index_group = group(0x13_0101)),
             DispatchError::Group(group(0x13_0101)),
             0x702,
         ),
         // Channel 0 has no variables, but may have elements.
         (
-            refusal(|call| call.index_group = group(0x12_2300)),
+            error_of(|call| call.index_group = group(0x12_2300)),
             DispatchError::Offset(offset(0x46)),
             0x703,
         ),
         (
-            refusal(|call| call.index_group = group(0x12_2401)),
-            DispatchError::Service { expected: Service::Read, found: Service::ReadWrite },
+            error_of(|call| call.index_group = group(0x12_2401)),
+            DispatchError::Service { expected: AdsService::Read, found: AdsService::ReadWrite },
             0x701,
         ),
         // The group of a query of object addresses has no channel (SDA-1).
         (
-            refusal(|call| call.index_group = group(0x12_3901)),
+            error_of(|call| call.index_group = group(0x12_3901)),
             DispatchError::Group(group(0x12_3901)),
             0x702,
         ),
         (
-            refusal(|call| call.index_group = group(0xF005)),
+            error_of(|call| call.index_group = group(0xF005)),
             DispatchError::Group(group(0xF005)),
             0x702,
         ),
         (
-            refusal(|call| call.index_offset = offset(0x4D)),
+            error_of(|call| call.index_offset = offset(0x4D)),
             DispatchError::Offset(offset(0x4D)),
             0x703,
         ),
         (
-            refusal(|call| call.index_offset = offset(0x1_0046)),
+            error_of(|call| call.index_offset = offset(0x1_0046)),
             DispatchError::Offset(offset(0x1_0046)),
             0x703,
         ),
         (
-            refusal(|call| call.service = Service::Write),
-            DispatchError::Service { expected: Service::ReadWrite, found: Service::Write },
+            error_of(|call| call.service = AdsService::Write),
+            DispatchError::Service { expected: AdsService::ReadWrite, found: AdsService::Write },
             0x701,
         ),
     ];
     for (refused, wanted, number) in cases {
         assert_eq!((refused, refused.ads_error()), (wanted, AdsError(number)));
     }
-    let DispatchError::Stream(error) = refusal(|call| call.data = b"V.E.vartest") else { panic!() };
+    let DispatchError::Stream(error) = error_of(|call| call.data = b"V.E.vartest") else {
+        panic!()
+    };
     assert_eq!((error.kind(), error.field().name()), (ErrorKind::MissingNul, "name"));
     assert_eq!(DispatchError::Stream(error).ads_error(), AdsError::INVALID_SIZE);
 }
 
 /// The name of the function at this address, or the error.
-fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
+fn reached(port: AmsPort, service: AdsService, group: u32, offset: u32) -> String {
     let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
     let mut reached = String::new();
     for data in [&[][..], b"\x01\0\0\0", b"\x01\0\0\0\0\0\0\0", b"V.E\0", b"\x01\0\0\0V.E\0"] {
@@ -134,8 +136,8 @@ fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
     reached
 }
 
-/// A snapshot of the functions that Read, Write and ReadWrite reach near every group and offset. Groups with
-/// equal results are combined; so are consecutive offsets with equal results.
+/// A snapshot of the functions that Read, Write and ReadWrite reach near every group and offset. Groups
+/// with equal results are combined; so are consecutive offsets with equal results.
 #[test]
 #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
 fn dispatch_reaches_the_same_functions() {
@@ -155,7 +157,7 @@ fn dispatch_reaches_the_same_functions() {
             let mut all = String::new();
             let mut last = [const { String::new() }; 3];
             for &offset in &offsets {
-                let services = [Service::Read, Service::Write, Service::ReadWrite];
+                let services = [AdsService::Read, AdsService::Write, AdsService::ReadWrite];
                 let found = services.map(|service| reached(port, service, group, offset));
                 if found != last {
                     all.push_str(&format!("    from {offset:#x} on: {}\n", found.join(", ")));
@@ -198,7 +200,7 @@ fn read_lengths_of_descriptors() {
             (Ok(Request::ReadDescriptors(read)), Some(count)) => {
                 assert_eq!((read.count(), read.first()), (count, 0x10));
             }
-            (Err(refusal), None) => assert_eq!(refusal.ads_error(), AdsError::INVALID_SIZE),
+            (Err(error_of), None) => assert_eq!(error_of.ads_error(), AdsError::INVALID_SIZE),
             (other, _) => panic!("{read_length}: {other:?}"),
         }
     }
@@ -225,7 +227,7 @@ proptest! {
         }
         call.index_offset = offset.map_or(call.index_offset, IndexOffset::new);
         call.read_length = read_length.unwrap_or(call.read_length);
-        if let Some(data) = data.as_deref().filter(|_| call.service != Service::Read) {
+        if let Some(data) = data.as_deref().filter(|_| call.service != AdsService::Read) {
             call.data = data;
         }
         let _ = check_call(&call);

@@ -5,7 +5,7 @@ use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{
     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags,
 };
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc::{Decode as _, Encode as _};
 use proptest::prelude::*;
 
@@ -42,14 +42,14 @@ fn a_call_encodes_to_the_request_of_its_service() {
         service,
         index_group: IndexGroup::new(0x12_2301),
         index_offset: IndexOffset::new(0x46),
-        read_length: if service == Service::Write { 0 } else { 4 },
+        read_length: if service == AdsService::Write { 0 } else { 4 },
         data,
     };
     for (call, command, bytes) in [
-        (call(Service::Read, b""), Command::READ, &b"\x01\x23\x12\0\x46\0\0\0\x04\0\0\0"[..]),
-        (call(Service::Write, b"ab"), Command::WRITE, b"\x01\x23\x12\0\x46\0\0\0\x02\0\0\0ab"),
+        (call(AdsService::Read, b""), Command::READ, &b"\x01\x23\x12\0\x46\0\0\0\x04\0\0\0"[..]),
+        (call(AdsService::Write, b"ab"), Command::WRITE, b"\x01\x23\x12\0\x46\0\0\0\x02\0\0\0ab"),
         (
-            call(Service::ReadWrite, b"abc"),
+            call(AdsService::ReadWrite, b"abc"),
             Command::READ_WRITE,
             b"\x01\x23\x12\0\x46\0\0\0\x04\0\0\0\x03\0\0\0abc",
         ),
@@ -67,7 +67,7 @@ fn a_call_encodes_to_the_request_of_its_service() {
         let cut = FrameRef::new(header, &bytes[..bytes.len() - 1]).unwrap();
         assert_eq!(Call::from_frame(&cut).unwrap_err().kind(), Truncated);
     }
-    let error = call(Service::Read, b"a").encode(&mut [0; 32]).unwrap_err();
+    let error = call(AdsService::Read, b"a").encode(&mut [0; 32]).unwrap_err();
     assert_eq!((error.kind(), error.expected(), error.found()), (Trailing, 12, 13));
 }
 
@@ -111,7 +111,7 @@ fn a_fault_is_reported_as_soon_as_its_bytes_arrive() {
     }
 }
 
-/// The sum of the length of the data and that of the header does not overflow to the length of a short frame.
+/// The sum of a huge length and the length of the header does not overflow to the length of a short frame.
 #[test]
 fn lengths_do_not_wrap() {
     let mut bytes = frame(b"");

@@ -91,7 +91,7 @@ fn counts_that_do_not_fit_are_rejected() {
 #[test]
 fn encoders_reject_what_decoders_reject() {
     const UNTOUCHED: [u8; 4096] = [0x55; 4096];
-    let refusal = |value: &dyn Encode| {
+    let error_of = |value: &dyn Encode| {
         let mut buf = UNTOUCHED;
         let error = value.encode(&mut buf).unwrap_err();
         assert_eq!(buf, UNTOUCHED);
@@ -103,24 +103,24 @@ fn encoders_reject_what_decoders_reject() {
 
     let name = |field| VariableNameRef { name: field };
     let long_name = name(text(&long).unwrap().into());
-    assert_eq!(refusal(&long_name), fault(TooLong, "name", 0, (256, 257)));
+    assert_eq!(error_of(&long_name), fault(TooLong, "name", 0, (256, 257)));
     let open = name(TextRef::with_tail(text(b"V.E").unwrap(), None));
-    assert_eq!(refusal(&open), fault(MissingNul, "name", 0, (256, 3)));
+    assert_eq!(error_of(&open), fault(MissingNul, "name", 0, (256, 3)));
     let behind = name(TextRef::with_tail(text(b"V.E").unwrap(), Some(b"\0V")));
-    assert_eq!(refusal(&behind), fault(Trailing, "stream", 5, (5, 6)));
+    assert_eq!(error_of(&behind), fault(Trailing, "stream", 5, (5, 6)));
 
     let kind = Kind::from_field(TextRef::with_tail(text(b"V.E").unwrap(), None));
-    assert_eq!(refusal(&VariableKindRef { kind }), fault(MissingNul, "kind", 0, (256, 3)));
+    assert_eq!(error_of(&VariableKindRef { kind }), fault(MissingNul, "kind", 0, (256, 3)));
     let indexed = VariableIndexKindRef { index: 0, kind };
-    assert_eq!(refusal(&indexed), fault(MissingNul, "kind", 4, (256, 3)));
+    assert_eq!(error_of(&indexed), fault(MissingNul, "kind", 4, (256, 3)));
 
     let indices = HandleReadRef { handle: Handle(1), indices: U32List::from(&numbers) };
-    assert_eq!(refusal(&indices), fault(TooMany, "index_count", 4, (510, 511)));
+    assert_eq!(error_of(&indices), fault(TooMany, "index_count", 4, (510, 511)));
     let indices =
         HandleWriteRef { handle: Handle(1), indices: U32List::from(&numbers), value: &[] };
-    assert_eq!(refusal(&indices), fault(TooMany, "index_count", 4, (510, 511)));
+    assert_eq!(error_of(&indices), fault(TooMany, "index_count", 4, (510, 511)));
     let named = NameWriteRef { name: text(&long).unwrap(), value: b"1" };
-    assert_eq!(refusal(&named), fault(TooLong, "name", 0, (256, 257)));
+    assert_eq!(error_of(&named), fault(TooLong, "name", 0, (256, 257)));
 
     let write = |count, value| HandleWriteRef {
         handle: Handle(1),
@@ -130,17 +130,17 @@ fn encoders_reject_what_decoders_reject() {
     let value = [0; 2041];
     for (count, bytes) in [(511, 0), (511, 1)] {
         let wanted = fault(TooMany, "index_count", 4, (510, 511));
-        assert_eq!(refusal(&write(count, &value[..bytes])), wanted);
+        assert_eq!(error_of(&write(count, &value[..bytes])), wanted);
     }
     for (count, most) in [(510, 0), (0, 2040)] {
         assert!(write(count, &value[..most]).encode(&mut [0; 2048]).is_ok());
         let wanted = fault(TooLong, "stream", 2048, (2048, 2049));
-        assert_eq!(refusal(&write(count, &value[..most + 1])), wanted);
+        assert_eq!(error_of(&write(count, &value[..most + 1])), wanted);
     }
     let named = |len, value| NameWriteRef { name: text(&full[..len]).unwrap(), value };
     assert!(named(255, &value[..1]).encode(&mut [0; 257]).is_ok());
     let long_named = NameWriteRef { name: text(&long).unwrap(), value: &[] };
-    assert_eq!(refusal(&long_named), fault(TooLong, "name", 0, (256, 257)));
+    assert_eq!(error_of(&long_named), fault(TooLong, "name", 0, (256, 257)));
 
     let description = |dimensions, name| DescriptionRef {
         handle: Handle(1),
@@ -159,7 +159,7 @@ fn encoders_reject_what_decoders_reject() {
         (description(&numbers[..2], too_long_name), fault(TooLong, "name", 28, (256, 257))),
         (description(&numbers[..444], longest), fault(TooLong, "stream", 2048, (2048, 2052))),
     ] {
-        assert_eq!(refusal(&value), wanted);
+        assert_eq!(error_of(&value), wanted);
     }
     let nameless = DescriptionByNameRef {
         handle: Handle(1),
@@ -168,33 +168,33 @@ fn encoders_reject_what_decoders_reject() {
         size: 4,
         dimensions: U32List::from(&numbers[..508]),
     };
-    assert_eq!(refusal(&nameless), fault(TooMany, "dimension_count", 16, (507, 508)));
+    assert_eq!(error_of(&nameless), fault(TooMany, "dimension_count", 16, (507, 508)));
     let long = DynamicNameRequestRef { name: text(&full[..96]).unwrap().into() };
-    assert_eq!(refusal(&long), fault(TooLong, "name", 0, (96, 97)));
+    assert_eq!(error_of(&long), fault(TooLong, "name", 0, (96, 97)));
     let behind = TextRef::with_tail(text(b"P1").unwrap(), Some(b"\0P"));
     assert_eq!(
-        refusal(&DynamicNameRequestRef { name: behind }),
+        error_of(&DynamicNameRequestRef { name: behind }),
         fault(Trailing, "stream", 4, (4, 5))
     );
     assert_eq!(
-        refusal(&DynamicNameRequestRef { name: no_name }),
+        error_of(&DynamicNameRequestRef { name: no_name }),
         fault(Truncated, "name", 0, (1, 0))
     );
-    assert_eq!(refusal(&DynamicNameRef { name: no_name }), fault(Truncated, "name", 0, (1, 0)));
+    assert_eq!(error_of(&DynamicNameRef { name: no_name }), fault(Truncated, "name", 0, (1, 0)));
     assert_eq!(
-        refusal(&ElementTextRef { text: too_long_name }),
+        error_of(&ElementTextRef { text: too_long_name }),
         fault(TooLong, "text", 0, (256, 257))
     );
-    assert_eq!(refusal(&DynamicIndex(0)), fault(OutOfRange, "index", 0, (1, 0)));
-    assert_eq!(refusal(&ProgramStreamRef { bytes: &[] }), fault(Truncated, "data", 0, (1, 0)));
+    assert_eq!(error_of(&DynamicIndex(0)), fault(OutOfRange, "index", 0, (1, 0)));
+    assert_eq!(error_of(&ProgramStreamRef { bytes: &[] }), fault(Truncated, "data", 0, (1, 0)));
     let bytes = &[b' '; 993];
-    assert_eq!(refusal(&ProgramStreamRef { bytes }), fault(TooLong, "stream", 992, (992, 993)));
+    assert_eq!(error_of(&ProgramStreamRef { bytes }), fault(TooLong, "stream", 992, (992, 993)));
     let success_without_data = ReadReplyRef { result: AdsError::NO_ERROR, data: None };
-    assert_eq!(refusal(&success_without_data), fault(Truncated, "length", 4, (4, 0)));
+    assert_eq!(error_of(&success_without_data), fault(Truncated, "length", 4, (4, 0)));
     let value = ValueRef { bytes: &[0; 2049] };
-    assert_eq!(refusal(&value), fault(TooLong, "stream", 2048, (2048, 2049)));
+    assert_eq!(error_of(&value), fault(TooLong, "stream", 2048, (2048, 2049)));
     let none = DescriptorsRef::decode(&[0; 84]).unwrap().slice(1, 1);
-    assert_eq!(refusal(&none), fault(Truncated, "id", 0, (4, 0)));
+    assert_eq!(error_of(&none), fault(Truncated, "id", 0, (4, 0)));
 }
 
 /// DYN-5: parameters are counted from 1, so index 0 is rejected.

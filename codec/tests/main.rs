@@ -1,5 +1,5 @@
-//! Tests of the codec, in one program: most tests use the same samples and laws, and linking a program takes
-//! longer than running most of the tests.
+//! Tests of the codec, in one program: most tests use the same samples and laws, and linking a program
+//! takes longer than running most of the tests.
 
 mod common;
 mod damage;
@@ -45,7 +45,7 @@ mod typed_writes;
 mod values;
 mod vectors;
 
-/// Every file of this folder is a module of this program. Cargo itself does not search the folder for tests.
+/// Every file of this folder is a module of this program, because Cargo does not search for tests here.
 #[test]
 fn every_file_is_a_module() {
     let modules = include_str!("main.rs");
@@ -55,4 +55,17 @@ fn every_file_is_a_module() {
         let Some(name) = name.strip_suffix(".rs") else { continue };
         assert!(modules.contains(&format!("\nmod {name};")), "{name}.rs is not in main.rs");
     }
+}
+
+/// In the library, code that can panic is an error of clippy.
+#[test]
+fn lints_reject_panics_in_the_library() {
+    let (_, lints) = include_str!("../src/lib.rs").split_once("    not(test),\n    deny(").unwrap();
+    let (lints, _) = lints.split_once("\n    )\n)]").unwrap();
+    let lints: String = lints.split_whitespace().map(|lint| lint.replace("clippy::", "")).collect();
+    assert_eq!(
+        lints,
+        "arithmetic_side_effects,as_conversions,expect_used,indexing_slicing,panic,string_slice,\
+         unreachable,unwrap_used"
+    );
 }

@@ -118,7 +118,7 @@ proptest! {
                 check_operation(ReadElementLength::new(address));
                 check_operation(ReadElementUnit::new(address));
                 check_operation(ReadElementWriteFlag::new(address));
-                // The element may be a function of the decoder, or the first element, which contains a count.
+                // The offset may be that of a function of the decoder, or of the first element.
                 match ReadElement::new(address, length) {
                     Ok(read) => {
                         check_operation(read);

@@ -1,14 +1,15 @@
-//! The codec accepts, rejects and dispatches what version 0.1.0 did, with the same bytes and errors.
+//! The codec accepts, rejects and dispatches the same inputs as version 0.1.0, with the same bytes and
+//! errors.
 //!
-//! `outcomes.tsv` has a row for each vector, sample of a call and index group: a digest of the inputs made of
-//! it and a digest of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before streams and
-//! functions were declared by macros) and with the sources of version 0.2.0. All rows were equal, without
-//! exception.
+//! `outcomes.tsv` has a row for each vector, sample of a call and index group: a digest of the inputs made
+//! of it and a digest of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before
+//! streams and functions were declared by macros) and with the sources of version 0.2.0. All rows were
+//! equal, without exception.
 //!
-//! A new vector or sample adds rows and changes no existing row. Compare the new rows with version 0.1.0: check out
-//! 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename `DispatchError` to `Refusal`,
-//! the fields of its `Service` to `takes` and `asked`, and `subject().name()` to `stream()`, run the test
-//! there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
+//! A new vector or sample adds rows and changes no existing row. Compare the new rows with version 0.1.0:
+//! check out 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename `DispatchError`
+//! to `Refusal`, the fields of its `AdsService` to `takes` and `asked`, and `subject().name()` to
+//! `stream()`, run the test there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,7 +17,7 @@ use std::path::Path;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, DispatchError, Service};
+use ads_cnc::operation::{AdsService, Call, DispatchError};
 use ads_cnc::{Encode as _, Error};
 use ads_cnc_vectors::{Vector, vectors};
 
@@ -66,8 +67,8 @@ impl Random {
     }
 }
 
-/// The computed rows, by the kind of the inputs and by the vector, sample or index group that the inputs are
-/// made of.
+/// The computed rows, by the kind of the inputs and by the vector, sample or index group that the inputs
+/// are made of.
 type Rows = BTreeMap<(&'static str, String), Row>;
 
 /// A row of `outcomes.tsv`.
@@ -107,7 +108,7 @@ fn shown(error: Error) -> String {
     format!("{kind:?} {} {field} {offset} {expected} {found}", error.field().subject().name())
 }
 
-/// The inputs made of bytes: the bytes unchanged, truncated, extended and mutated. The seed of the mutations is
+/// The inputs made of bytes: the bytes unchanged, truncated, extended and mutated. The seed of mutations is
 /// derived from the bytes, so that a new vector does not change the inputs made of other vectors.
 fn inputs(bytes: &[u8]) -> Vec<Vec<u8>> {
     let len = bytes.len();
@@ -233,8 +234,8 @@ fn addresses(rows: &mut Rows) {
         let mut random = Random(u64::from(group));
         for &offset in &offsets {
             for port in [AmsPort::SDA, AmsPort::COM, AmsPort(random.pick(&[550, 551, 554]))] {
-                for service in [Service::Read, Service::Write, Service::ReadWrite] {
-                    let has_data = service != Service::Read || random.below(8) == 0;
+                for service in [AdsService::Read, AdsService::Write, AdsService::ReadWrite] {
+                    let has_data = service != AdsService::Read || random.below(8) == 0;
                     let call = Call {
                         port,
                         service,

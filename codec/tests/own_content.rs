@@ -69,7 +69,7 @@ fn content_is_decoded_member_by_member() {
     }
     let longer = [&bytes[..], b"x"].concat();
     assert_eq!(fault_of(Tool::decode(&longer)), fault(Trailing, "stream", 11, (11, 12)));
-    // Content extends to the end of the bytes.
+    // By default, `decode_prefix` decodes content to the end of the bytes.
     assert!(Tool::decode_prefix(bytes).unwrap().1.is_empty());
     assert!(Tool::decode_prefix(&longer).is_err());
 
@@ -85,7 +85,7 @@ fn streams_in_sequence_are_decoded() {
     let (write, rest) = NameWriteRef::decode_prefix(rest).unwrap();
     assert_eq!((read.handle, write.name.to_string()), (Handle(0x200_0004), "V.E.a".to_owned()));
     assert_eq!((write.value, rest), (&[42, 0][..], &[][..]));
-    // A missing count, and a count that exceeds the stream.
+    // The count is truncated, or it exceeds the maximum of the stream.
     let cut = HandleReadRef::decode_prefix(&bytes[..6]).map(|_| ());
     assert_eq!(fault_of(cut), fault(Truncated, "index_count", 4, (4, 2)));
     let many = [&bytes[..4], &[0xFF; 8000]].concat();

@@ -11,7 +11,7 @@ use ads_cnc::sda::*;
 use ads_cnc::streaming::Ack;
 use ads_cnc::*;
 
-/// The request of a server for this operation.
+/// The request to which a server dispatches this request of a client.
 fn dispatched<'b>(request: Request<'_>, buf: &'b mut [u8]) -> Request<'b> {
     let call = request.encode(buf).unwrap();
     call.dispatch().unwrap_or_else(|error| panic!("{request:?}: {error}"))
@@ -35,7 +35,7 @@ fn instances_are_queried_by_number_or_by_index() {
     }
 }
 
-/// An object address is that of the first element, without an attribute.
+/// An object address is the address of the first element; it has no attribute.
 #[test]
 fn elements_keep_their_address() {
     let axis = ChannelAxis::new(2).unwrap();
@@ -83,7 +83,7 @@ fn lists_and_objects_keep_their_address() {
     }
 }
 
-/// Objects are counted from 1; one reply limits their number.
+/// Objects are counted from 1; their number is limited to the number that fits one reply.
 #[test]
 fn reads_of_descriptors_check_first_and_count() {
     const MOST: u32 = ReadDescriptors::COUNT_MAX;
@@ -118,7 +118,7 @@ fn dynamic_values_keep_their_bits() {
 fn dispatch_errors_are_not_retried() {
     let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
     let error = Handle::decode(&[]).unwrap_err();
-    let service = DispatchError::Service { expected: Service::Write, found: Service::Read };
+    let service = DispatchError::Service { expected: AdsService::Write, found: AdsService::Read };
     for error in [
         DispatchError::Port(port),
         DispatchError::Group(group),

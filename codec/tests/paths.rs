@@ -30,14 +30,14 @@ fn printed_names_are_parsed() {
         ("V.G.NP[0].V[0]", Kind::V_G, &[("NP", &[0]), ("V", &[0])], None),
         ("V.G.NP[0].V[1]", Kind::V_G, &[("NP", &[0]), ("V", &[1])], None),
         ("V.G.WZ_AKT.SPDL_AX_NR", Kind::V_G, &[("WZ_AKT", &[]), ("SPDL_AX_NR", &[])], None),
-        // `ads-en` in English …
+        // `ads-en` prints this name in English …
         (
             "V.E.trajectory.vector.x",
             Kind::V_E,
             &[("trajectory", &[]), ("vector", &[]), ("x", &[])],
             None,
         ),
-        // … and `ads-de` in German.
+        // … and `ads-de` prints it in German.
         (
             "V.E.Trajektorie.Vektor.x",
             Kind::V_E,
@@ -68,8 +68,8 @@ fn printed_names_are_parsed() {
     }
 }
 
-/// E-38: one name is printed with a structure that its neighbours do not have. Both are names, of
-/// two variables.
+/// E-38: one printed name contains a structure that the names printed next to it do not contain. With and
+/// without the structure, the name is valid, but it refers to different variables.
 #[test]
 fn the_misprint_is_another_variable() {
     let printed = path("V.E.struct1.struct1[5].struct2[8].array_sgn32");
@@ -100,7 +100,7 @@ fn malformed_names_are_rejected_at_the_fault() {
     };
     let cut = |field, at| fault(Truncated, field, at, (1, 0));
     for (name, wanted) in [
-        // No kind, or an incomplete kind.
+        // Names without a kind, or with an incomplete kind.
         ("", cut("kind", 0)),
         ("V", cut("kind", 1)),
         ("V.", cut("kind", 2)),
@@ -110,17 +110,17 @@ fn malformed_names_are_rejected_at_the_fault() {
         (".E.test", unexpected("kind", 0, '.')),
         ("V..test", unexpected("kind", 2, '.')),
         ("V[0].E.test", unexpected("kind", 1, '[')),
-        // A kind alone, with or without an index.
+        // Names without a part after the kind, and a kind with an index.
         ("V.E", cut("part", 3)),
         ("V.E[0].test", unexpected("part", 3, '[')),
-        // Empty parts.
+        // Names with an empty part.
         ("V.E.", cut("part", 4)),
         ("V.E..test", unexpected("part", 4, '.')),
         ("V.E.test.", cut("part", 9)),
         ("V.E.a[0]..b", unexpected("part", 9, '.')),
         ("V.E.[0]", unexpected("part", 4, '[')),
         ("V.E.a.[0]", unexpected("part", 6, '[')),
-        // Brackets.
+        // Names with wrong brackets.
         ("V.E.a[", cut("index", 6)),
         ("V.E.a[3", cut("index", 7)),
         ("V.E.a[3.b", unexpected("index", 7, '.')),
@@ -134,9 +134,9 @@ fn malformed_names_are_rejected_at_the_fault() {
         ("V.E.a[ 1]", unexpected("index", 6, ' ')),
         ("V.E.a[1,2]", unexpected("index", 7, ',')),
         ("V.E.a[0x1]", unexpected("index", 7, 'x')),
-        // Offsets count characters.
+        // Offsets in errors count characters, not bytes.
         ("V.E.Länge[€]", unexpected("index", 10, '€')),
-        // Indices that exceed every array.
+        // Indices that exceed the largest possible array.
         ("V.E.a[4294967295]", fault(OutOfRange, "index", 6, (4_294_967_294, 4_294_967_295))),
         ("V.E.ä[0][4294967296]", fault(OutOfRange, "index", 9, (4_294_967_294, 4_294_967_295))),
         ("V.E.a[99999999999999999999]", {
@@ -152,7 +152,7 @@ fn malformed_names_are_rejected_at_the_fault() {
     assert_eq!(greek.kind(), NotCp1252);
 }
 
-/// VAR-9: 255 characters, not bytes of UTF-8.
+/// VAR-9: a name has at most 255 characters; bytes of UTF-8 do not count.
 #[test]
 fn names_have_at_most_255_characters() {
     for letter in ["a", "ä"] {
@@ -176,7 +176,7 @@ fn names_have_at_most_255_characters() {
     assert_eq!(VariablePath::write(Kind::V_E, endless, &mut []).unwrap_err().kind(), TooLong);
 }
 
-/// The largest index; several dimensions; leading zeros.
+/// The largest index, several dimensions and leading zeros are parsed.
 #[test]
 fn indices_go_to_the_largest_of_any_dimension() {
     let largest = path("V.E.a[4294967294][0][10]");
@@ -245,7 +245,7 @@ fn axes_are_added_to_names_and_removed() {
         let there = path(on_axis).write_axis(x, &mut buf).unwrap();
         assert_eq!((there, there.axis()), (path(on_channel), Some(x)));
         assert_eq!(there.write_without_axis(&mut [0; 64]).unwrap(), path(on_axis));
-        // From a name of the caller.
+        // The same conversion, from a name of the caller instead of a built name.
         assert_eq!(path(on_channel).write_without_axis(&mut [0; 64]).unwrap(), path(on_axis));
     }
     // An index before the last dot keeps its position.
@@ -294,7 +294,7 @@ fn builders_reject_invalid_names_and_write_nothing() {
     let again = rejected(&|buf| element.write_element(U32List::from(&[2]), buf).err());
     assert_eq!(again, fault(Unexpected, "index", 5, (0, 0x5B)));
 
-    // One byte less than needed.
+    // The buffer has one byte less than needed.
     let short = |build: &dyn Fn(&mut [u8]) -> Option<Error>, len: usize| {
         let mut buf = [0x55; 64];
         let error = build(&mut buf[..len - 1]).expect("rejected");
@@ -365,6 +365,6 @@ proptest! {
     #[test]
     fn any_text_is_parsed_like_split(text in "(V\\.[EA]\\.)?[VEaä.\\[\\]019]{0,24}") {
         let text: Vec<u8> = CncStr::new(&text).unwrap().bytes().collect();
-        let _ = check_name(&text, NameBend::NONE);
+        let _ = check_name(&text, NameMutation::NONE);
     }
 }

@@ -23,7 +23,7 @@ fn samples_and_vectors() -> Vec<(Stream, Vec<u8>)> {
     samples.chain(of_stream).collect()
 }
 
-/// Few bytes, many bytes, or as many as a short stream has at most.
+/// Random bytes for a stream: few bytes, many bytes, or the maximum length if the stream is short.
 fn random_bytes() -> impl Strategy<Value = (Stream, Vec<u8>)> {
     let byte = || prop_oneof![Just(0), 0..4_u8, any::<u8>()];
     (0..SUBJECTS.len(), 0..3).prop_flat_map(move |(subject, length)| {
@@ -47,7 +47,7 @@ fn damaged_bytes() -> impl Strategy<Value = (Stream, Vec<u8>)> {
     )
 }
 
-/// `tests/vectors.rs` checks the results of vectors.
+/// Samples and vectors obey the laws. The results of vectors are checked in `tests/vectors.rs`.
 #[test]
 fn samples_and_vectors_obey_the_laws() {
     for (stream, bytes) in samples_and_vectors() {
@@ -55,7 +55,7 @@ fn samples_and_vectors_obey_the_laws() {
     }
 }
 
-/// Samples with one bit flipped, or one byte of all zeros or ones.
+/// Samples with one bit flipped, or with one byte replaced by 0x00 or 0xFF, obey the laws.
 #[test]
 fn every_byte_of_every_sample_changed_obeys_the_laws() {
     for (stream, sample) in each_sample() {
@@ -80,7 +80,7 @@ proptest! {
         let _ = check(stream, &bytes);
     }
 
-    /// The same for mutated samples and vectors, which are nearly valid.
+    /// For mutated samples and vectors, which are nearly valid, the same laws hold.
     #[test]
     fn damaged_samples_obey_the_laws((stream, bytes) in damaged_bytes()) {
         let _ = check(stream, &bytes);

@@ -1,4 +1,4 @@
-//! The samples: all streams have some, and the field tables split them like the hand-written fields.
+//! The samples: every stream has samples, and a walk splits them into the same fields as by hand.
 
 use std::collections::HashSet;
 
@@ -37,7 +37,7 @@ fn samples_are_accepted_and_encode_to_themselves() {
     }
 }
 
-/// A walk finds the fields that are split by hand.
+/// A walk finds the same fields as those into which the sample is split by hand.
 #[test]
 fn walks_find_the_fields_of_the_samples() {
     for (stream, sample) in each_sample() {

@@ -6,9 +6,9 @@ use ads_cnc::streaming::DiagnosticKind;
 use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
 #[cfg(feature = "alloc")]
 use ads_cnc_vectors::SequenceReject;
-use ads_cnc_vectors::{Given, Pieces, Sequence, SequenceExpect, sequences};
+use ads_cnc_vectors::{Pieces, Sequence, SequenceExpect, SequenceInput, sequences};
 
-/// The cases of a kind; there have to be so many at least.
+/// The cases of a kind. Fails if there are less than `least` cases.
 fn cases(kind: &str, least: usize) -> Vec<&'static Sequence> {
     let found: Vec<_> = sequences().iter().filter(|case| case.kind() == kind).collect();
     assert!(found.len() >= least, "{} of {kind}", found.len());
@@ -18,7 +18,7 @@ fn cases(kind: &str, least: usize) -> Vec<&'static Sequence> {
 #[test]
 fn texts_become_packets() {
     for case in cases("nc-text", 30) {
-        let Given::NcText(given) = &case.given else { unreachable!() };
+        let SequenceInput::NcText(given) = &case.given else { unreachable!() };
         let bytes = given.bytes();
         match (NcText::new(&bytes), &case.expect) {
             (Ok(text), SequenceExpect::Accept(accept)) => {
@@ -62,7 +62,7 @@ fn sent(text: NcText<'_>) -> Vec<Vec<u8>> {
 #[test]
 fn programs_are_checked() {
     for case in cases("nc-check", 50) {
-        let Given::NcCheck(packets) = &case.given else { unreachable!() };
+        let SequenceInput::NcCheck(packets) = &case.given else { unreachable!() };
         let bytes: Vec<u8> = packets.iter().flat_map(Pieces::bytes).collect();
         let text = NcText::new(&bytes).unwrap_or_else(|error| panic!("{}: {error}", case.id));
         assert!(text.is_wire(), "{}", case.id);

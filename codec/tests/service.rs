@@ -8,7 +8,7 @@ use ads_cnc::{CncStr, VariablePath};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::common::machines::{CheckedHost, HostBend, service_ids};
+use super::common::machines::{CheckedHost, HostMutation, service_ids};
 use super::common::{Fault, fault};
 use super::kept;
 
@@ -23,7 +23,7 @@ fn text(text: &str) -> CncStr<'_> {
     CncStr::new(text).unwrap()
 }
 
-/// The variables after a request for the square root of 3.
+/// The values of the variables after a request for the square root of 3.
 fn asked(variable: ServiceVariable) -> &'static [u8] {
     match variable {
         Uuid => ROOT.as_bytes(),
@@ -41,7 +41,7 @@ fn read(host: &mut Host<'_>) {
     }
 }
 
-/// SVC-1: the names, which are well-formed, and the types.
+/// SVC-1: the five variables have the documented names, which are valid names, and types.
 #[test]
 fn the_five_variables_have_their_names_and_types() {
     let names = ServiceVariable::ALL.map(ServiceVariable::name);
@@ -138,8 +138,8 @@ fn an_answer_is_written_in_order() {
     assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Answered)));
 }
 
-/// SVC-5, E-35: a response state of 0 and a response longer than its field are rejected; another
-/// answer to the same request is taken.
+/// SVC-5, E-35: a response state of 0 and a response longer than its field are rejected; the host then
+/// accepts another answer to the same request.
 #[test]
 fn answers_that_are_rejected() {
     let ids = [id(ROOT)];
@@ -159,7 +159,8 @@ fn answers_that_are_rejected() {
     assert_eq!((value.len(), &value[125..]), (128, &b"\xE4\xE4\0"[..]));
 }
 
-/// A malformed value is an error: the host waits, or reads it again if it has an answer.
+/// A malformed value is an error. After it, the host waits; if the host already has an answer, it reads the
+/// value again.
 #[test]
 fn malformed_values_are_rejected() {
     let ids = [id(ROOT)];
@@ -182,7 +183,7 @@ fn malformed_values_are_rejected() {
     assert_eq!(host.step(), HostStep::Read(RequestState));
     host.read(asked(RequestState)).unwrap();
     host.read(asked(Uuid)).unwrap();
-    // Another request than the one that was answered.
+    // The request is not the answered request any more, so the answer is dropped.
     host.read(&[b'3'; 128]).unwrap();
     assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
@@ -221,13 +222,13 @@ fn failed_writes_are_checked_and_repeated() {
             }
         }
         assert_eq!(host.outcome(), Some(Outcome::Answered), "{failing}");
-        // Only a RESPONSE that took effect is written again, which has no effect.
+        // Only the write of RESPONSE is repeated although it took effect; the repetition changes nothing.
         let times = writes.iter().filter(|variable| **variable == failing).count();
         assert_eq!(times, if arrives && failing == Response { 2 } else { 1 }, "{failing}");
     }
 }
 
-/// One value of a variable, or of none.
+/// A random value of a variable, valid or invalid.
 fn value() -> impl Strategy<Value = Vec<u8>> {
     let [one, other] = service_ids().map(|id| id.to_string());
     prop_oneof![
@@ -262,11 +263,11 @@ proptest! {
         events in vec((0..24_u8, value(), request(), 0..4_u32), 0..150),
     ) {
         let ids = service_ids();
-        let mut host = CheckedHost::new(&ids, HostBend::NONE);
+        let mut host = CheckedHost::new(&ids, HostMutation::NONE);
         for (event, value, request, state) in events {
             match event {
                 0..6 => host.read(&value),
-                // A request, read as often as it takes to be served or dropped.
+                // A request that is read twice in sequence, so that it is served or dropped.
                 6..12 => request.iter().cycle().take(6).for_each(|value| host.read(value)),
                 12..14 => request.iter().for_each(|value| host.read(value)),
                 14..17 => host.written(),

@@ -48,7 +48,7 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(Handle(0x2001_2341), "0x20012341");
 }
 
-/// Undocumented codes are displayed as numbers.
+/// Codes are displayed by name; undocumented codes are displayed as numbers.
 #[test]
 fn codes_are_displayed_by_name() {
     shows(VariableType::REAL64, "REAL64");
@@ -122,6 +122,18 @@ fn streams_and_fields_have_their_names() {
     }
 }
 
+/// The iterators of lists show the remaining items.
+#[test]
+fn iterators_show_the_remaining_items() {
+    let mut numbers = U32List::from(&[3, 9, 27]).iter();
+    numbers.next();
+    debugs(numbers, "U32Iter([9, 27])");
+    let descriptors = DescriptorsRef::decode(&[0; 168]).unwrap();
+    let mut objects = descriptors.iter();
+    objects.next();
+    debugs(objects, &format!("DescriptorIter({:?})", descriptors.slice(1, 1)));
+}
+
 #[test]
 fn texts_are_in_characters_with_their_end() {
     let text = CncStr::new("Größe \"€\"").unwrap();
@@ -189,7 +201,7 @@ fn services_have_their_names() {
     let tasks = [Task::Geo, Task::Sda, Task::Com];
     assert_eq!(tasks.map(|task| task.to_string()), ["GEO", "SDA", "COM"]);
     shows(Function::ReadByName, "read variable value by name");
-    // The text that a machine holds in CP1252 is shown in characters.
+    // `Debug` of a host displays its CP1252 text as characters.
     let ids = [shown];
     let mut host = Host::new(&ids);
     while let HostStep::Read(variable) = host.step() {

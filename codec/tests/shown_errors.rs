@@ -113,7 +113,7 @@ fn errors_explain_the_fault() {
     }
 }
 
-/// Errors of arguments use the terms of the caller.
+/// The text of an error about an argument names the argument of the constructor, not a field.
 #[test]
 fn errors_of_arguments_name_the_argument() {
     let text = |error: Error| error.to_string();
@@ -219,7 +219,7 @@ fn kinds_have_different_texts() {
 fn dispatch_errors_have_a_text_and_a_number() {
     let call = Call {
         port: AmsPort::SDA,
-        service: Service::ReadWrite,
+        service: AdsService::ReadWrite,
         index_group: IndexGroup::new(0x12_2301),
         index_offset: IndexOffset::new(0x46),
         read_length: 4,
@@ -245,7 +245,7 @@ fn dispatch_errors_have_a_text_and_a_number() {
         plain("no function has index offset 0x4e", AdsError::INVALID_OFFSET)
     );
     assert_eq!(
-        rejected(Call { service: Service::Write, ..call }),
+        rejected(Call { service: AdsService::Write, ..call }),
         plain("the function takes ReadWrite, not Write", AdsError::SERVICE_NOT_SUPPORTED)
     );
     let stream =

@@ -37,7 +37,8 @@ fn results_are_converted_to_acknowledgements() {
     }
 }
 
-/// 989 and 990 characters are accepted, 991 rejected, at any position and with any line end.
+/// Lines of 989 and 990 characters are accepted, lines of 991 characters are rejected, at any position of
+/// the text and with any line end.
 #[test]
 fn lines_are_accepted_up_to_990_characters() {
     for end in ["", "\n", "\r\n", "\r"] {
@@ -60,7 +61,7 @@ fn lines_are_accepted_up_to_990_characters() {
     }
 }
 
-/// Two lines that leave one byte of a packet, fill it, and exceed it by one byte.
+/// Two lines that together have one byte less than a packet, exactly fill it, or have one byte more.
 #[test]
 fn packets_are_filled_to_the_last_byte() {
     for end in ENDS {
@@ -161,7 +162,7 @@ fn a_sender_counts_busy_results() {
     assert_eq!((sender.busy_count(), sender.packet()), (0, None));
 }
 
-/// Lines of many lengths with all line ends; the last may lack its line end.
+/// Random lines of many lengths with all line ends; the last line may lack its line end.
 fn text() -> impl Strategy<Value = Vec<u8>> {
     let len = prop_oneof![8 => 0..60_usize, 1 => 60..=990_usize, 1 => 980..=990_usize];
     let line =
@@ -190,8 +191,8 @@ fn text() -> impl Strategy<Value = Vec<u8>> {
     )
 }
 
-/// An open last line that a packet has room to close is not as sent, and nor is what comes with it;
-/// where there is none, what stands before it is.
+/// The last line lacks its line end. If it fits into the packet with CR LF, the packet cannot be borrowed
+/// from the text; otherwise the packet consists of the lines before it, which can be borrowed.
 #[test]
 fn open_lines_are_borrowed_up_to() {
     for (last, borrowed) in [(987, None), (988, Some(&b"X\r\n"[..]))] {
@@ -214,9 +215,10 @@ proptest! {
         let at = at.index(text.len() + 1);
         let line = reference_lines(&text[..at]).len() + usize::from(at == 0 || b"\r\n".contains(&text[at - 1]));
         let column = at - text[..at].iter().rposition(|byte| b"\r\n".contains(byte)).map_or(0, |end| end + 1) + 1;
-        // Between CR and LF, it is a separate line; a line of 990 characters becomes too long after it.
+        // A byte inserted between CR and LF is a line of its own. A byte inserted into a line of 990
+        // characters makes the line too long.
         let bad = [&text[..at], &[byte], &text[at..]].concat();
-        prop_assert!(check_text(&bad, TextBend::NONE).is_err());
+        prop_assert!(check_text(&bad, TextMutation::NONE).is_err());
         let error = NcText::new(&bad).unwrap_err();
         let kind = if byte == 0 { LineErrorKind::Nul } else { LineErrorKind::NotAscii { byte } };
         if column <= NC_LINE_MAX {
@@ -230,7 +232,7 @@ proptest! {
     /// repetitions, and the counts agree.
     #[test]
     fn a_sender_loses_and_repeats_nothing(text in text(), acks in vec(0..20_u8, 0..200), twice in any::<bool>()) {
-        let mut sender = CheckedSender::new(&text, SenderBend::NONE);
+        let mut sender = CheckedSender::new(&text, SenderMutation::NONE);
         for ack in acks {
             sender.acknowledge(Ack::Accepted);
             for _ in 0..=u8::from(twice) {

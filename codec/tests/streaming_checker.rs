@@ -1,4 +1,4 @@
-//! The checks of a text packet by packet. The split only matters where it is documented.
+//! The checks of a text packet by packet. The split into packets only matters where this is documented.
 #![cfg(feature = "alloc")]
 
 use ads_cnc::streaming::{CheckEvent, Checker, ProgramEnd};
@@ -10,7 +10,7 @@ use super::common::checker::{CheckedLots, check_any_lots, check_lines as check};
 use super::common::findings::findings_of as whole;
 use super::kept;
 
-/// The example of 2.3.6, packet by packet, also with its last jump reversed.
+/// The example in section 2.3.6 of `stream-en`, packet by packet, also with its last jump reversed.
 #[test]
 fn jumps_of_the_example() {
     let packets = [
@@ -47,7 +47,7 @@ fn blocks_ends_and_programs_are_carried_over() {
     assert_eq!(check(&mut checker, b"$GOTO N2\r\n").0.len(), 1);
 }
 
-/// A jump to a label before and after it; the split decides.
+/// For a jump whose label is both before and after it, the split decides whether it goes back.
 #[test]
 fn a_later_label_counts_if_it_is_in_the_same_part() {
     let lines = [&b"N1:\r\n"[..], b"$GOTO N1\r\n", b"N1:\r\n"];
@@ -57,7 +57,7 @@ fn a_later_label_counts_if_it_is_in_the_same_part() {
     assert_eq!(lines.map(|line| check(&mut checker, line).0.len()), [0, 1, 0]);
 }
 
-/// A program end counts even if its event was not requested.
+/// A program end affects later lines even if the iterator was dropped before its event.
 #[test]
 fn events_that_are_not_requested_count() {
     let mut checker = Checker::new();
@@ -90,7 +90,7 @@ fn remaining_lines_are_available_after_a_program_end() {
     assert_eq!(checker.lines(), 6);
 }
 
-/// Any bytes are accepted, as received through the interface.
+/// Any bytes are accepted, because a CNC may receive any bytes.
 #[test]
 fn bytes_that_are_not_text_are_accepted() {
     let mut checker = Checker::new();
@@ -116,7 +116,7 @@ fn only_recent_labels_are_remembered() {
     }
 }
 
-/// Lines that are difficult in combination.
+/// Random lines whose parts are difficult to parse in combination.
 fn line() -> impl Strategy<Value = Vec<u8>> {
     let piece = select(vec![
         "$FOR",
@@ -146,7 +146,8 @@ fn line() -> impl Strategy<Value = Vec<u8>> {
         .prop_map(|(pieces, end)| (pieces.concat() + end).into_bytes())
 }
 
-/// Lines, and the number of lines in each part. A lone LF, separated from a CR, would join it.
+/// Random parts of random lines. No line that begins with LF follows a line that ends in CR: together, both
+/// would be one line end.
 fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
     vec(vec(line(), 1..6), 0..14).prop_filter("LF behind CR", |lots| {
         let lines: Vec<&Vec<u8>> = lots.iter().flatten().collect();
@@ -171,7 +172,7 @@ fn any_bytes_in_any_parts_are_accepted(lots in vec(vec(any::<u8>(), 0..60), 0..6
     check_any_lots(lots.iter().map(Vec::as_slice));
 }
 
-/// If labels are unique, the split does not matter.
+/// If all labels are unique, the split does not change the diagnostics.
 #[test]
 fn the_split_does_not_matter_for_unique_labels(
     mut lines in vec(line(), 0..60),
@@ -179,7 +180,7 @@ fn the_split_does_not_matter_for_unique_labels(
 ) {
     let mut seen = std::collections::BTreeSet::new();
     for (at, line) in lines.iter_mut().enumerate() {
-        // Makes a label in the line unique, even in a comment.
+        // Remove a label that an earlier line has, even in a comment.
         let mut text = String::from_utf8(line.clone()).unwrap().replace(['\r', '\n'], "");
         for label in ["N1:", "N2:", "N01 :", "[A]"] {
             if text.contains(label) && !seen.insert(label.replace(['0', ' '], "")) {

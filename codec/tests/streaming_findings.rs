@@ -30,7 +30,7 @@ const COMMENT: &str = "%commentstream\nN010 G00 X0 Y0 Z0 (Move to start position
     #HSC ON [OPMODE 2]\nN22 (==========)\nN22 (PROG NAME : Test.nc)\nN25 (HISTORY :)\n\
     N29 S30000 M03\nN32 G01 X14.4 Y9.216\n#COMMENT END\nN33 G01 X14.4 Y9.216 F30000\nM30\n";
 
-/// `stream-en` 2.3.6: jumps within a packet and into the next but one.
+/// `stream-en` 2.3.6: a jump within a packet, and a jump that skips a packet.
 const FORWARD: &str = "N01 G01 X0 Y0 Z0 F1000\nN10 G01 X20\nN20 $GOTO N40\nN30 G01 Z40\n\
     N40: G01 X40\nN50 $GOTO N80\nN60 G01 Y20\nN70 G01 Y40\nN80: G01 X-20\nN90 G01 X-40\nM30\n";
 
@@ -39,7 +39,7 @@ fn printed_examples_are_clean() {
     clean(SWITCH);
     clean(COMMENT);
     clean(FORWARD);
-    // 2.3.1, 2.3.2 and, with parentheses that are not closed, 2.3.7.
+    // The examples of 2.3.1, 2.3.2 and 2.3.7; the last one has parentheses that are not closed.
     clean("N10 G01 X200 F1000\nN20 X240 Y100\nN30 X200 Y0\nN40 #FLUSH CONTINUE");
     clean("N10 G01 X200 F1000\nN20 X240 Y100\nN30 X200 Y0\nN40 L subprogram.nc\n");
     clean(
@@ -75,7 +75,7 @@ fn numbers_after_comments_are_skipped() {
     }
 }
 
-/// The same examples with one change.
+/// The same examples have a diagnostic after one change.
 #[test]
 fn changed_examples_have_diagnostics() {
     let with = |text: &str, from: &str, to: &str| {
@@ -112,7 +112,7 @@ fn each_loop_word_is_found() {
             let kinds: Vec<_> = text.diagnostics().map(|finding| finding.kind).collect();
             assert_eq!(kinds, [DiagnosticKind::Loop(word)]);
         }
-        // Another word, a quoted one, and none.
+        // A longer word, the word in quotes, and the word without `$` are not words of a loop.
         clean(&format!("{word}X 1\n#MSG [\"{word}\"]"));
         clean(&word.to_string()[1..]);
     }
@@ -147,7 +147,7 @@ fn comments_hide_words_and_only_words() {
     ] {
         assert_eq!(findings(code), [format!("line 1, column {column}: $FOR in a stream (STM-8)")]);
     }
-    // Neither begins nor ends a block.
+    // These lines neither begin nor end a comment block.
     for no_block in [
         "X1 #COMMENT BEGIN",
         "(#COMMENT BEGIN)",
@@ -184,13 +184,13 @@ fn jumps_back_are_found_and_no_others() {
         assert!(found[0].ends_with(&format!(": $GOTO back to line {to} (STM-8)")), "{found:?}");
     }
     for no_back in [
-        // A label after the jump, before and after it, or nowhere.
+        // The label is after the jump, before and after the jump, or missing.
         "$GOTO N1\nN1:",
         "N1:\n$GOTO N1\nN1:",
         "$GOTO N1",
         "N1:\n$GOTO N11\nN11:",
         "N1:\n$GOTO N11",
-        // No jump, or a jump to an expression.
+        // The line has no jump, or a jump to an expression.
         "N1:\n($GOTO N1)",
         "N1:\n;$GOTO N1",
         "N1:\n\"$GOTO N1\"",
@@ -200,7 +200,7 @@ fn jumps_back_are_found_and_no_others() {
         "N1:\n$GOTOX N1",
         "[A]\n$GOTO V.E.A",
         "[A]\n$GOTO [A",
-        // No label.
+        // The first line has no such label.
         "N1\n$GOTO N1",
         "(N1:)\n$GOTO N1",
         ";N1:\n$GOTO N1",
@@ -210,14 +210,14 @@ fn jumps_back_are_found_and_no_others() {
         "N[1]:\n$GOTO N1",
         "N1:\n$GOTO [1]",
         "[1]\n$GOTO N1",
-        // The label of another program.
+        // The label belongs to another program.
         "%L sub\nN1:\nM29\n%main\n$GOTO N1",
     ] {
         let jumps: Vec<_> =
             findings(no_back).into_iter().filter(|found| found.contains("GOTO")).collect();
         assert_eq!(jumps, [""; 0], "{no_back}");
     }
-    // Of two programs each has its label.
+    // Each of two programs has its own label N1.
     let two = "%L sub\nN1:\n$GOTO N1\nM29\n%main\nN1:";
     assert_eq!(findings(two)[0], "line 3, column 1: $GOTO back to line 2 (STM-8)");
 }
@@ -278,7 +278,7 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
     ] {
         clean(&format!("{no_end}\nX1"));
     }
-    // Each program end has its diagnostic, and so do the words after it.
+    // Each program end causes a diagnostic, and the words after it cause their own diagnostics.
     assert_eq!(
         findings("M30\n$DO\nX1\nM17\nX1\n%next\nM2"),
         [
@@ -297,7 +297,7 @@ fn diagnostics_have_a_requirement_and_a_consequence() {
     assert_eq!(found, [("STM-8", true), ("STM-8", true), ("STM-10", false), ("STM-9", false)]);
 }
 
-/// Very many jumps: far and near, back and forward.
+/// A text with many jumps: to near and far lines, back and forward.
 #[test]
 fn jumps_back_are_found_among_many_labels() {
     let count = 5000;
@@ -309,7 +309,7 @@ fn jumps_back_are_found_among_many_labels() {
     clean(&jumps().zip(labels()).map(|(jump, label)| jump + &label).collect::<String>());
 }
 
-/// A line of a program with jumps; labels 0 to 5.
+/// A line of a random program with jumps; the labels are 0 to 5.
 #[derive(Clone, Copy, Debug)]
 enum Line {
     Label(u8),
@@ -356,7 +356,7 @@ impl Line {
     }
 }
 
-/// The jumps back, by their definition: (line, line of the label), from 0.
+/// The expected jumps back, by their definition: line of the jump and line of the label, both from 0.
 fn jumps_back(program: &[Line]) -> Vec<(usize, usize)> {
     let is_title = |line: &Line| matches!(line, Line::Program);
     let mut back = Vec::new();
@@ -373,7 +373,7 @@ fn jumps_back(program: &[Line]) -> Vec<(usize, usize)> {
     back
 }
 
-/// Pieces that are difficult in combination.
+/// Random texts of pieces that are difficult to parse in combination.
 fn pieces() -> impl Strategy<Value = String> {
     let piece = select(vec![
         "$FOR",
@@ -425,8 +425,8 @@ fn jumps_back_are_found_as_defined(program in program()) {
     prop_assert_eq!(found, wanted);
 }
 
-/// For any text, diagnostics are finite, within the text, in its order, and independent of line ends;
-/// the text as a comment has none.
+/// For any text, the diagnostics are finite, within the text, in its order, and independent of line ends.
+/// If the text is a comment, it has no diagnostics.
 #[test]
 fn findings_of_any_text(text in pieces()) {
     check_findings(text.as_bytes(), |_, _| ());

@@ -1,18 +1,18 @@
-//! The numbers that clients and servers share, each written a second time; those of functions as a
-//! snapshot.
+//! The numbers that clients and servers must agree on, each repeated here; the numbers of functions are in
+//! a snapshot.
 
 use ads_cnc::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::Service::{Read, ReadWrite, Write};
+use ads_cnc::operation::AdsService::{Read, ReadWrite, Write};
 use ads_cnc::operation::{Call, CountDynamic, DispatchError, Effect, Function, Operation, Task};
 use ads_cnc::*;
 
 use super::common::CALLS;
 
-/// A snapshot of the row of each function and the read length of its call. A gateway may decide by the
-/// effect.
+/// A snapshot of the row of each function and the read length of its call. The row contains the effect, by
+/// which a gateway may decide which calls to permit.
 #[test]
 fn functions_are_where_the_manuals_put_them() {
     let mut shown = String::new();
@@ -37,7 +37,7 @@ fn functions_are_where_the_manuals_put_them() {
     });
 }
 
-/// The effect of each write. A gateway may decide by the effect.
+/// The effect of each function that writes, by which a gateway may decide which calls to permit.
 #[test]
 fn writes_have_these_effects() {
     let writes = Function::ALL.iter().filter(|it| it.spec().effect != Effect::Query);
@@ -95,13 +95,13 @@ fn the_axis_interface_begins_at_axis_1() {
         assert_eq!(u32::from(op.axis.index()), place);
     }
     for absent in [6, 0x1_0003, 0x1_0007, 0x1_0044] {
-        let refusal = DispatchError::Offset(IndexOffset::new(absent));
-        assert_eq!(call(absent).dispatch(), Err(refusal));
+        let error_of = DispatchError::Offset(IndexOffset::new(absent));
+        assert_eq!(call(absent).dispatch(), Err(error_of));
     }
-    // At axis 0 they count variables.
+    // With axis 0, the elements 4 and 5 are functions of the channel interface, which require ReadWrite.
     for count in [4, 5] {
-        let refusal = DispatchError::Service { expected: Read, found: ReadWrite };
-        assert_eq!(call(count).dispatch(), Err(refusal));
+        let error_of = DispatchError::Service { expected: Read, found: ReadWrite };
+        assert_eq!(call(count).dispatch(), Err(error_of));
     }
 }
 
@@ -210,7 +210,7 @@ fn axis_0_is_rejected() {
     for absent in [0x13_0200, 0x3_0200] {
         assert_eq!(call(absent).dispatch(), Err(DispatchError::Group(IndexGroup::new(absent))));
     }
-    // Channel 0 has no variables.
+    // Channel 0 has no functions for variables.
     let variables = Channel::new(1).unwrap().class(Class::Decoder, Attribute::Content);
     assert_eq!(variables.get() & 0xFF, 1);
     let data = b"V.E\0";
@@ -224,7 +224,8 @@ fn axis_0_is_rejected() {
     assert!(matches!(of_channel_0.dispatch(), Err(DispatchError::Offset(_))));
 }
 
-/// A server that allocates by the requested count does not allocate 4 GiB.
+/// The count of a dispatched request is limited, so a server that allocates by this count does not allocate
+/// 4 GiB.
 #[test]
 fn counts_of_descriptors_are_bounded() {
     let call = Call {

@@ -9,7 +9,7 @@ use ads_cnc::limits::*;
 
 use super::common::each_sample;
 
-/// `codec/doc` contains the tables of types that are written by hand.
+/// The tables of the types that are written by hand are in `codec/doc`, generated from the field tables.
 #[test]
 fn documentation_shows_the_tables() {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("doc");
@@ -70,7 +70,7 @@ fn length(layout: &Layout) -> String {
     }
 }
 
-/// The stream of one record of a stream of records.
+/// For a stream of records: the stream that consists of a single such record.
 fn record(stream: Stream) -> Option<Stream> {
     let fields = stream.layout().fields;
     stream.layout().repeats.then(|| {
@@ -103,7 +103,7 @@ fn size(size: Size, counter: Option<&FieldSpec>) -> String {
     }
 }
 
-/// The letter of a count in the manual, from the meaning of the count.
+/// The letter that the manual uses for a count, found in the meaning of the count.
 fn letter(fields: &[FieldSpec]) -> &'static str {
     let words = fields.iter().flat_map(|row| row.meaning.split(|c: char| !c.is_alphanumeric()));
     words.into_iter().find(|word| ["m", "n"].contains(word)).expect("a letter for the count")
@@ -126,7 +126,7 @@ fn offsets_are_where_walks_find_the_fields() {
                     _ => 0,
                 };
                 let before = text;
-                // The table counts only the NUL of a text that other fields follow.
+                // For a text that other fields follow, the offsets of the table only include the NUL.
                 if let Size::CStringPrefix { .. } = row.size {
                     text = segment.bytes.len() as u32 - 1;
                 }
@@ -185,7 +185,7 @@ fn names_are_unique() {
     }
 }
 
-/// A BOOLEAN is decoded like an UNS08; only the table shows the type.
+/// The table has the type BOOLEAN; the decoder would accept the same bytes for an UNS08.
 #[test]
 fn the_write_flag_is_a_boolean() {
     assert_eq!(Stream::ElementWriteFlag.layout().fields[0].ty, Type::Boolean);
@@ -202,7 +202,7 @@ fn limits_are_the_numbers_of_the_clauses() {
     assert_eq!([DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN], [84, 32]);
     assert_eq!([AMS_TCP_HEADER_LEN, AMS_HEADER_LEN, ADS_DATA_MAX], [6, 32, 0x40_0000]);
     assert_eq!([STREAM_PACKET_MAX, STREAM_MAX, NC_LINE_MAX], [992, 4094, 990]);
-    // Streams without a named limit.
+    // Maximum lengths of streams that have no named limit.
     for (stream, max) in [
         (Stream::ReadReply, 8 + ADS_DATA_MAX),
         (Stream::ReadWriteReply, 8 + ADS_DATA_MAX),

@@ -18,7 +18,7 @@ fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Result<Shape<'_>
     Shape::new(data_type, dimensions.into(), size)
 }
 
-/// The values of sections 4.3.4, 4.3.5 and 4.3.10; SGN32 and REAL64 are assumed.
+/// The replies printed in sections 4.3.4, 4.3.5 and 4.3.10; their types SGN32 and REAL64 are assumed.
 #[test]
 fn printed_replies() {
     let channel = Channel::new(1).unwrap();
@@ -41,7 +41,7 @@ fn printed_replies() {
     assert!(value.iter().eq([Element::Real64(1234.2)]));
 }
 
-/// One element of each type, from Python's `struct`.
+/// One element of each type; the expected bytes were computed with Python's `struct`.
 #[test]
 fn each_type_is_read_and_written() {
     let rows: [(DataType, &[u8], Element<'_>); 11] = [
@@ -124,7 +124,7 @@ fn values_by_description() {
     let one = ValueRef { bytes: &[7] };
     assert_eq!(variable.element(&one), Ok(Element::Boolean(Boolean(7))));
 
-    // One cannot be decoded as the other.
+    // The value of the array cannot be decoded as one element, nor the value of one element as the array.
     assert_eq!(fault_of(variable.element(&value)), fault(Trailing, "value", 1, (1, 2)));
     assert_eq!(fault_of(variable.elements(&one)), fault(Truncated, "value", 0, (2, 1)));
 
@@ -188,7 +188,7 @@ fn texts_of_an_array_share_its_bytes() {
     assert_eq!(shares(0), fault(Mismatch, "size", 0, (4, 0)));
 }
 
-/// The error of a wrong index has its position, its maximum and its value.
+/// The error for a wrong index has the position of the index, its maximum and its value.
 #[test]
 fn errors_name_the_wrong_index() {
     let bytes = [0; 24];
@@ -212,7 +212,7 @@ fn errors_name_the_wrong_index() {
     let other = elements.items::<u32>().map(|_| ());
     assert_eq!(fault_of(other), fault(Mismatch, "type", 0, (7, 6)));
 
-    // Indices of a name.
+    // The indices can be those of a name.
     let path = VariablePath::new("V.E.field[1][2]").unwrap();
     assert_eq!(elements.shape().index_of(path.elements()), Ok(5));
 }
@@ -256,7 +256,7 @@ fn a_dimension_of_0_has_no_element() {
         assert!(Elements::new(data_type, U32List::from(&[0]), &[1]).is_err());
         assert_eq!(fault_of(shape(data_type, &[0, 7], 1)), fault(Mismatch, "size", 0, (0, 1)));
     }
-    // The product of the others exceeds 32 bits.
+    // The product of the other dimensions exceeds 32 bits.
     let late = [u32::MAX, u32::MAX, 0];
     assert!(elements(DataType::Uns08, &late, &[]).is_empty());
     assert_eq!(ValueRef { bytes: &[] }.iter::<f64>().unwrap().len(), 0);
@@ -280,7 +280,7 @@ fn sizes_do_not_wrap() {
     );
 }
 
-/// Values with a product that exceeds 32 bits, or with an undocumented type.
+/// Values are rejected if the product of their dimensions exceeds 32 bits, or their type is undocumented.
 #[test]
 fn values_without_a_valid_size_are_rejected() {
     let value = ValueRef { bytes: &[] };

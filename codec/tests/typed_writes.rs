@@ -10,7 +10,7 @@ use ads_cnc::*;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::common::shapes::{Described, ShapeBend, check_shape};
+use super::common::shapes::{Described, ShapeMutation, check_shape};
 use super::common::{check_typed, fault, fault_of};
 use super::kept;
 
@@ -20,7 +20,7 @@ fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Shape<'_> {
     Shape::new(data_type, dimensions.into(), size).unwrap()
 }
 
-/// Values to write from all sources have the expected bytes.
+/// A `WriteValue` from any supported Rust type has the expected bytes.
 #[test]
 fn values_to_write_are_their_bytes() {
     let bytes = 1.5_f64.to_le_bytes().to_vec();
@@ -51,7 +51,7 @@ fn names_are_accepted_from_all_text_types() {
     assert_eq!(ReadByName::new(channel, &String::from("V.E.x")).unwrap(), wanted);
 }
 
-/// An owned, borrowed or listed descriptor addresses its object.
+/// An owned descriptor, a borrowed descriptor and one from a list address the same object.
 #[test]
 fn objects_are_addressed_by_their_descriptors() {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(3));
@@ -63,7 +63,7 @@ fn objects_are_addressed_by_their_descriptors() {
     assert!(items.iter().all(|item| ReadObject::of(item).unwrap() == wanted));
 }
 
-/// The writes of sections 4.3.6, 4.3.7 and 4.3.11; SGN32 and REAL64 are assumed.
+/// The writes printed in sections 4.3.6, 4.3.7 and 4.3.11; their types SGN32 and REAL64 are assumed.
 #[test]
 fn printed_writes() {
     let channel = Channel::new(1).unwrap();
@@ -110,7 +110,7 @@ fn requests_accept_values_up_to_their_limits() {
     assert_eq!(by_name(&[1; 2040], "V.E.abc"), Ok(2048));
     assert_eq!(by_name(&[1; 2041], "V.E.abc").unwrap_err().kind(), TooLong);
 
-    // Content may be longer, up to the limit of ADS data.
+    // The content of an object may be longer, up to the limit of ADS data.
     let content = vec![0_u64; limits::ADS_DATA_MAX / 8 + 1];
     let error = content.encode_value(&mut []).unwrap_err();
     assert_eq!((error.kind(), error.expected()), (TooLong, 0x40_0000));
@@ -174,13 +174,13 @@ fn texts_fit_their_size() {
     assert_eq!(fault_of(too_long), fault(TooLong, "value", 3, (3, 4)));
     let two = three.encode_texts(&texts[..2], buf);
     assert_eq!(fault_of(two), fault(Mismatch, "count", 0, (3, 2)));
-    // Three texts of different sizes.
+    // The elements of these strings have another size than the elements of the shape.
     let strings = Elements::new(DataType::String, U32List::from(&dimensions), b"abcabc").unwrap();
     assert_eq!(fault_of(three.encode(&strings, buf)), fault(Mismatch, "size", 0, (9, 6)));
     assert_eq!(*buf, [0x55; 16]);
 }
 
-/// Signalling NaNs stay signalling.
+/// Encoding and decoding do not change signalling NaNs to quiet NaNs.
 #[test]
 fn nans_keep_their_bits() {
     let (single, double) = (b"\x01\0\x80\xff", b"\x01\0\0\0\0\0\xf0\x7f");
@@ -191,7 +191,7 @@ fn nans_keep_their_bits() {
     }
 }
 
-/// The bits of every number, including NaNs with payloads.
+/// Checks that numbers encode to these bits and decode from them, including NaNs with payloads.
 fn check_numbers<T: Scalar>(numbers: &[T], bits: &[u8]) {
     let mut buf = vec![0; bits.len()];
     assert_eq!(numbers.encode_value(&mut buf), Ok(bits));
@@ -203,7 +203,7 @@ fn check_numbers<T: Scalar>(numbers: &[T], bits: &[u8]) {
     }
 }
 
-/// Dimensions with a small number of elements, and their bytes.
+/// Random dimensions of an array with few elements, and random bytes for the elements.
 fn array() -> impl Strategy<Value = (Vec<u32>, Vec<u8>)> {
     vec(0..5_u32, 0..5).prop_flat_map(|dimensions| {
         let count = dimensions.iter().product::<u32>() as usize;
@@ -211,7 +211,7 @@ fn array() -> impl Strategy<Value = (Vec<u32>, Vec<u8>)> {
     })
 }
 
-/// Every index of these dimensions, in nested loops: the last index varies fastest.
+/// All indices of an array, in the order of nested loops: the last index varies fastest.
 fn all_indices(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let Some((&first, rest)) = dimensions.split_first() else { return vec![vec![]] };
     let rest = all_indices(rest);
@@ -284,7 +284,7 @@ proptest! {
         prop_assert!(find(&indices).is_ok_and(|index| index < array.count()));
         indices[at] = dimensions[at].saturating_add(over % 3);
         let error = fault_of(find(&indices));
-        // No UNS32 exceeds the largest dimension.
+        // The sum saturates if the dimension is 0xFFFF_FFFF.
         if indices[at] >= dimensions[at] {
             let (last, index) = (dimensions[at] as usize - 1, indices[at] as usize);
             prop_assert_eq!(error, fault(OutOfRange, "index", at, (last, index)));
@@ -302,7 +302,7 @@ proptest! {
         for size in [size, bytes.len() as u32] {
             let (dimensions, indices) = (&given[..], &picks[..given.len()]);
             let of = Described { data_type, dimensions, size, indices, bytes: &bytes };
-            let _ = check_shape(&of, ShapeBend::NONE);
+            let _ = check_shape(&of, ShapeMutation::NONE);
         }
         for size in [size, bytes.len() as u32] {
             let Ok(shape) = Shape::new(data_type, dimensions, size) else { continue };

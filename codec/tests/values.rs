@@ -14,12 +14,12 @@ use proptest::prelude::*;
 use super::common::check_value;
 use super::kept;
 
-/// CP1252 text of at most `max` bytes.
+/// Random CP1252 text of at most `max` bytes.
 fn text(max: usize) -> impl Strategy<Value = CncString> {
     vec(1..=u8::MAX, 0..=max).prop_map(|bytes| CncStr::from_bytes(&bytes).expect("no NUL").into())
 }
 
-/// Text of a request, with or without padding.
+/// Random text of a request, with or without padding.
 fn request_text() -> impl Strategy<Value = Text> {
     (text(255), 0..256_usize).prop_map(|(text, padding)| {
         let room = 255 - text.as_bytes().len();
@@ -27,7 +27,7 @@ fn request_text() -> impl Strategy<Value = Text> {
     })
 }
 
-/// Text of a description with any of its ends, at least one byte.
+/// Random text of a description, with any possible end; the field has at least one byte.
 fn open_text() -> impl Strategy<Value = Text> {
     (text(255), prop::option::of(vec(any::<u8>(), 0..256))).prop_map(|(text, tail)| {
         let room = 255 - text.as_bytes().len();
@@ -41,7 +41,7 @@ fn data() -> impl Strategy<Value = Vec<u8>> {
     vec(any::<u8>(), 0..300)
 }
 
-/// Result and data of a reply; only an error may have no data (ADS-6).
+/// Random result and data of a reply; only a reply with an error may have no data (ADS-6).
 fn reply() -> impl Strategy<Value = (AdsError, Option<Vec<u8>>)> {
     prop_oneof![
         (any::<u32>(), data()).prop_map(|(result, data)| (AdsError(result), Some(data))),
@@ -113,7 +113,7 @@ proptest! {
         check_value(&ReadWriteReply { result, data });
     }
 
-    /// Contents, packets and attributes.
+    /// Contents, packets of the program stream, and attributes of elements.
     #[test]
     fn contents_obey_the_laws(bytes in vec(any::<u8>(), 1..=992), text in open_text(), flag in any::<u8>()) {
         check_value(&Content { bytes: bytes.clone() });
@@ -179,8 +179,8 @@ proptest! {
         check_value(&ExtendedReply(None));
     }
 
-    /// Descriptions with unknown codes, many dimensions, each end of the name. Without the name, they
-    /// equal descriptions by name.
+    /// Descriptions with unknown codes, many dimensions and any end of the name. A description without its
+    /// name equals the description by name.
     #[test]
     fn descriptions_obey_the_laws(
         name in open_text(),

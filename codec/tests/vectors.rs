@@ -31,7 +31,7 @@ macro_rules! show {
     }};
 }
 
-/// The reason for rejecting bytes: the class by its name in the vectors, and the text of the error.
+/// The reason for rejecting bytes: the name of the class in the vectors, and the text of the error.
 #[derive(Debug)]
 struct Refusal(&'static str, String);
 
@@ -96,14 +96,14 @@ fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String
     Ok(format!("{shown}\n{}", elements(vector, value)?))
 }
 
-/// The group built from a base and the number added to it.
+/// Builds the group from the base and the number that was added to the base.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Error> {
     let number = group.get().wrapping_sub(base.get());
     Ok(match base.parts().expect("a documented base") {
         Group::Com(com) if com.table == ComTable::Axis => {
             PlatformAxis::new(number)?.com(com.access)
         }
-        // The platform is number 0.
+        // The number of the platform is 0.
         Group::Com(_) if number == 0 => base,
         Group::Com(com) => channel(com.addressing, number)?.com(com.access),
         Group::Class(class) if base.get() == 0x2_5300 => {
@@ -126,7 +126,7 @@ fn channel(addressing: Addressing, number: u32) -> Result<Channel, Error> {
 fn path(bytes: &[u8]) -> Result<String, Error> {
     let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
     let again = without_zeros(bytes)?;
-    // Leading zeros of an index are not written, so the built name may differ.
+    // A built name has no leading zeros in its indices, so it may differ from the parsed name.
     let again = VariablePath::from_text(CncStr::from_bytes(&again)?)?;
     assert!(again.parts().eq(path.parts()), "{path} and {again}");
     let parts: Vec<String> = path.parts().map(|part| part.to_string()).collect();
@@ -142,13 +142,13 @@ fn without_zeros(path: &[u8]) -> Result<Vec<u8>, Error> {
 /// Splits a frame, decodes the data of its service, and encodes both again.
 fn frame(bytes: &[u8]) -> Result<String, Refusal> {
     let Some((frame, len)) = FrameRef::split(bytes, u32::MAX)? else {
-        // The frame is not complete: truncated.
+        // The frame is not complete. Decode what is present, to find the error for the truncated field.
         let (tcp, rest) = bytes.split_at(bytes.len().min(limits::AMS_TCP_HEADER_LEN));
         AmsTcpHeader::decode(tcp)?;
         let (header, data) = rest.split_at(rest.len().min(limits::AMS_HEADER_LEN));
         let header = AmsHeader::decode(header)?;
         service(&header, data)?;
-        // Without a service, the codec waits for the rest.
+        // The data of the frame belongs to no service, so there is no field to report.
         return Err(Refusal("truncated", format!("more of {} bytes", header.data_length)));
     };
     // Bytes after the frame belong to the next frame; here, they are trailing bytes of the service.
@@ -190,7 +190,8 @@ fn elements(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     Ok(format!("{name} {:?}", elements.iter().collect::<Vec<_>>()))
 }
 
-/// Errors of the codec that differ from those of the vector, which are only recommendations.
+/// Vectors whose class of fault, which is only advisory, differs from that of the codec, with the class of
+/// the codec.
 const OTHERWISE: &[(&str, &str)] = &[
     // The codec decodes record by record and reports the truncated field.
     ("descriptors-cut", "truncated"),
@@ -201,11 +202,11 @@ const OTHERWISE: &[(&str, &str)] = &[
     // The codec checks the maximum length of the stream first.
     ("handle-read-2052-bytes", "too-long"),
     ("handle-write-511-indices", "too-long"),
-    // The limit of a stream that may be empty is its length.
+    // For a stream that may be empty, the codec only checks the maximum length.
     ("extended-trailing", "too-long"),
     // The codec checks the maximum data of all services first.
     ("frame-tcp-length-huge", "too-long"),
-    // The codec reports that size and dimensions of texts are inconsistent.
+    // The codec reports that the size of the value and the dimensions are inconsistent.
     ("value-strings-2-odd", "mismatch"),
     ("value-strings-2-none", "mismatch"),
     ("value-strings-2-by-2-three", "mismatch"),
@@ -227,9 +228,9 @@ fn class(error: &Error) -> &'static str {
     }
 }
 
-/// The canonical form of the value of a vector, if it differs.
+/// The canonical bytes of the value of a vector.
 fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
-    /// The bytes with one NUL after this text.
+    /// Encodes the stream with one NUL after this text.
     macro_rules! plain {
         ($stream:ident.$text:ident) => {{
             let mut value = $stream::decode(bytes)?;
@@ -282,8 +283,8 @@ fn canonical_forms_are_written() {
     for vector in vectors() {
         let Expect::Accept(accept) = &vector.expect else { continue };
         let Some(wanted) = &accept.canonical else { continue };
-        // A value or content has no form of its own: the end of a text is the variable's size, and a byte of
-        // a BOOLEAN is kept.
+        // Skip values and contents, which the codec keeps as bytes: it does not change the end of a text or
+        // the byte of a BOOLEAN.
         if ["variable-value", "variable-handle-write", "variable-name-write", "content"]
             .contains(&vector.stream.as_str())
         {
@@ -333,8 +334,8 @@ fn row_of(field: &str, row: &[&str]) -> String {
     format!("{:47}  |{}|", hex.join(" "), bytes.iter().map(seen).collect::<String>())
 }
 
-/// Every vector is accepted or rejected as specified, by both types, and encodes to the same bytes.
-/// The snapshot was compared with the manual by a person.
+/// Every vector is accepted or rejected as it specifies, by both types of the stream, and encodes to the
+/// same bytes. A person has compared the snapshots of the decoded values with the manuals.
 #[test]
 fn vectors_decode_as_they_did() {
     let mut streams: BTreeMap<&str, String> = BTreeMap::new();

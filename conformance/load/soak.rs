@@ -228,10 +228,10 @@ fn streamed(cnc: &Cnc, addr: SocketAddr, megabytes: usize) -> Result<()> {
             Ack::Rejected => return Err("the stream was rejected".into()),
         }
     }
-    let (lines, bytes, found, refusals) = loop {
+    let (lines, bytes, found, busy_count) = loop {
         let now = cnc.with_program(1, |program| {
             let run = program.executed();
-            (run.line_count(), run.byte_count(), run.digest(), program.refusals())
+            (run.line_count(), run.byte_count(), run.digest(), program.busy_count())
         })?;
         if now.1 >= wire.len() as u64 || begun.elapsed() > Duration::from_secs(600) {
             break now;
@@ -239,7 +239,7 @@ fn streamed(cnc: &Cnc, addr: SocketAddr, megabytes: usize) -> Result<()> {
         thread::sleep(Duration::from_millis(10));
     };
     println!(
-        "{bytes} bytes in {lines} lines executed within {:.1} s, after {refusals} rejections as busy",
+        "{bytes} bytes in {lines} lines executed within {:.1} s, after {busy_count} rejections as busy",
         begun.elapsed().as_secs_f64()
     );
     if (lines, bytes, found) != (line.into(), wire.len() as u64, digest(wire.as_bytes())) {

@@ -12,15 +12,15 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::Encode;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc_vectors::ids::*;
 
+use crate::ads_service::{decode_reply, service_of};
 use crate::exchange::{AdsReply, Exchange, ExchangeError, Violation, incomplete_frame};
 use crate::gate::{Gate, Permit};
 use crate::net::{LocalPeers, Wire};
 use crate::process::progress;
-use crate::text::{Moment, plural};
-use crate::wire_service::{decode_reply, service_of};
+use crate::text::{Moment, hex, plural};
 
 pub use inquiry::{Inquired, Inquiry, InquiryReply};
 pub use tap::Tap;
@@ -37,7 +37,7 @@ pub struct Client {
     source: AmsNetId,
     gate: Gate,
     wire: Option<Wire>,
-    dial: Dial,
+    dial: ConnectMethod,
     capture: Option<Box<dyn Tap>>,
     dry: bool,
     last: Option<Instant>,
@@ -47,7 +47,7 @@ pub struct Client {
 
 /// How to open the first connection, and a new connection after one is lost.
 #[derive(Clone, Debug)]
-enum Dial {
+enum ConnectMethod {
     /// Over TCP, to the target's address.
     Tcp,
     /// To a CNC in this process, without a socket.
@@ -75,7 +75,7 @@ impl Client {
     /// # Errors
     /// If no server listens at the address, or the gate allows malformed requests to another machine.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
-        Self::dialled(target, gate, Dial::Tcp)
+        Self::dialled(target, gate, ConnectMethod::Tcp)
     }
 
     /// Connects to a CNC in this process without a socket. The clock of the CNC must be stopped; it
@@ -84,10 +84,10 @@ impl Client {
     /// # Errors
     /// If the gate allows malformed requests to another machine.
     pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn LocalPeers>) -> io::Result<Self> {
-        Self::dialled(target, gate, Dial::InProcess(cnc))
+        Self::dialled(target, gate, ConnectMethod::InProcess(cnc))
     }
 
-    fn dialled(target: Target, gate: Gate, dial: Dial) -> io::Result<Self> {
+    fn dialled(target: Target, gate: Gate, dial: ConnectMethod) -> io::Result<Self> {
         let mut client = Self { dial, ..Self::unconnected(target, gate)? };
         let wire = client.dial()?;
         client.source = target.source.unwrap_or(net_id_of(wire.local().ip()));
@@ -106,8 +106,8 @@ impl Client {
 
     fn dial(&self) -> io::Result<Wire> {
         match &self.dial {
-            Dial::Tcp => Wire::connect(self.target.addr, self.target.timeout),
-            Dial::InProcess(cnc) => Ok(Wire::over(cnc.connect())),
+            ConnectMethod::Tcp => Wire::connect(self.target.addr, self.target.timeout),
+            ConnectMethod::InProcess(cnc) => Ok(Wire::over(cnc.connect())),
         }
     }
 
@@ -126,7 +126,7 @@ impl Client {
             source: target.source.unwrap_or(net_id_of(target.addr.ip())),
             gate,
             wire: None,
-            dial: Dial::Tcp,
+            dial: ConnectMethod::Tcp,
             capture: None,
             dry: false,
             last: None,
@@ -166,8 +166,8 @@ impl Client {
     /// Waits; the clock of a CNC in this process advances by the same time.
     pub(crate) fn wait(&self, time: Duration) {
         match &self.dial {
-            Dial::Tcp => thread::sleep(time),
-            Dial::InProcess(cnc) => cnc.pass(time),
+            ConnectMethod::Tcp => thread::sleep(time),
+            ConnectMethod::InProcess(cnc) => cnc.pass(time),
         }
     }
 
@@ -193,23 +193,26 @@ impl Client {
     /// Checks whether the gate would allow a call now. Nothing is sent.
     ///
     /// # Errors
-    /// [`ExchangeError::Refused`] or [`ExchangeError::Unsendable`].
+    /// [`ExchangeError::NotPermitted`] or [`ExchangeError::Unsendable`].
     pub fn check(&self, call: &Call<'_>) -> Result<(), ExchangeError> {
         let bytes = frame(self.header(call.port, call.service.command()), call)?;
         let permit = self.gate.check(&bytes, Moment::now());
-        permit.map(drop).map_err(|refusal| ExchangeError::Refused(Box::new(refusal)))
+        permit.map(drop).map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))
     }
 
     /// Sends a call and waits for its reply.
     pub fn call(&mut self, call: &Call<'_>) -> Exchange {
         let mut exchange = Exchange::new(call);
-        exchange.outcome = match self.sent(call, &mut exchange) {
-            Ok(header) => {
-                self.judge(&header, &mut exchange);
-                return exchange;
-            }
-            Err(fault) => Err(fault),
-        };
+        match self.sent(call, &mut exchange) {
+            Ok(header) => self.judge(&header, &mut exchange),
+            Err(fault) => exchange.outcome = Err(fault),
+        }
+        tracing::debug!(
+            sent = %hex::spaced(&exchange.sent),
+            received = %hex::spaced(&exchange.received),
+            "{exchange}: {}",
+            exchange.result()
+        );
         exchange
     }
 
@@ -249,7 +252,8 @@ impl Client {
         violations: &mut Vec<Violation>,
     ) -> Result<Result<AmsHeader, ExchangeError>, ExchangeError> {
         let permit = self.gate.check(bytes, Moment::now());
-        let permit = permit.map_err(|refusal| ExchangeError::Refused(Box::new(refusal)))?;
+        let permit =
+            permit.map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))?;
         if self.dry {
             return Err(ExchangeError::NotSent);
         }
@@ -342,7 +346,7 @@ impl Client {
         if let Some(capture) = &mut self.capture {
             capture.sent(permit.frame());
         }
-        let (asked, mut timeout) = (Instant::now(), self.target.timeout);
+        let (started, mut timeout) = (Instant::now(), self.target.timeout);
         let mut chunk = [0; 4096];
         loop {
             let split = FrameRef::split(received, u32::MAX).map_err(ExchangeError::Malformed)?;
@@ -375,14 +379,14 @@ impl Client {
                 // The first such frame may be late; if a device sends more of them, the client
                 // stops waiting.
                 if *strays > 1 {
-                    timeout = timeout.min(asked.elapsed().saturating_add(AFTER_STRAY));
+                    timeout = timeout.min(started.elapsed().saturating_add(AFTER_STRAY));
                 }
-                if asked.elapsed() >= timeout {
+                if started.elapsed() >= timeout {
                     return Err(ExchangeError::Silence(timeout));
                 }
                 continue;
             }
-            let left = timeout.saturating_sub(asked.elapsed());
+            let left = timeout.saturating_sub(started.elapsed());
             if left.is_zero() {
                 return Err(ExchangeError::Silence(timeout));
             }
@@ -446,7 +450,7 @@ pub(crate) fn answer(
         return Ok(AdsReply { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
     }
     // A reply to any other command starts with a result, like that of a Write; more data may follow.
-    let service = service_of(sent.command).unwrap_or(Service::Write);
+    let service = service_of(sent.command).unwrap_or(AdsService::Write);
     let (result, data) = decode_reply(service, payload).map_err(ExchangeError::Malformed)?;
     Ok(AdsReply { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })
 }

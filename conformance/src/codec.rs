@@ -2,15 +2,15 @@
 
 mod address;
 mod decoded;
-mod elements;
 mod field_reader;
 mod fields;
 mod frame;
 pub mod message;
 mod path;
 mod stream;
+mod typed_values;
 
-pub use decoded::{Decoded, Refused};
+pub use decoded::{CodecError, Decoded};
 use fields::{collect, data, name, numbers, one, record, text_tagged, uns16, uns32};
 
 use ads_cnc::{Error, ErrorKind};
@@ -40,7 +40,7 @@ pub fn class(error: &Error) -> &'static str {
 ///
 /// # Errors
 /// If the codec rejects the bytes, or the stream is unknown.
-pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError> {
     match name {
         "ams-frame" => frame::decode(context, bytes),
         "index-group" => address::index_group(context, bytes),
@@ -54,7 +54,7 @@ pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
 ///
 /// # Errors
 /// If the fields are not a value of the stream, or the codec rejects them.
-pub fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused> {
+pub fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, CodecError> {
     let of = FieldReader(fields);
     match name {
         "ams-frame" => frame::encode(of, context),

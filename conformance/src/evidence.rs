@@ -15,13 +15,14 @@ pub struct Evidence {
     pub call: String,
     /// The variable or object that the exchange is about, if any.
     pub subject: Option<String>,
-    /// The documented function that the request addresses.
+    /// The function that the request calls; `None` if no function is documented at the address, or if
+    /// the codec rejects the data of the request.
     pub function: Option<Function>,
     /// The functions called since the previous check, whose replies the check may compare.
     pub compared: Vec<Function>,
     /// Whether the reply must be a rejection.
     pub is_rejection: bool,
-    /// Name of the stream in the request's data, if the function is documented.
+    /// Name of the stream in the request's data, if the request calls a documented function.
     pub request_stream: Option<&'static str>,
     /// Name of the stream in the reply's data.
     pub reply_stream: Option<&'static str>,

@@ -7,13 +7,13 @@ use std::time::Duration;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, AmsTcpHeader, FrameRef, StateFlags};
 use ads_cnc::limits::AMS_TCP_HEADER_LEN;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{AdsService, Call, Function};
 use ads_cnc::{Decode as _, Error};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use crate::evidence::{Describe, Evidence};
-use crate::gate::Refusal;
+use crate::gate::GateRejection;
 use crate::text::plural;
 
 /// A request and its result.
@@ -21,7 +21,7 @@ use crate::text::plural;
 pub struct Exchange {
     /// The AMS port of the request.
     pub port: AmsPort,
-    pub service: Service,
+    pub service: AdsService,
     pub index_group: IndexGroup,
     pub index_offset: IndexOffset,
     pub read_length: u32,
@@ -74,7 +74,7 @@ impl fmt::Display for AdsReply {
 #[derive(Debug)]
 pub enum ExchangeError {
     /// The gate rejected the request.
-    Refused(Box<Refusal>),
+    NotPermitted(Box<GateRejection>),
     /// The request was not sent, because this is a dry run.
     NotSent,
     /// The request cannot be encoded.
@@ -105,7 +105,7 @@ impl ExchangeError {
 impl fmt::Display for ExchangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Refused(why) => write!(f, "not sent, rejected for safety: {why}"),
+            Self::NotPermitted(why) => write!(f, "not sent, rejected for safety: {why}"),
             Self::NotSent => f.write_str("not sent (dry run)"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
             // The hashes of `doc/detection.tsv` depend on the texts of these errors.

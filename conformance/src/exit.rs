@@ -15,11 +15,11 @@ pub enum Exit {
     Nothing,
     /// 4: the gate rejected a request, or the file of `--allow-write` does not fit the target
     /// (`report/build.rs`).
-    Refused,
+    NotPermitted,
     /// 5: a waiver is stale (`judge/waivers.rs`).
     Stale,
     /// 6: a value was changed and could not be restored.
-    LeftChanged,
+    UnrestoredValue,
     /// 70: an error of the suite, such as a case that panics.
     Internal,
 }
@@ -31,9 +31,9 @@ impl Exit {
             Self::Failure => 1,
             Self::Usage => 2,
             Self::Nothing => 3,
-            Self::Refused => 4,
+            Self::NotPermitted => 4,
             Self::Stale => 5,
-            Self::LeftChanged => 6,
+            Self::UnrestoredValue => 6,
             Self::Internal => 70,
         }
     }
@@ -45,9 +45,9 @@ impl Exit {
     /// All exit codes, in the order of precedence.
     pub const ALL: [Self; 8] = [
         Self::Internal,
-        Self::LeftChanged,
+        Self::UnrestoredValue,
         Self::Usage,
-        Self::Refused,
+        Self::NotPermitted,
         Self::Failure,
         Self::Stale,
         Self::Nothing,

@@ -9,7 +9,7 @@
 //! | [`selftest`] | tests of the suite with seeded defects |
 //! | [`matrix`] | the vectors, cases and fuzz targets that verify each requirement |
 //! | [`capture`] | judges captured traffic, and writes traffic to files for Wireshark |
-//! | [`clients`] | tests of clients, and the CNC to which they connect |
+//! | [`client_suite`] | tests of clients, and the CNC to which they connect |
 //! | [`suite`] | the cases for a CNC |
 //! | [`testee`] | tests of codecs, over stdin and stdout |
 //! | [`named`], [`objects`] | finds a variable or object of a CNC by its name, or lists all of them |
@@ -25,16 +25,16 @@
 //! | [`process`] | runs commands given by the user, and handles signals |
 //! | [`tables`] | the codec's tables as data, and a dissector generated from them |
 //! | [`explain`] | explains the bytes of any stream, field by field |
-//! | [`codec`], [`show`] | calls the codec by the stream names of the vectors, and formats values as text |
+//! | [`codec`], [`vector_format`] | calls the codec by the stream names of the vectors, and formats values as text |
 //! | [`judge`] | case, check, outcome, verdict, plan, waiver |
 //! | [`evidence`] | the bytes that a check is based on |
 //! | [`values`] | typed values: parsing and formatting |
 //! | [`profile`], [`edition`] | the claims of a target; features by edition and version |
-//! | [`wire_service`] | requirement, streams and reply of the three ADS services |
+//! | [`ads_service`] | requirement, streams and reply of the three ADS services |
 //! | [`deadline`] | when a tool stops sending requests |
 //! | [`value_format`] | the type of a value, given by the user |
 //! | [`exit`] | the exit codes |
-//! | [`text`] | hex, escapes, durations, JSON |
+//! | [`text`] | hex, escapes, durations, patterns of names, JSON |
 //!
 //! All bytes that the simulated CNC sends are encoded by [`ads_cnc`]; there is no second encoder.
 //!
@@ -61,11 +61,12 @@
     )
 )]
 
+pub mod ads_service;
 pub mod capture;
 #[allow(clippy::restriction)]
 pub mod cli;
 pub mod client;
-pub mod clients;
+pub mod client_suite;
 pub mod codec;
 pub mod deadline;
 #[allow(clippy::restriction)]
@@ -93,7 +94,6 @@ pub mod rules;
 #[allow(clippy::restriction)]
 pub mod selftest;
 pub mod session;
-pub mod show;
 pub mod simulator;
 #[allow(clippy::restriction)]
 pub mod suite;
@@ -102,4 +102,4 @@ pub mod testee;
 pub mod text;
 pub mod value_format;
 pub mod values;
-pub mod wire_service;
+pub mod vector_format;

@@ -21,11 +21,11 @@ use std::fmt::Write as _;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::{
-    Erratum, Given, Reading, Requirement, erratum, requirements, sequences, vectors,
+    Erratum, Interpretation, Requirement, SequenceInput, erratum, requirements, sequences, vectors,
 };
 use serde::Serialize;
 
-use crate::clients;
+use crate::client_suite;
 use crate::judge::{Case, Needs};
 use crate::rules::captured_cases;
 use crate::suite;
@@ -93,7 +93,7 @@ pub struct RulingRow {
 /// The cases of the suite, the scenarios for clients, and the cases of captured traffic.
 pub(crate) fn cases() -> Vec<Case> {
     let mut cases = suite::cases();
-    cases.extend(clients::scenarios().iter().map(clients::Scenario::case));
+    cases.extend(client_suite::scenarios().iter().map(client_suite::Scenario::case));
     cases.extend(captured_cases());
     cases
 }
@@ -118,7 +118,8 @@ fn row(requirement: &Requirement, cases: &[Case]) -> RequirementRow {
         SIMULATOR_CHECKS.iter().filter(|(_, clauses)| clauses.iter().any(|one| one.as_str() == id));
     let mut tests: Vec<&str> = checks.map(|(name, _)| *name).collect();
     for sequence in sequences().iter().filter(|one| one.cited().contains(&requirement)) {
-        let has_steps = matches!(sequence.given, Given::Streaming(_) | Given::Service(_));
+        let has_steps =
+            matches!(sequence.given, SequenceInput::Streaming(_) | SequenceInput::Service(_));
         if has_steps && !tests.contains(&SEQUENCES) {
             tests.push(SEQUENCES);
         }
@@ -195,7 +196,7 @@ fn paragraph(out: &mut String, name: &str, words: &str) {
 pub fn erratum_to_text(erratum: &Erratum) -> String {
     let Erratum { id, title, readings, ruling, status, question } = erratum;
     let mut text = format!("{id}  {title} ({})\n", format!("{status:?}").to_lowercase());
-    for Reading { document, edition, section, reading } in readings {
+    for Interpretation { document, edition, section, reading } in readings {
         let place = [document.as_str(), edition].join(" ");
         paragraph(&mut text, "reading", &format!("{} §{section}: {reading}", place.trim_end()));
     }

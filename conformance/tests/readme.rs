@@ -27,8 +27,8 @@ use std::process::Command;
 use bench::root;
 use documents::{IN_THE_GATE, documents, is_in_the_gate, make};
 
-/// Calls that are executed elsewhere: the start of the call, the file that executes it, and a text that
-/// this file must contain.
+/// Calls that this test does not execute: the start of the call, the file that executes or replaces it, and
+/// a text that this file must contain.
 const ELSEWHERE: [(&str, &str, &str); 4] = [
     ("cargo test --workspace", ".ci/run", "cargo test --workspace --locked"),
     ("cargo install ", ".ci/run", "cargo install --path conformance --locked"),

@@ -7,7 +7,7 @@ INDEX_LAST = 0xFFFFFFFE
 
 
 def characters(data):
-    """A text that no NUL ends."""
+    """The value of a text without a NUL."""
     return dict(text(data), open=True)
 
 
@@ -21,7 +21,7 @@ def path_write(value, _context):
 
 
 def path_plain(data):
-    """The path without the leading zeros of its indices, which a value does not keep."""
+    """The path without the leading zeros of its indices, which the value of a path does not keep."""
     return re.sub(rb"(?<=\[)0+(?=[0-9])", b"", data)
 
 
@@ -82,7 +82,7 @@ def name(value):
 
 
 def group_split(group):
-    """What a group means, or nothing for one outside the documented groups."""
+    """The parts of an index group; empty for a group that is not documented."""
     access = {0x2: "element", 0x3: "object"}.get(group >> 16 & 0xf)
     logical, table, cls = group >> 20, group >> 8 & 0xf, group >> 12 & 0xf
     if access is None or logical > 1:

@@ -13,7 +13,7 @@ ADDRESS = [("index_group", "UNS32"), ("index_offset", "UNS32")]
 
 
 def counted_data(head, length_field, result_first):
-    """Fixed fields, a length, and data of this length."""
+    """The functions for a stream of fixed fields, a length, and data of this length."""
     layout = head + [(length_field, "UNS32")]
 
     def write(value, _context):
@@ -50,7 +50,7 @@ HEADERS = 6 + AMS_HEADER
 
 
 def part_name(header):
-    """The stream that follows an AMS header: that of a service, or otherwise data."""
+    """The name of the part after an AMS header: the stream of a service, or `data` for other commands."""
     service = SERVICES.get(plain(header["command"]))
     direction = DIRECTIONS.get(plain(header["state_flags"]))
     return "%s_%s" % (service, direction) if service and direction else "data"

@@ -6,7 +6,7 @@ from .pieces import Bad
 
 
 def check_all(folder, key, check):
-    """The number of entries under a key, the numbers of accepted and rejected ones, and the failures."""
+    """Check all entries under `key`; return their number, the counts by outcome, and the failures."""
     files = {path: json.loads(path.read_text(encoding="utf-8"))[key] for path in sorted(folder.glob("*.json"))}
     listed = [one for found in files.values() for one in found]
     by_id = {one["id"]: one for one in listed}

@@ -14,7 +14,7 @@ def split(data):
 
 
 def packets(data):
-    """Packets of whole lines; a packet takes as many lines as fit."""
+    """The packets of a text: each packet has as many whole lines as fit."""
     made = []
     for line in split(data):
         line += b"\r\n"
@@ -58,7 +58,7 @@ BLOCK_END = re.compile(HEAD + r"#COMMENT\s+END(?![\w.])", re.I)
 LABEL = re.compile(r"\s*(?:/\d*\s*)?N\s*0*(\d+)\s*:", re.I)
 COMMAND = re.compile(r"\$([A-Z]+)", re.I)
 GOTO = re.compile(r"\$GOTO\s*N\s*0*(\d+)\s*(?![-+*/.\[_=\d])", re.I)
-# but not as a part of a name, as in V.E.M30
+# a program end, but not one that is part of a name, such as V.E.M30
 PROGRAM_END = re.compile(r"(?<![A-Z_])(?<![A-Z_\]]\.)M0*(2|30|17|29)(?![\d._])", re.I)
 
 

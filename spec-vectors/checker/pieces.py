@@ -2,7 +2,7 @@
 
 
 class Bad(Exception):
-    """A case that contradicts itself."""
+    """The error for a vector or a case whose data contradict each other."""
 
 
 def to_bytes(pieces):
@@ -27,7 +27,7 @@ def agree(what, stated, derived):
         raise Bad("%s: stated %r, derived %r" % (what, stated, derived))
 
 
-EDIT_MAX = 8  # a count and the additional item
+EDIT_MAX = 8  # a count and an additional item, of four bytes each
 
 
 def edit(good, bad):

@@ -10,7 +10,7 @@ NUMBERS = {
     "BOOL": "<B", "BYTE": "<B", "SINT": "<b", "WORD": "<H", "INT": "<h", "DWORD": "<I", "DINT": "<i",
     "LWORD": "<Q", "LINT": "<q", "REAL": "<f", "LREAL": "<d",
 }
-# the unsigned integer with the bits of a float
+# the format of the unsigned integer that has the bits of a float
 REALS = {"REAL32": "<I", "REAL64": "<Q", "REAL": "<I", "LREAL": "<Q"}
 
 # CP1252 where it differs from Latin-1. 81 8d 8f 90 9d have no character and decode as U+0081 and so on.
@@ -106,7 +106,7 @@ def text_bytes(tagged):
 
 
 def texts(data, at, count, field):
-    """The texts in the rest of a stream: a single text takes all bytes, several texts take equal shares."""
+    """The texts in the rest of a stream: a single text has all bytes, several texts have equal shares."""
     size = len(data) - at
     if count > size and count > 1:
         raise Malformed("truncated", at, field)
@@ -117,7 +117,7 @@ def texts(data, at, count, field):
 
 
 def text_field(data):
-    """A text in a field of fixed size."""
+    """The value of a text in a field of fixed size: without `tail` if only zeros follow the text."""
     tagged = text(data)
     if not any(from_hex(tagged.get("tail", ""))):
         tagged.pop("tail", None)

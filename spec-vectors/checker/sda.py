@@ -11,7 +11,7 @@ DIMENSIONS_MAX = (STREAM_MAX - 20) // 4
 
 
 def open_text(field, shortest, longest):
-    """A text that ends at its first NUL or with the stream; the bytes after the NUL are kept."""
+    """The functions for a text that ends at its first NUL or at the end of the stream; a tail is kept."""
     def write(value, _context):
         data = text_bytes(value[field])
         if not shortest <= len(data) <= longest:
@@ -29,7 +29,7 @@ def open_text(field, shortest, longest):
 
 
 def name_request():
-    """A name that a NUL may end; only NULs may follow it."""
+    """The functions for a name that may end in a NUL; only more NULs may follow that NUL."""
     write, read_open = open_text("name", 1, DYNAMIC_NAME_MAX)
 
     def read(data, context):
@@ -150,12 +150,12 @@ def plain_truth(tagged):
 
 
 def plain_content(value):
-    """A content keeps the length of its object, so its texts stay complete."""
+    """The canonical form of a content. It has the length of its object, so its texts keep their tails."""
     content = value["content"]
     return {"content": [plain_truth(item) for item in content] if isinstance(content, list) else content}
 
 
-# The canonical form of a value, for streams in which it differs not only in the ends of texts.
+# The canonical forms of values, for streams in which the general canonical form does not apply.
 CANONICAL = {
     "element-length": lambda value: {"length": dict(value["length"], type="UNS32")},
     "element-write-flag": lambda value: {"flag": plain_truth(value["flag"])},

@@ -16,7 +16,7 @@ def text_of(case):
 
 
 def inputs(step, given):
-    """The inputs of a step, without the fields that follow from the inputs."""
+    """The fields of a step that are inputs, without the fields that follow from the inputs."""
     action, actor = step["action"], step.get("actor")
     services = given.get("services", {})
     keys = ["id", "actor", "action", "at", "channel"]

@@ -13,7 +13,7 @@ NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.I)
 
 
 def square_root(request):
-    """The C code of the example: atof, sqrt and %f."""
+    """The response and the state that the C code of the example computes with atof, sqrt and %f."""
     number = NUMBER.match(request.decode("latin-1"))
     x = float(number.group()) if number else 0.0
     if x >= 0:
@@ -55,7 +55,7 @@ class Interface:
 
 
 class Actor:
-    """A program or a service: its next writes and its state."""
+    """The state of a program or a service, and the writes that it must perform next."""
 
     def __init__(self, service=None):
         self.service, self.to_write = service, []

@@ -3,7 +3,7 @@ from .pieces import Bad, agree
 
 
 def follow(model, given, expect):
-    """Whether the model executes all steps; a fault must be in the last step, as stated."""
+    """Execute all steps; return False if the last step has the stated fault. Other faults are errors."""
     for step in given["steps"]:
         cls = model.step(step)
         if cls:

@@ -15,7 +15,7 @@ def program_stream_write(value, _context):
 
 
 def program_stream_read(data, _context):
-    """Any bytes, at least one and at most a packet."""
+    """Decode any bytes: at least one byte, and at most as many as a packet has."""
     if len(data) > nc.PACKET_MAX:
         raise Malformed("too-long", 0, "data")
     if not data:
@@ -36,11 +36,11 @@ class Model:
         outcome = {"error": None, "discarded": None, "ends": None}
         cls = getattr(self, step["action"])(step, outcome)
         if cls == "not-started":
-            return cls  # the stated outcome is part of the fault
+            return cls  # the stated outcome belongs to the fault, so it is not compared
         for key in outcome:
             agree("%s: %s" % (step["id"], key), step.get(key), outcome[key])
         if cls in ("outcome", "overfull"):
-            return cls  # the stated `held` is part of the fault
+            return cls  # the stated `held` belongs to the fault, so it is not compared
         agree("%s: held" % step["id"], step["held"], len(self.held))
         return cls
 
@@ -99,13 +99,13 @@ class Model:
 
 
 def text_of(pieces, data):
-    """The pieces, which must be these bytes."""
+    """Check that the pieces are these bytes, and return the pieces."""
     agree("discarded", to_bytes(pieces), data)
     return pieces
 
 
 def missing_end(data):
-    """The end of the first line that does not end with CR LF, or None."""
+    """The position of the end of the first line that does not end with CR LF; None if all lines do."""
     line = 1
     for end in re.finditer(rb"\r\n|\r|\n|\Z", data):
         start = max(data.rfind(b"\n", 0, end.start()), data.rfind(b"\r", 0, end.start())) + 1

@@ -84,7 +84,7 @@ def value_write(value, context):
 
 
 def value_items(data, at, context):
-    """The elements, which take the rest of the stream from `at` on."""
+    """The values of the elements, which are the rest of the stream from offset `at` on."""
     kind = context["type"]
     if kind == "STRING":
         return texts(data, at, count_of(context), "value")

@@ -23,10 +23,10 @@ def canonical_value(value):
 
 
 def canonical_bytes(stream, write, value, context, given):
-    """The canonical bytes; None if they are the given bytes, or would not fit."""
-    # no NUL ends the texts of a variable-path
+    """The canonical bytes of a value; None if they equal the given bytes, or would not fit the stream."""
+    # values of most streams have a general canonical form
     canonical = sda.CANONICAL.get(stream, canonical_value)
-    # and the texts of an array keep their shares of the bytes
+    # the texts of a variable-path have no NUL, and the texts of an array keep their shares of the bytes
     several = context.get("type") == "STRING" and count_of(context) != 1
     plain_value = value if stream == "variable-path" or several else canonical(value)
     try:
@@ -38,7 +38,7 @@ def canonical_bytes(stream, write, value, context, given):
 
 
 def segment_bytes(segment, width):
-    """The bytes of the value of a segment; `width` is the length of its hex."""
+    """The bytes of the value of a segment; `width` is the number of bytes of the segment."""
     value = segment["value"]
     if isinstance(value, list):
         return b"".join(number_bytes(item) for item in value)
@@ -63,7 +63,7 @@ def check_segments(vector):
         raise Bad("no segments")
 
 
-# Streams whose value does not keep all bytes: a function that removes the bytes that are lost.
+# Streams whose value does not keep all bytes, and a function that removes the bytes that the value loses.
 PLAIN = {"variable-path": addresses.path_plain}
 
 

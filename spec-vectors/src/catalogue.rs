@@ -9,11 +9,11 @@ use std::fmt;
 pub struct Document {
     /// Short name, such as `ads-en`.
     pub document: String,
-    /// Edition; empty if none is printed.
+    /// Edition; empty if the document prints no edition.
     pub edition: String,
     /// Title as printed.
     pub title: String,
-    /// `en` or `de`.
+    /// Language: `en` or `de`.
     pub language: String,
     /// The sections that can be cited, in their order.
     pub sections: Vec<String>,
@@ -25,7 +25,7 @@ pub struct Document {
 pub struct Source {
     /// Short name of the document.
     pub document: String,
-    /// Its edition; empty if none is printed.
+    /// Edition of the document; empty if the document prints no edition.
     pub edition: String,
     /// Section number, or a description if the document has no numbers.
     pub section: String,
@@ -34,19 +34,19 @@ pub struct Source {
     pub example: Option<String>,
 }
 
-/// Where a statement comes from.
+/// The origin of a statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Basis {
-    /// Every edition that covers the subject states it.
+    /// Every edition that covers the subject contains the statement.
     Stated,
-    /// The editions differ; the text states how.
+    /// The editions differ; the text of the requirement states how.
     Edition,
-    /// It follows from a statement or from a printed example.
+    /// The statement follows from a statement of the documents or from a printed example.
     Derived,
-    /// From the vendors' public help pages.
+    /// Only the vendors' public help pages contain the statement.
     Online,
-    /// No document states it; this project decided.
+    /// No document contains the statement; this project has decided.
     Assumed,
 }
 
@@ -54,11 +54,11 @@ pub enum Basis {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
-    /// A failure.
+    /// Violating the clause is a failure.
     Must,
-    /// A warning.
+    /// Violating the clause is a warning.
     Should,
-    /// A difference, which never counts as a failure.
+    /// Violating the clause is a difference, which never counts as a failure.
     Info,
 }
 
@@ -66,9 +66,9 @@ pub enum Level {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Observable {
-    /// From bytes alone.
+    /// From bytes alone, by encoding or decoding them.
     Codec,
-    /// In traffic.
+    /// From recorded traffic.
     Wire,
     /// By querying a running CNC.
     Live,
@@ -77,14 +77,14 @@ pub enum Observable {
 /// A statement that belongs to a requirement but has its own basis and level.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Part {
-    /// The ID of the requirement, a dot and a number, such as `VAR-4.2`. Never reused.
+pub struct RequirementPart {
+    /// ID: that of the requirement, a dot and a number, such as `VAR-4.2`. An ID is never reused.
     pub id: String,
     /// The statement.
     pub text: String,
-    /// Its own basis.
+    /// Basis of the statement.
     pub basis: Basis,
-    /// Its own level.
+    /// Level of the statement.
     pub level: Level,
 }
 
@@ -100,38 +100,38 @@ pub struct Part {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Requirement {
-    /// Area and number, such as `VAR-4`. Never reused.
+    /// ID: area and number, such as `VAR-4`. An ID is never reused.
     pub id: String,
     /// The part of the ID before the number.
     pub area: String,
-    /// A few words.
+    /// Title of a few words.
     pub title: String,
     /// The obligation, with its offsets and limits.
     pub text: String,
-    /// The sections that state it; empty if no document does.
+    /// The sections that state the requirement; empty if no document states it.
     pub sources: Vec<Source>,
     /// Basis of the text.
     pub basis: Basis,
     /// Level of the text.
     pub level: Level,
-    /// Why it is binding although no manual states it: a ruling of this project.
+    /// The reason why the requirement is binding although no manual states it: a ruling of this project.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ruling: Option<String>,
     /// Statements that belong to the requirement but have another basis.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub parts: Vec<Part>,
-    /// How it can be judged; at least one way.
+    pub parts: Vec<RequirementPart>,
+    /// The ways in which the requirement can be judged; at least one.
     pub observable: Vec<Observable>,
-    /// IDs of the errata that affect it.
+    /// IDs of the errata that affect the requirement.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
-    /// Its vectors have still to be added.
+    /// Whether the vectors of the requirement have still to be added.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub pending: bool,
-    /// Why no bytes break it, although it can be judged from bytes.
+    /// The reason why no bytes violate the requirement, although it can be judged from bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_reject: Option<String>,
-    /// Why nothing judges it.
+    /// The reason why no check judges the requirement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excluded: Option<String>,
 }
@@ -150,7 +150,7 @@ pub struct Clause {
     /// The requirement.
     pub requirement: &'static Requirement,
     /// The part; `None` if the text of the requirement itself is cited.
-    pub part: Option<&'static Part>,
+    pub part: Option<&'static RequirementPart>,
 }
 
 impl Clause {
@@ -207,12 +207,14 @@ impl fmt::Display for ClauseId {
 pub struct Assumption {
     /// The assumption.
     pub text: String,
-    /// Whether the expected outcome rests on it. If not, it only supplies a circumstance.
+    /// Whether the expected outcome rests on the assumption. If not, the assumption only supplies a
+    /// circumstance.
     pub decides: bool,
-    /// Whether only the bytes that an encoder writes rest on it, and not the value that a decoder reads.
+    /// Whether only the bytes that an encoder writes rest on the assumption, and not the value that a
+    /// decoder reads.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub encodes: bool,
-    /// The only part of the outcome that rests on it; `None` for the whole outcome.
+    /// The only part of the outcome that rests on the assumption; `None` if the whole outcome does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<About>,
 }
@@ -222,19 +224,21 @@ pub struct Assumption {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum About {
-    /// How a text ends: whether a NUL ends it, and the bytes that follow. Its characters do not rest on this.
+    /// How a text ends: whether a NUL ends the text, and which bytes follow the NUL. The characters of the
+    /// text do not rest on the assumption.
     End,
     /// Whether the bytes are accepted, and how many bytes are written for a value: for example, a
-    /// number may have another width. The value of accepted bytes does not rest on this.
+    /// number may have another width. The value of accepted bytes does not rest on the
+    /// assumption.
     Acceptance,
-    /// Which characters the bytes of a text have. Only the texts rest on this.
+    /// Which characters the bytes of a text represent. Only the values of texts rest on the assumption.
     Characters,
-    /// What an undocumented code of a type or an access means, and whether it is kept. Only the fields with
-    /// these codes rest on this.
+    /// The meaning of an undocumented code of a type or an access, and whether the code is kept. Only the
+    /// fields with these codes rest on the assumption.
     Codes,
 }
 
-/// The weakest level among these clauses; [`Level::Info`] if an assumption decides.
+/// The weakest level among the cited clauses; [`Level::Info`] if an assumption decides the outcome.
 pub(crate) fn level(cited: &[String], assumed: &[Assumption]) -> Level {
     if assumed.iter().any(|one| one.decides) {
         return Level::Info;
@@ -242,7 +246,7 @@ pub(crate) fn level(cited: &[String], assumed: &[Assumption]) -> Level {
     levels(cited).max().unwrap_or(Level::Info)
 }
 
-/// The weakest level among the clauses that a document states.
+/// The weakest level among the cited clauses that a document states.
 pub(crate) fn stated_level(cited: &[String]) -> Level {
     levels(cited).filter(|level| *level != Level::Info).max().unwrap_or(Level::Info)
 }
@@ -251,7 +255,7 @@ fn levels(cited: &[String]) -> impl Iterator<Item = Level> {
     cited.iter().filter_map(|id| crate::clause(id)).map(|one| one.level())
 }
 
-/// The requirements of these clauses, each once.
+/// The requirements of the cited clauses, each only once.
 pub(crate) fn requirements_of(cited: &[String]) -> Vec<&'static Requirement> {
     let mut all: Vec<&Requirement> = Vec::new();
     for clause in cited.iter().filter_map(|id| crate::clause(id)) {
@@ -262,15 +266,15 @@ pub(crate) fn requirements_of(cited: &[String]) -> Vec<&'static Requirement> {
     all
 }
 
-/// One of the readings that contradict each other.
+/// A reading of the documents that contradicts other readings.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Reading {
+pub struct Interpretation {
     /// Short name of the document.
     pub document: String,
-    /// Its edition; empty if none is printed.
+    /// Edition of the document; empty if the document prints no edition.
     pub edition: String,
-    /// Section, or several.
+    /// The section, or a list of sections.
     pub section: String,
     /// The fact in question, as this section states it.
     pub reading: String,
@@ -280,9 +284,9 @@ pub struct Reading {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// Decided provisionally: only a running CNC can answer the question.
+    /// The ruling is provisional: only a running CNC can decide the question.
     Open,
-    /// Decided.
+    /// The ruling is final.
     Ruled,
 }
 
@@ -299,13 +303,13 @@ pub enum Status {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Erratum {
-    /// `E-` and a number. Never reused.
+    /// ID: `E-` and a number. An ID is never reused.
     pub id: String,
-    /// A few words.
+    /// Title of a few words.
     pub title: String,
-    /// Each reading with its section.
-    pub readings: Vec<Reading>,
-    /// The decision.
+    /// The readings, each with its section.
+    pub readings: Vec<Interpretation>,
+    /// The decision between the readings.
     pub ruling: String,
     /// Whether the ruling is final.
     pub status: Status,

@@ -37,8 +37,8 @@ mod sequence;
 mod vector;
 
 pub use catalogue::{
-    About, Assumption, Basis, Clause, ClauseId, Document, Erratum, Level, Observable, Part,
-    Reading, Requirement, Source, Status,
+    About, Assumption, Basis, Clause, ClauseId, Document, Erratum, Interpretation, Level,
+    Observable, Requirement, RequirementPart, Source, Status,
 };
 pub use hex::Hex;
 pub use load::{
@@ -46,13 +46,13 @@ pub use load::{
     requirements, sequence, sequences, vector, vectors,
 };
 pub use sequence::{
-    ExternalService, FillPiece, Given, HexPiece, Piece, Pieces, Sequence, SequenceAccept,
-    SequenceExpect, SequenceReject, ServiceAction, ServiceSequence, ServiceStep, StreamAck,
-    StreamAction, StreamError, StreamStep, Streaming, WaitParameters,
+    ExternalService, FillPiece, HexPiece, Piece, Pieces, Sequence, SequenceAccept, SequenceExpect,
+    SequenceInput, SequenceReject, ServiceAction, ServiceSequence, ServiceStep, Streaming,
+    StreamingAck, StreamingAction, StreamingFault, StreamingStep, WaitParameters,
 };
 pub use vector::{
-    Accept, Context, Direction, Expect, Fields, Provenance, ProvenanceKind, Reject, Segment,
-    Service, Tagged, Type, Value, Vector,
+    Accept, AdsService, Context, Direction, Expect, Fields, Provenance, ProvenanceKind, Reject,
+    Segment, Tagged, Type, Value, Vector,
 };
 
 #[cfg(doctest)]

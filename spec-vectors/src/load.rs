@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::fmt;
 use std::sync::OnceLock;
 
-/// Version of the data. Every file states it, and it is the version of the crate.
+/// Version of the data, which every file states. It is also the version of the crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// All data of the crate.
@@ -17,17 +17,17 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub struct Catalogue {
     /// The documents that sources and readings cite.
     pub documents: Vec<Document>,
-    /// Requirements, by area and number.
+    /// The requirements, sorted by area and number.
     pub requirements: Vec<Requirement>,
-    /// Errata, by number.
+    /// The errata, sorted by number.
     pub errata: Vec<Erratum>,
-    /// Vectors of all files.
+    /// The vectors of all files.
     pub vectors: Vec<Vector>,
-    /// Sequences of all files.
+    /// The sequences of all files.
     pub sequences: Vec<Sequence>,
 }
 
-/// A file of `data/` does not match the types of this crate.
+/// The error for a file of `data/` that does not match the types of this crate.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LoadError {
     /// Path of the file in the crate.
@@ -46,8 +46,9 @@ impl std::error::Error for LoadError {}
 
 /// All data of the crate.
 ///
-/// If a file does not match its types, this function returns the error, and the other functions return
-/// empty lists or `None`. The tests of the crate verify that all files load.
+/// If a file does not match the types of this crate, this function returns an error, and the other
+/// functions of this crate return empty lists or `None`. The tests of the crate verify that all files
+/// match.
 ///
 /// ```
 /// let catalogue = ads_cnc_vectors::catalogue()?;
@@ -84,13 +85,13 @@ pub fn requirements() -> &'static [Requirement] {
 /// assert!(ads_cnc_vectors::requirement("VAR-0").is_none());
 /// ```
 pub fn requirement(id: &str) -> Option<&'static Requirement> {
-    // The suite looks up a requirement in every check.
+    // A map, because every check of the conformance suite looks up a requirement.
     static BY_ID: OnceLock<HashMap<&str, &Requirement>> = OnceLock::new();
     let by_id = || requirements().iter().map(|item| (item.id.as_str(), item)).collect();
     BY_ID.get_or_init(by_id).get(id).copied()
 }
 
-/// The requirement with this ID, or the part with this ID and its requirement.
+/// The cited clause: the requirement with this ID, or the part with this ID and its requirement.
 ///
 /// ```
 /// assert_eq!(ads_cnc_vectors::clause("VAR-7").unwrap().part, None);
@@ -147,9 +148,9 @@ pub fn vector(id: &str) -> Option<&'static Vector> {
 /// All sequences.
 ///
 /// ```
-/// use ads_cnc_vectors::{Given, sequences};
+/// use ads_cnc_vectors::{SequenceInput, sequences};
 ///
-/// let texts = sequences().iter().filter(|case| matches!(case.given, Given::NcText(_)));
+/// let texts = sequences().iter().filter(|case| matches!(case.given, SequenceInput::NcText(_)));
 /// assert!(texts.count() > 20);
 /// ```
 pub fn sequences() -> &'static [Sequence] {
@@ -219,7 +220,7 @@ macro_rules! included {
 
 const REQUIREMENTS: (&str, &str) = included!("data/requirements.json");
 const ERRATA: (&str, &str) = included!("data/errata.json");
-/// The files of `data/vectors` and `data/sequences`, as `build.rs` finds them.
+/// The path and the text of each file of `data/vectors` and `data/sequences`, as `build.rs` lists them.
 const VECTORS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/vectors.rs"));
 const SEQUENCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sequences.rs"));
 
@@ -274,7 +275,8 @@ mod tests {
         assert!(error.message.contains("extra"), "{error}");
     }
 
-    /// The types neither lose nor change any field of a sequence: serializing it gives the same JSON.
+    /// The types neither lose nor change a field of a sequence: serializing a parsed sequence gives the
+    /// same JSON.
     #[test]
     fn sequences_survive_a_round_trip() {
         for &(file, text) in SEQUENCES {
@@ -289,7 +291,8 @@ mod tests {
         }
     }
 
-    /// The types neither lose nor change any field of a vector: serializing it gives the same JSON.
+    /// The types neither lose nor change a field of a vector: serializing a parsed vector gives the same
+    /// JSON.
     #[test]
     fn vectors_survive_a_round_trip() {
         for &(file, text) in VECTORS {

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Piece {
-    /// ASCII characters, each a byte.
+    /// ASCII characters; each character is one byte.
     Text(String),
     /// Bytes.
     Hex(HexPiece),
@@ -30,7 +30,7 @@ pub struct HexPiece {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FillPiece {
-    /// The characters, mostly one.
+    /// The repeated text, usually one character.
     pub fill: String,
     /// How many times they are repeated.
     pub count: usize,
@@ -61,10 +61,10 @@ impl Pieces {
     }
 }
 
-/// The answer to a write to the stream.
+/// The response to a write at the streaming interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum StreamAck {
+pub enum StreamingAck {
     /// The interface accepted the write.
     Accepted,
     /// The interface rejected the write for now; the client has to write the same bytes again.
@@ -73,11 +73,11 @@ pub enum StreamAck {
     Refused,
 }
 
-/// Where the CNC finds a fault in the data that it has read.
+/// The fault that the CNC finds in the data that it has read, and its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StreamError {
-    /// Number of the CNC error, if it is printed.
+pub struct StreamingFault {
+    /// Number of the CNC error, if the manual prints it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub number: Option<u32>,
     /// Line, counted from the start of the program, from 1.
@@ -89,44 +89,44 @@ pub struct StreamError {
 /// An action at the streaming interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum StreamAction {
+pub enum StreamingAction {
     /// The streaming program is started.
     Start,
-    /// The client writes.
+    /// The client writes bytes.
     Write,
-    /// The CNC takes all bytes that the interface holds.
+    /// The CNC reads and removes all bytes that the interface contains.
     Take,
-    /// NC reset.
+    /// The NC channel is reset.
     Reset,
 }
 
 /// A step at the streaming interface.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StreamStep {
-    /// A slug; never a number.
+pub struct StreamingStep {
+    /// ID of the step, unique in the case: a slug, never a number.
     pub id: String,
     /// Time in milliseconds; `None` for the time of the previous step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<u64>,
     /// The action.
-    pub action: StreamAction,
+    pub action: StreamingAction,
     /// The bytes that are written or taken.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bytes: Option<Pieces>,
-    /// For a write: the answer.
+    /// For a write: the response.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ack: Option<StreamAck>,
+    pub ack: Option<StreamingAck>,
     /// For a take: the fault that the CNC finds in the bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub error: Option<StreamError>,
+    pub error: Option<StreamingFault>,
     /// For a take: the program end in the bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ends: Option<String>,
     /// For a take: the lines after the program end, which are discarded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub discarded: Option<Pieces>,
-    /// Bytes that the interface holds after the step.
+    /// The number of bytes that the interface contains after the step.
     pub held: usize,
 }
 
@@ -134,20 +134,20 @@ pub struct StreamStep {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Streaming {
-    /// The text that the client streams; `None` if the case does not test a client.
+    /// The text that the client streams; `None` if the case does not test a client, but only a CNC.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub text: Option<Pieces>,
     /// The steps, in their order.
-    pub steps: Vec<StreamStep>,
+    pub steps: Vec<StreamingStep>,
 }
 
 /// A service that listens on channel 1.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExternalService {
-    /// Its UUID.
+    /// UUID of the service.
     pub uuid: String,
-    /// The task of the service, if it is known: `square-root`.
+    /// The task of the service, if its answer follows from the request: `square-root`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub does: Option<String>,
 }
@@ -156,9 +156,9 @@ pub struct ExternalService {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ServiceAction {
-    /// Reads a variable.
+    /// The actor reads a variable.
     Read,
-    /// Writes a variable.
+    /// The actor writes a variable.
     Write,
     /// The program decides to send a request; its writes follow.
     Ask,
@@ -195,7 +195,7 @@ pub struct WaitParameters {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ServiceStep {
-    /// A slug; never a number.
+    /// ID of the step, unique in the case: a slug, never a number.
     pub id: String,
     /// Time in milliseconds; `None` for the time of the previous step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -210,10 +210,10 @@ pub struct ServiceStep {
     /// Variable that is read or written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variable: Option<String>,
-    /// Its bytes, including the NUL of a text.
+    /// The bytes of the variable, including the NUL of a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bytes: Option<Pieces>,
-    /// For a state: its number, in decimal.
+    /// For a variable that contains a state: its number, in decimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<String>,
     /// UUID of the service to which the request is sent.
@@ -234,7 +234,7 @@ pub struct ServiceStep {
     /// Response state, in decimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub response_state: Option<String>,
-    /// A service may omit this write, or perform it after later steps.
+    /// Whether a service may omit this write, or perform it after later steps.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub optional: bool,
 }
@@ -252,7 +252,7 @@ pub struct ServiceSequence {
 /// The input of a case; its variant is the kind of the case.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Given {
+pub enum SequenceInput {
     /// A text to be divided into packets.
     NcText(Pieces),
     /// A text, in packets, to be checked for constructs that streaming does not permit.
@@ -263,7 +263,8 @@ pub enum Given {
     Service(ServiceSequence),
 }
 
-/// The text can be sent, the check finds no fault, or all steps proceed as stated.
+/// The outcome of a case without a fault: the text can be sent, the check finds no fault, or all steps
+/// proceed as stated.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SequenceAccept {
@@ -308,10 +309,10 @@ pub enum SequenceExpect {
 /// A text or a sequence of steps, and the expected outcome.
 ///
 /// ```
-/// use ads_cnc_vectors::{Given, sequence};
+/// use ads_cnc_vectors::{SequenceInput, sequence};
 ///
 /// let example = sequence("square-root-3").unwrap();
-/// let Given::Service(given) = &example.given else { panic!("it is about a service") };
+/// let SequenceInput::Service(given) = &example.given else { panic!("it is about a service") };
 /// let last = given.steps.iter().rfind(|step| step.actor == "root" && step.bytes.is_some()).unwrap();
 /// assert_eq!(last.variable.as_deref(), Some("V.G.SERVICE.RESPONSE_STATE"));
 /// assert_eq!(last.bytes.as_ref().unwrap().bytes(), [1, 0, 0, 0]);
@@ -319,27 +320,27 @@ pub enum SequenceExpect {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sequence {
-    /// A slug. Never reused.
+    /// ID: a slug, which is never reused.
     pub id: String,
-    /// A few words.
+    /// Title of a few words.
     pub title: String,
-    /// IDs of the requirements, or of parts of them, that its texts, steps or outcome exercise; at
-    /// least one.
+    /// IDs of the requirements, or of parts of requirements, that the texts, steps or outcome of the case
+    /// exercise; at least one.
     pub requirements: Vec<String>,
-    /// IDs of the errata that affect it.
+    /// IDs of the errata that affect the case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
     /// Documents that state the expected outcome, if another edition contradicts it or omits it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub editions: Vec<String>,
     /// The text or the steps.
-    pub given: Given,
+    pub given: SequenceInput,
     /// The expected outcome.
     pub expect: SequenceExpect,
     /// For a rejected case: an accepted case that differs only in lacking this fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<String>,
-    /// Its origin.
+    /// Origin of the case.
     pub provenance: Provenance,
     /// The assumptions that the case needs and that no document states.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -365,18 +366,18 @@ impl Sequence {
         catalogue::level(&self.requirements, &self.assumed)
     }
 
-    /// The cited requirements, and those of the cited parts, each once.
+    /// The cited requirements, and the requirements of the cited parts, each only once.
     pub fn cited(&self) -> Vec<&'static Requirement> {
         catalogue::requirements_of(&self.requirements)
     }
 
-    /// The kind of the case, as in its JSON.
+    /// The name of the kind of the case in the JSON files.
     pub fn kind(&self) -> &'static str {
         match self.given {
-            Given::NcText(_) => "nc-text",
-            Given::NcCheck(_) => "nc-check",
-            Given::Streaming(_) => "streaming",
-            Given::Service(_) => "service",
+            SequenceInput::NcText(_) => "nc-text",
+            SequenceInput::NcCheck(_) => "nc-check",
+            SequenceInput::Streaming(_) => "streaming",
+            SequenceInput::Service(_) => "service",
         }
     }
 }

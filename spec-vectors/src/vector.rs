@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
-    /// From the client.
+    /// From the client to the CNC.
     Request,
-    /// From the CNC.
+    /// From the CNC to the client.
     Reply,
     /// In both directions.
     Both,
@@ -19,7 +19,7 @@ pub enum Direction {
 
 /// ADS service that carries a stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Service {
+pub enum AdsService {
     /// Read
     Read,
     /// Write
@@ -32,7 +32,7 @@ pub enum Service {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum Type {
-    /// One byte; 0 is FALSE, any other TRUE.
+    /// One byte; 0 is FALSE, any other byte is TRUE.
     Boolean,
     /// Unsigned, 1 byte.
     Uns08,
@@ -50,27 +50,27 @@ pub enum Type {
     Real32,
     /// Binary64, 8 bytes.
     Real64,
-    /// BOOLEAN of the COM task.
+    /// BOOLEAN, by its name in the COM task.
     Bool,
-    /// Unsigned, 1 byte, of the COM task.
+    /// Unsigned, 1 byte; a type name of the COM task.
     Byte,
-    /// Signed, 1 byte, of the COM task.
+    /// Signed, 1 byte; a type name of the COM task.
     Sint,
-    /// Unsigned, 2 bytes, of the COM task.
+    /// Unsigned, 2 bytes; a type name of the COM task.
     Word,
-    /// Signed, 2 bytes, of the COM task.
+    /// Signed, 2 bytes; a type name of the COM task.
     Int,
-    /// Unsigned, 4 bytes, of the COM task.
+    /// Unsigned, 4 bytes; a type name of the COM task.
     Dword,
-    /// Signed, 4 bytes, of the COM task.
+    /// Signed, 4 bytes; a type name of the COM task.
     Dint,
-    /// Unsigned, 8 bytes, of the COM task.
+    /// Unsigned, 8 bytes; a type name of the COM task.
     Lword,
-    /// Signed, 8 bytes, of the COM task.
+    /// Signed, 8 bytes; a type name of the COM task.
     Lint,
-    /// Binary32, 4 bytes, of the COM task.
+    /// Binary32, 4 bytes; a type name of the COM task.
     Real,
-    /// Binary64, 8 bytes, of the COM task.
+    /// Binary64, 8 bytes; a type name of the COM task.
     Lreal,
     /// Text in CP1252.
     String,
@@ -78,12 +78,12 @@ pub enum Type {
     NetId,
     /// Bytes without a further structure.
     Bytes,
-    /// A word for a part of an address; defined by this project, and not in the stream.
+    /// A word for a part of an address. This project defines the words; the stream does not contain them.
     Name,
 }
 
 impl Type {
-    /// The name in the files; for a type of the manuals, its name in the manuals.
+    /// The name of the type in the data files, which is the name in the manuals if they have the type.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Boolean => "BOOLEAN",
@@ -114,13 +114,13 @@ impl Type {
     }
 }
 
-/// Information that is known in addition to the bytes.
+/// The information that a decoder has in addition to the bytes.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Context {
     /// ADS service that carries the stream.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub service: Option<Service>,
+    pub service: Option<AdsService>,
     /// Index group.
     #[serde(default, with = "address", skip_serializing_if = "Option::is_none")]
     pub index_group: Option<u32>,
@@ -139,10 +139,10 @@ pub struct Context {
     /// Base of an index group, to which a channel, axis or spindle was added.
     #[serde(default, with = "address", skip_serializing_if = "Option::is_none")]
     pub base: Option<u32>,
-    /// Vector of the stream that is the data of a frame's service.
+    /// ID of the vector whose stream is the data of the service in a frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub carries: Option<String>,
-    /// Vector of the request that this stream answers.
+    /// ID of the vector of the request to which this stream is the reply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub request: Option<String>,
 }
@@ -162,7 +162,7 @@ pub struct Context {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tagged {
-    /// Type.
+    /// Type of the value.
     #[serde(rename = "type")]
     pub kind: Type,
     /// The number in decimal, the NetId, the name, or a text decoded as CP1252; `None` for bytes.
@@ -171,13 +171,13 @@ pub struct Tagged {
     /// The bytes of a text before its NUL, or plain bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hex: Option<Hex>,
-    /// Bits of a float, as `0x…`.
+    /// Bits of a floating-point number, as `0x…`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<String>,
     /// Bytes after the first NUL of a text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tail: Option<Hex>,
-    /// The text has no NUL.
+    /// Whether the text has no NUL.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub open: bool,
 }
@@ -195,7 +195,8 @@ impl Tagged {
         self.value.as_deref()?.parse().ok()
     }
 
-    /// The bits of a float; those of a REAL32 or REAL are in the low half. `None` for other types.
+    /// The bits of a floating-point number; those of a REAL32 or REAL are in the low half. `None` for
+    /// other types.
     pub fn real_bits(&self) -> Option<u64> {
         let digits = self.bits.as_deref()?.strip_prefix("0x")?;
         u64::from_str_radix(digits, 16).ok()
@@ -241,33 +242,33 @@ impl Value {
 pub struct Segment {
     /// The field, such as `dimensions[0]`; for a fault also a name such as `trailing`.
     pub field: String,
-    /// Its bytes; empty for a field without bytes.
+    /// The bytes of the segment; empty for a field without bytes.
     pub hex: Hex,
-    /// The value of these bytes, if they have a value of their own.
+    /// The value of the bytes, if they represent a value of their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
 }
 
-/// The stream is well-formed.
+/// The expected outcome for a well-formed stream.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accept {
-    /// Its value, without the numbers that only count something else in the stream.
+    /// Value of the stream, without numbers that only count other data of the stream.
     pub value: Fields,
     /// The canonical bytes of the value, if they differ from the stream.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub canonical: Option<Hex>,
 }
 
-/// The stream is malformed.
+/// The expected outcome for a malformed stream.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reject {
-    /// Class of the fault. Advisory: a codec may classify faults differently.
+    /// Class of the fault. This is advisory, because a codec may classify faults differently.
     pub class: String,
-    /// Offset of the faulty field, or of the first extra byte. Advisory.
+    /// Offset of the faulty field, or of the first extra byte. This is advisory.
     pub offset: usize,
-    /// The faulty field. Advisory.
+    /// Name of the faulty field. This is advisory.
     pub field: String,
 }
 
@@ -275,9 +276,9 @@ pub struct Reject {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Expect {
-    /// A codec has to decode it to the value.
+    /// A codec must decode the stream to the value.
     Accept(Accept),
-    /// A codec has to reject it.
+    /// A codec must reject the stream.
     Reject(Reject),
 }
 
@@ -287,7 +288,7 @@ pub enum Expect {
 pub enum ProvenanceKind {
     /// An example printed in the manuals.
     Manual,
-    /// Made for a reason.
+    /// Made by this project, for the reason in [`Provenance::reason`].
     Derived,
     /// Found by fuzzing.
     Fuzz,
@@ -299,10 +300,10 @@ pub enum ProvenanceKind {
 pub struct Provenance {
     /// Kind of origin.
     pub kind: ProvenanceKind,
-    /// Why it was made; only if it is not a printed example.
+    /// The reason why the vector or sequence was made; only if it is not a printed example.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// The printed example, or the examples from which the vector is derived.
+    /// The printed example, or the examples from which the vector or sequence is derived.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sources: Vec<Source>,
 }
@@ -321,14 +322,14 @@ pub struct Provenance {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vector {
-    /// A slug. Never reused.
+    /// ID: a slug, which is never reused.
     pub id: String,
-    /// A few words.
+    /// Title of a few words.
     pub title: String,
-    /// IDs of the requirements, or of parts of them, that its bytes or its outcome exercise; at
-    /// least one.
+    /// IDs of the requirements, or of parts of requirements, that the bytes or the outcome of the vector
+    /// exercise; at least one.
     pub requirements: Vec<String>,
-    /// IDs of the errata that affect it.
+    /// IDs of the errata that affect the vector.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
     /// Kind of stream.
@@ -338,7 +339,7 @@ pub struct Vector {
     /// Documents that state the expected outcome, if another edition contradicts it or omits it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub editions: Vec<String>,
-    /// Information that is known in addition to the bytes.
+    /// The information that a decoder has in addition to the bytes.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub context: Context,
     /// The bytes, field by field.
@@ -348,7 +349,7 @@ pub struct Vector {
     /// For a rejected vector: an accepted vector that differs only in lacking this fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<String>,
-    /// Its origin.
+    /// Origin of the vector.
     pub provenance: Provenance,
     /// The assumptions that the vector needs and that no document states.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -408,7 +409,7 @@ impl Vector {
         catalogue::stated_level(&self.requirements)
     }
 
-    /// The cited requirements, and those of the cited parts, each once.
+    /// The cited requirements, and the requirements of the cited parts, each only once.
     pub fn cited(&self) -> Vec<&'static Requirement> {
         catalogue::requirements_of(&self.requirements)
     }

@@ -88,11 +88,13 @@ fn sources_name_known_editions() {
     }
 }
 
-/// `must` for statements of the documents and their consequences, `should` for the help pages, `info`
-/// for assumptions. Stricter levels are marked as rulings; weaker levels are listed here.
+/// The level of a clause is `must` if the documents state the clause or it follows from them, `should` if
+/// only the help pages state it, and `info` if it is assumed. A clause with a stricter level has a
+/// ruling; clauses with a weaker level are listed here.
 #[test]
 fn levels_follow_the_basis() {
-    // The manual says "should"; the behaviour of a sample program is not binding.
+    // For STM-17, the manual itself says "should". STM-6.1 only describes a sample program, which is not
+    // binding.
     const WEAKER: [(&str, Level); 2] = [("STM-17", Level::Should), ("STM-6.1", Level::Info)];
     let level = |id: &str, basis| match basis {
         _ if WEAKER.iter().any(|(one, _)| *one == id) => {
@@ -141,7 +143,8 @@ fn vectors_cite_existing_entries() {
     }
 }
 
-/// Group and offset of a request: from its context, or from its own fields if it is a whole ADS request.
+/// Group and offset of a request: from its context, or from its fields if the stream is a whole ADS
+/// request.
 fn address(request: &Vector) -> (Option<u32>, Option<u32>) {
     if request.context.service.is_some() {
         return (request.context.index_group, request.context.index_offset);
@@ -149,7 +152,7 @@ fn address(request: &Vector) -> (Option<u32>, Option<u32>) {
     let Expect::Accept(accept) = &request.expect else {
         return (None, None);
     };
-    // In a frame, the request has them.
+    // In a frame, the record of the ADS request contains group and offset.
     let part = accept.value.iter().find_map(|(name, value)| match value {
         Value::Record(fields) if name.ends_with("_request") => Some(fields),
         _ => None,
@@ -226,8 +229,8 @@ fn streams_have_segments() {
     }
 }
 
-/// A requirement that can be judged from bytes has accepted vectors, and rejected vectors unless it
-/// states why no bytes break it. A pending requirement lacks vectors.
+/// A requirement that can be judged from bytes has accepted vectors; it also has rejected vectors, unless
+/// it states why no bytes violate it. Only a pending requirement may lack vectors.
 #[test]
 fn requirements_about_bytes_have_both_verdicts() {
     let cited = |accepted: bool| -> BTreeSet<&str> {
@@ -254,7 +257,8 @@ fn requirements_about_bytes_have_both_verdicts() {
     }
 }
 
-/// A frame that carries another vector ends with the stream of that vector, and has its address.
+/// A frame that carries another vector ends with the stream of that vector, and has the address of that
+/// vector.
 #[test]
 fn frames_carry_the_named_vector() {
     for v in vectors() {

@@ -37,7 +37,7 @@ fn assert_valid(validator: &Validator, path: &Path) {
         .map(|error| format!("{} at {}", error, error.instance_path()))
         .collect();
     assert!(errors.is_empty(), "{}: {errors:#?}", path.display());
-    // The file names the schema with which it was validated.
+    // The path in `$schema` exists: it is the schema with which the file was validated.
     let named = document["$schema"].as_str().expect("a schema");
     let target = path.parent().expect("a folder").join(named);
     assert!(target.is_file(), "{} names {named}", path.display());

@@ -1,8 +1,8 @@
 //! Properties of the sequences that their schema cannot express.
 
 use ads_cnc_vectors::{
-    Given, ProvenanceKind, Sequence, SequenceExpect, clause, documents, erratum, requirement,
-    requirements, sequence, sequences, vector, vectors,
+    ProvenanceKind, Sequence, SequenceExpect, SequenceInput, clause, documents, erratum,
+    requirement, requirements, sequence, sequences, vector, vectors,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,9 +23,11 @@ fn ids_are_unique() {
 
 fn step_ids(case: &Sequence) -> Vec<&str> {
     match &case.given {
-        Given::Streaming(given) => given.steps.iter().map(|step| step.id.as_str()).collect(),
-        Given::Service(given) => given.steps.iter().map(|step| step.id.as_str()).collect(),
-        Given::NcText(_) | Given::NcCheck(_) => Vec::new(),
+        SequenceInput::Streaming(given) => {
+            given.steps.iter().map(|step| step.id.as_str()).collect()
+        }
+        SequenceInput::Service(given) => given.steps.iter().map(|step| step.id.as_str()).collect(),
+        SequenceInput::NcText(_) | SequenceInput::NcCheck(_) => Vec::new(),
     }
 }
 
@@ -75,7 +77,7 @@ fn rejected_sequences_have_a_sibling() {
     }
 }
 
-/// A sibling has the same steps before the fault, or one additional step.
+/// A sibling has the same steps as the rejected case before its fault, or one additional step.
 #[test]
 fn siblings_have_the_same_steps() {
     for case in sequences() {
@@ -101,20 +103,20 @@ fn every_kind_has_both_verdicts() {
     }
 }
 
-/// Requirements without a case although the catalogue does not exclude them, and why.
+/// Requirements that have no case, although the catalogue does not exclude them, with the reason.
 const UNSHOWN: [(&str, &str); 2] = [
     ("STM-21", "the NC language defines the other errors"),
     ("SVC-11", "no stream of these areas has a version"),
 ];
 
-/// Requirements whose violation no text or step can show, and why.
+/// Requirements without a rejected case, because no text or step can show a violation, with the reason.
 const ONLY_ACCEPTED: [(&str, &str); 2] = [
     ("STM-16", "no stream shows that motion stops"),
     ("STM-18", "no stream shows whether the subroutine is executed"),
 ];
 
-/// Both areas are about texts and order, so a requirement that can be judged has an accepted and a
-/// rejected case.
+/// The requirements of the areas STM and SVC concern texts and the order of steps. A requirement that can
+/// be judged therefore has an accepted and a rejected case.
 #[test]
 fn requirements_have_both_verdicts() {
     let (mut accepted, mut rejected) = (BTreeSet::new(), BTreeSet::new());

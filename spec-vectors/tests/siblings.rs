@@ -2,7 +2,7 @@
 
 use ads_cnc_vectors::{Context, Vector, vector, vectors};
 
-/// A count and the additional item.
+/// The maximum number of differing bytes: a count and an additional item, of four bytes each.
 const EDIT_MAX: usize = 8;
 
 /// The length of the part in which two streams differ; 0 if one of them begins with the other.

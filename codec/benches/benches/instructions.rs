@@ -1,11 +1,11 @@
-//! Instructions of every case, counted by callgrind: the same on every run.
+//! Counts the instructions of every case with callgrind. The counts are the same on every run.
 
 use ads_cnc_benches::{Case, Work, gate, others};
 use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
-/// callgrind counts large copies, which are one instruction of the processor, byte by byte; copies
-/// larger than the caches use yet another method. This makes the C library copy all of them like small
-/// ones.
+/// Makes the C library copy memory of any length like short memory. By default, it copies long memory with
+/// one processor instruction, which callgrind counts byte by byte, and memory larger than the caches with a
+/// third method.
 fn config() -> LibraryBenchmarkConfig {
     let thresholds = ["rep_movsb", "rep_stosb", "non_temporal"]
         .map(|it| format!("glibc.cpu.x86_{it}_threshold=0x7fffffff"));
@@ -24,12 +24,12 @@ fn prepare_other(at: usize) -> Work {
 
 fn prepare(case: Case) -> Work {
     let mut work = (case.prepare)();
-    // One-time work, such as resolving symbols, is finished at this point.
+    // Run once before counting, so that one-time work such as resolving symbols is not counted.
     (work.run)();
     work
 }
 
-// Return the work, so that dropping it is not counted.
+// The functions return the work, so that dropping it is not counted.
 #[library_benchmark(config = config())]
 #[benches::case(iter = 0..gate().count(), setup = prepare_gated)]
 fn gated(mut work: Work) -> Work {

@@ -1,4 +1,5 @@
-//! Time of every case with criterion, for interactive use; `results.py` computes ratios.
+//! Measures the time of every case with criterion, for interactive use. `ratios.rs` measures the ratios for
+//! the README.
 
 use ads_cnc_benches::all;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -8,7 +9,7 @@ fn time(criterion: &mut Criterion) {
         let mut work = (case.prepare)();
         let mut group = criterion.benchmark_group(case.subject);
         group.throughput(Throughput::Elements(work.units));
-        group.bench_function(case.who, |bencher| bencher.iter(|| (work.run)()));
+        group.bench_function(case.implementation, |bencher| bencher.iter(|| (work.run)()));
         group.finish();
     }
 }

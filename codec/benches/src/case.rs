@@ -3,31 +3,31 @@
 /// A measured case.
 #[derive(Clone, Copy)]
 pub struct Case {
-    /// The subject, such as `description`.
+    /// The subject that is measured, such as `description`.
     pub subject: &'static str,
     /// The implementation, such as `borrowed` or `by hand`.
-    pub who: &'static str,
-    /// Creates the inputs; not measured.
+    pub implementation: &'static str,
+    /// Creates the inputs and the work to measure; the creation is not measured.
     pub prepare: fn() -> Work,
-    /// The limits of its cost.
+    /// The limits of the cost of the case.
     pub limits: &'static [Limit],
-    /// Whether it takes too long to be counted on every change.
+    /// Whether counting the case takes too long for every change, so that only `--renew` counts it.
     pub is_long: bool,
 }
 
 /// A limit of the cost of a case.
 #[derive(Clone, Copy)]
 pub enum Limit {
-    /// A multiple of the instructions of another case of the same subject.
+    /// At most this multiple of the instructions of another case of the same subject.
     Instructions(&'static str, f64),
-    /// A multiple of the time of another case of the same subject.
+    /// At most this multiple of the time of another case of the same subject.
     Time(&'static str, f64),
-    /// A number of instructions per unit more than another case of the same subject.
+    /// At most this number of instructions per unit more than another case of the same subject.
     Over(&'static str, f64),
 }
 
 impl Limit {
-    /// The other case.
+    /// The implementation of the other case, with which the limit compares.
     pub fn against(&self) -> &'static str {
         match self {
             Self::Instructions(other, _) | Self::Time(other, _) | Self::Over(other, _) => other,
@@ -37,9 +37,9 @@ impl Limit {
 
 /// Work that can be repeated.
 pub struct Work {
-    /// The number of units in a run: records, bytes or calls. Figures are per unit.
+    /// The number of units in a run: records, bytes or calls. Results are per unit.
     pub units: u64,
-    /// One run.
+    /// Performs one run.
     pub run: Box<dyn FnMut()>,
 }
 
@@ -47,10 +47,10 @@ impl Case {
     /// A case of `subject`, by the implementation `who`, without limits.
     pub(crate) const fn new(
         subject: &'static str,
-        who: &'static str,
+        implementation: &'static str,
         prepare: fn() -> Work,
     ) -> Self {
-        Self { subject, who, prepare, limits: &[], is_long: false }
+        Self { subject, implementation, prepare, limits: &[], is_long: false }
     }
 
     /// Adds these limits.
@@ -68,14 +68,14 @@ impl Case {
         if self.is_long {
             return false;
         }
-        let is_named = |limit: &Limit| limit.against() == self.who;
+        let is_named = |limit: &Limit| limit.against() == self.implementation;
         !self.limits.is_empty()
             || crate::all().any(|it| it.subject == self.subject && it.limits.iter().any(is_named))
     }
 }
 
-/// Processes each input in turn. The compiler can predict neither the inputs nor that the results are
-/// unused.
+/// Creates work that processes each input in turn. `black_box` hides from the compiler what the inputs are
+/// and that the results are unused.
 macro_rules! each {
     ($inputs:expr, |$input:ident| $work:expr) => {
         $crate::case::each!($inputs, 1, |$input| $work)

@@ -12,7 +12,8 @@ use crate::cases::descriptors::record;
 const RECORDS: u64 = 10_000;
 const TURNS: usize = 15;
 
-/// Writes `descriptors.bin`, one list, and `descriptions.bin`, each description after its length.
+/// Writes `descriptors.bin`, a list of descriptors, and `descriptions.bin`, in which each description
+/// follows its length.
 pub fn write(folder: &Path) -> io::Result<()> {
     let list: Vec<u8> = (0..RECORDS).flat_map(record).collect();
     fs::write(folder.join("descriptors.bin"), list)?;
@@ -25,7 +26,7 @@ pub fn write(folder: &Path) -> io::Result<()> {
     fs::write(folder.join("descriptions.bin"), all)
 }
 
-/// A user-defined array: handle, type, access, size, two dimensions, name.
+/// The description of a user-defined array: handle, type, access, size, two dimensions, name.
 fn description(at: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     for number in [0x0200_0000 + at, 6, 2, 4 * 3 * 5, 2, 3, 5] {
@@ -35,7 +36,7 @@ fn description(at: u32) -> Vec<u8> {
     bytes
 }
 
-/// Prints the operation and the median of nanoseconds per record.
+/// Prints the name of each operation and the median of its nanoseconds per record.
 pub fn time(folder: &Path) -> io::Result<()> {
     let list = fs::read(folder.join("descriptors.bin"))?;
     let all = fs::read(folder.join("descriptions.bin"))?;
@@ -71,12 +72,12 @@ fn show(what: &str, mut go: impl FnMut()) {
     let mut turns: Vec<f64> = (0..TURNS)
         .map(|_| {
             let start = Instant::now();
-            let mut goes = 0_u32;
+            let mut rounds = 0_u32;
             while start.elapsed() < Duration::from_millis(10) {
                 go();
-                goes += 1;
+                rounds += 1;
             }
-            start.elapsed().as_nanos() as f64 / f64::from(goes) / RECORDS as f64
+            start.elapsed().as_nanos() as f64 / f64::from(rounds) / RECORDS as f64
         })
         .collect();
     turns.sort_by(f64::total_cmp);

@@ -11,7 +11,7 @@ mod samples_elements;
 use ads_cnc::layout::Stream;
 use samples::Sample;
 
-/// The minimum number of streams in a run, which is rounded up to whole rounds.
+/// The minimum number of streams in a run. A run may have more, because all samples occur equally often.
 const STREAMS: usize = 100;
 
 fn each(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
@@ -24,12 +24,12 @@ pub(crate) fn many(stream: Stream) -> Vec<&'static [u8]> {
     round(each(stream).collect())
 }
 
-/// Faulty bytes: truncated, with an extra byte, or too long, where these are faults of the stream.
+/// Inputs that the stream rejects, among truncated samples, samples with an extra byte and long inputs.
 pub(crate) fn refused(stream: Stream, accepts: fn(&[u8]) -> bool) -> Vec<&'static [u8]> {
     round(faulty(stream).filter(|bytes| !accepts(bytes)).collect())
 }
 
-/// The bytes to try as faulty.
+/// Inputs that may be faulty: truncated samples, samples with an extra byte, and bytes that are too long.
 pub(crate) fn faulty(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
     let cut = each(stream)
         .flat_map(|bytes| (0..bytes.len()).map(|len| bytes[..len].to_vec()).collect::<Vec<_>>());

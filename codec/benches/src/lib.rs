@@ -1,4 +1,4 @@
-//! The cost of the codec compared with code written by hand, other libraries and a plain copy.
+//! Compares the cost of the codec with code written by hand, other libraries and a plain copy of the bytes.
 
 mod case;
 mod cases;

@@ -16,7 +16,7 @@ const client = new Client({
   routerTcpPort: Number(tcpPort),
   localAmsNetId: '127.0.0.1.1.9',
   localAdsPort: 32900,
-  // A CNC has neither the symbols nor the state of a PLC.
+  // Do not read the symbols and the state of a PLC, because a CNC has neither of them.
   rawClient: true,
 });
 
@@ -45,7 +45,7 @@ async function read(name) {
 }
 
 async function main() {
-  // The variables, by index.
+  // Describe all variables, by index.
   const count = await send(cnc.countVariables(1, 'V.E'));
   const listed = [];
   for (let index = 0; index < count; index += 1) {
@@ -61,7 +61,7 @@ async function main() {
     shown(`${name}, written`, await read(name), value);
   }
 
-  // An element of SDA, by name: first the instance of the class, then the names of its elements.
+  // Find an element of SDA by name: query the instance of the class, then read the names of its elements.
   const { indexGroup, indexOffset } = await send(cnc.findInstance('HLD', 1, 0));
   const elements = await send(cnc.countElements(indexGroup, indexOffset));
   const names = [];
@@ -79,7 +79,7 @@ async function main() {
   const failure = await read('V.E.nothing').catch((error) => error);
   shown('V.E.nothing, ADS error', failure.adsError?.errorCode, 0x710);
 
-  // A reply padded with zeros to the read length, as from a library that does not return the length.
+  // A reply padded with zeros to the read length, like one from a library that does not return the length.
   const request = cnc.describeByIndex(1, 0, 'V.E');
   const { indexGroup: group, indexOffset: offset, readLength, data } = request;
   const reply = await client.readWriteRaw(group, offset, readLength, Buffer.from(data));

@@ -55,7 +55,7 @@ local_port = pyads.open_port()
 pyads.set_local_address("127.0.0.1.1.7")
 pyads.add_route(NET_ID, host)
 
-# The variables, by index.
+# Describe all variables, by index.
 types = {type.code: type.name for type in ads_cnc.TYPES}
 count = send(ads_cnc.count_variables(1, "V.E"))
 listed = [send(ads_cnc.describe_by_index(1, index, "V.E")) for index in range(count)]
@@ -68,7 +68,7 @@ for name, (type, value) in expected["write"].items():
     send(ads_cnc.write_by_name(1, name, ads_cnc.pack(type, value)))
     shown(f"{name}, written", read(name), value)
 
-# An element of SDA, by name: first the instance of the class, then the names of its elements.
+# Find an element of SDA by its name: query the instance of the class, then read the names of its elements.
 instance = send(ads_cnc.find_instance("HLD", 1, 0))
 group, first = instance.index_group, instance.index_offset
 for at in range(first + 1, first + 1 + send(ads_cnc.count_elements(group, first))):

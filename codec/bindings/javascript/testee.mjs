@@ -52,7 +52,7 @@ function number(type, data) {
 
 function elements({ type, dimensions = [] }, data) {
   if (!typeOf(type)) throw new Unsupported('context');
-  // The package checks whether the value can have this length.
+  // `unpack` throws an error if the data does not have the length of the value.
   cnc.unpack(type, data, dimensions);
   const count = dimensions.reduce((product, one) => product * one, 1),
     size = data.length / Math.max(count, 1);
@@ -93,7 +93,7 @@ const openText = (value) => ({ type: 'STRING', hex: hex(cnc.textToCp1252(value))
 const count = (data) => cnc.decode('object-count', data);
 const WORDS = { objectClass: 'class' };
 
-// Subjects that are not streams of the table. A group and an offset are numbers of four bytes, like a count.
+// Subjects that are not streams of the table. Groups and offsets have four bytes and are decoded as counts.
 const OTHERS = {
   'variable-path': {
     decode(data) {

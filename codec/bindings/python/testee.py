@@ -55,7 +55,7 @@ def elements(context, data):
     if "type" not in context or context["type"] not in TYPES:
         raise Unsupported("context")
     kind, count = context["type"], math.prod(context.get("dimensions", []))
-    # The package checks whether the value can have this length.
+    # `unpack` raises an error if the data does not have the length of the value.
     ads_cnc.unpack(kind, data, context.get("dimensions", []))
     size = len(data) // max(count, 1)
     parts = [data[at * size :][:size] for at in range(count)]
@@ -122,7 +122,7 @@ def decode_path(data, _):
 
 
 def decode_group(data, context):
-    # Both are numbers of four bytes, like a count.
+    # Decode the group as a count, because both are numbers of four bytes.
     number = ads_cnc.decode("object-count", data)
     out = {"index_group": number_of("UNS32", number)}
     if "base" in context and not 0 <= number - int(context["base"], 16) <= 255:
@@ -275,7 +275,7 @@ def answer(line):
         if seq is None:
             return {"seq": None, "error": {"message": "no JSON"}}
         return {"seq": seq, "reject": {"class": "value", "message": str(error)}}
-    except Exception as error:  # any error is an answer; the next line follows
+    except Exception as error:  # answer with the error, and continue with the next line
         return {"seq": seq, "error": {"message": repr(error)}}
 
 

@@ -3,7 +3,7 @@
 use std::{env, error::Error, time::Duration};
 
 use ads::{AmsAddr, AmsNetId, Client, Source, Timeouts};
-use ads_cnc::operation::{Operation, Service};
+use ads_cnc::operation::{AdsService, Operation};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -46,9 +46,9 @@ impl Cnc {
         op.encode(&mut data)?;
         buf.resize(op.read_length() as usize, 0);
         let len = match op.service() {
-            Service::Read => device.read(group, offset, buf)?,
-            Service::ReadWrite => device.write_read(group, offset, &data, buf)?,
-            Service::Write => device.write(group, offset, &data).map(|()| 0)?,
+            AdsService::Read => device.read(group, offset, buf)?,
+            AdsService::ReadWrite => device.write_read(group, offset, &data, buf)?,
+            AdsService::Write => device.write(group, offset, &data).map(|()| 0)?,
         };
         Ok(op.decode_reply(&buf[..len])?)
     }

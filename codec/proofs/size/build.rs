@@ -1,4 +1,4 @@
-//! The program links no C runtime, on Linux as well.
+//! Links the program without a C runtime, also on Linux.
 
 fn main() {
     if std::env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("linux") {

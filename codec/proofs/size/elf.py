@@ -32,7 +32,7 @@ class Elf:
         return sum(head["size"] for head in named)
 
     def functions(self):
-        """Size by name."""
+        """The size of each function in bytes, by its symbol name."""
         table, names = self.sections[".symtab"], self.sections[".strtab"]
         step, form = (24, "IBBHQQ") if self.wide else (16, "IIIBBH")
         sizes = {}

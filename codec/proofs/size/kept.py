@@ -1,5 +1,5 @@
-"""The functions that a program keeps: those in the lists of the public API, part by part. Generic functions are
-in src/generic.rs, written by hand, with the types that they are used with."""
+"""Selects the functions that a program keeps, part by part, from the lists of the public API. Generic
+functions are written by hand in src/generic.rs, instantiated with the types that programs use."""
 
 import pathlib
 import re
@@ -19,13 +19,13 @@ PARTS = {
     "service": r"service::",
     "views": r"",
 }
-# Traits, the part that an implementation is in if not that of its type, and the methods.
+# Traits, the part that implementations of the trait belong to (None: the part of the type), and methods.
 TRAITS = [
     ("Decode", None, "decode"),
     ("Encode", None, "encode encoded_len"),
     ("operation::Operation", None,
      "index_group index_offset read_length encoded_len encode decode_reply"),
-    # A program has these of the few operations that it calls, or `Request::encode` for all.
+    # A program contains these methods only for the operations that it calls, or `Request::encode` for all.
     ("operation::Operation", "calls", "port service call"),
     ("value::EncodeValue", "values", "data_type element_count value_len encode_value"),
     ("Iterator", None, "next"),
@@ -41,7 +41,7 @@ def part(path):
 
 
 def read(features):
-    """Of each function its part and how it is called, and the paths of what is generic."""
+    """Part and path of each function that is not generic, and the paths of the generic functions."""
     kept, generic, head, name = [], [], "", ""
     for line in (API / f"{features}.txt").read_text(encoding="utf-8").splitlines():
         if line.startswith("fn "):
@@ -70,7 +70,7 @@ def read(features):
 
 
 def source(parts, extra=(), owned=False):
-    """The Rust that keeps these parts and these functions, and how many it keeps by path."""
+    """Rust code that keeps the functions of these parts and `extra`, and the number of paths in it."""
     paths = [path for of, path in read("none")[0] if of in parts] + list(extra)
     if owned:
         paths += [path for _, path in read("alloc")[0]]
@@ -86,8 +86,8 @@ def by_hand():
 
 
 def missing(gone="\0"):
-    """What is generic and not kept by hand, or would not be if this were gone, and how much else
-    there is."""
+    """The generic functions that src/generic.rs, without the text `gone`, does not keep, and the number of
+    other functions."""
     kept, generic = read("none")
     text = re.sub(r"::<[^>]*>", "", by_hand()).replace(gone, "")
     lost = [path for path in generic if not re.search(rf"(?<![\w:]){path}\b", text)]

@@ -21,7 +21,7 @@ fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
 /// The largest instance number: an index group has 8 bits for it (ADR-9).
 const INSTANCE_MAX: u32 = 0xFF;
 
-/// For errors: the name, the minimum and the maximum of the argument that a field stands for.
+/// The name, minimum and maximum of the constructor argument that an error reports by this field.
 pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     match field {
         CHANNEL => Some(("channel", 1, INSTANCE_MAX)),

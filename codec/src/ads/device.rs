@@ -57,7 +57,7 @@ impl DeviceInfoReply {
         zerocopy::transmute!(self.layout())
     }
 
-    /// The name: the bytes before the first NUL, or all of them.
+    /// The name: the bytes before the first NUL, or all 16 bytes without a NUL.
     pub fn name(&self) -> CncStr<'_> {
         CncStr::until_nul(&self.name)
     }

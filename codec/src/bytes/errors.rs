@@ -25,15 +25,15 @@ pub(crate) fn truncated(stream: Stream, at: u32, left: usize) -> Error {
 // Not inlined: otherwise each decoder of a fixed stream would save registers for this rare case.
 #[cold]
 #[inline(never)]
-pub(super) fn not_all(stream: Stream, size: usize, given: usize) -> Error {
-    if given < size {
-        return truncated(stream, 0, given);
+pub(super) fn not_all(stream: Stream, size: usize, found: usize) -> Error {
+    if found < size {
+        return truncated(stream, 0, found);
     }
     let size = to_u32(size);
-    Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))
+    Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(found))
 }
 
 #[cold]
-pub(super) fn too_long(field: Field, max: u32, given: u32) -> Error {
-    Error::new(ErrorKind::TooLong, field, max, max, given)
+pub(super) fn too_long(field: Field, max: u32, found: u32) -> Error {
+    Error::new(ErrorKind::TooLong, field, max, max, found)
 }

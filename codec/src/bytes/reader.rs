@@ -11,6 +11,7 @@ use crate::text::end::{not_cstring, not_optional_nul, split_nul, split_padded, t
 use crate::text::{CncStr, TextRef};
 
 /// The remaining bytes of a stream, and their offset.
+#[derive(Debug)]
 pub(crate) struct Reader<'a> {
     stream: Stream,
     bytes: &'a [u8],

@@ -1,6 +1,7 @@
 //! A sequence of descriptors.
 
 use core::fmt;
+use core::iter::FusedIterator;
 use core::slice;
 
 use zerocopy::{FromBytes as _, IntoBytes as _};
@@ -113,6 +114,15 @@ impl DoubleEndedIterator for DescriptorIter<'_> {
 }
 
 impl ExactSizeIterator for DescriptorIter<'_> {}
+
+impl FusedIterator for DescriptorIter<'_> {}
+
+/// Formats the remaining descriptors.
+impl fmt::Debug for DescriptorIter<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("DescriptorIter").field(&DescriptorsRef(self.0.as_slice())).finish()
+    }
+}
 
 impl<'a> IntoIterator for DescriptorsRef<'a> {
     type Item = DescriptorRef<'a>;

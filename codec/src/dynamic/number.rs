@@ -37,7 +37,8 @@ stream! {
 crate::number::shown!(DynamicCount);
 
 stream! {
-    /// The request for a dynamic parameter by its index.
+    /// The data of a request that selects a dynamic parameter by its index. The function determines
+    /// whether the reply is the name or the value.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
     ///

@@ -34,6 +34,10 @@ use crate::variable::{ValueRef, VariablePath};
 /// assert_eq!(ReadByName::new(channel, VariablePath::new("V.E.Testvar[3]")?.variable())?, op);
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the name of a variable or parameter",
+    note = "pass a reference, such as `&str` or `&String`, or a `CncStr`, `TextRef` or `VariablePath`"
+)]
 pub trait IntoName<'a> {
     /// The name as CP1252 text.
     ///
@@ -90,6 +94,14 @@ impl<'a> IntoName<'a> for &'a Text {
 /// Encode an array or a text into a buffer first, with [`EncodeValue`](crate::value::EncodeValue).
 /// Pass bytes as a slice or a vector. An array such as `&[1, 2]` does not compile, because it would
 /// write two bytes whatever the type of the variable.
+///
+/// ```compile_fail,E0277
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::operation::WriteByName;
+///
+/// let _ = WriteByName::new(Channel::new(1)?, "V.E.test", &[1_u8, 2]);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 ///
 /// [`Shape::encode`]: crate::value::Shape::encode
 ///

@@ -88,9 +88,9 @@ impl ReadDescriptors {
     }
 
     pub(super) fn check_reply(&self, reply: &DescriptorsRef<'_>, _: u32) -> Result<(), Error> {
-        let (requested, given) = (self.count(), to_u32(reply.len()));
-        if given > requested {
-            Err(Error::new(ErrorKind::TooMany, DESCRIPTORS, 0, requested, given))
+        let (requested, found) = (self.count(), to_u32(reply.len()));
+        if found > requested {
+            Err(Error::new(ErrorKind::TooMany, DESCRIPTORS, 0, requested, found))
         } else {
             Ok(())
         }
@@ -148,9 +148,9 @@ macro_rules! reads_content {
                 reply: &ContentRef<'_>,
                 length: u32,
             ) -> Result<(), Error> {
-                let given = to_u32(reply.bytes.len());
-                if given > length {
-                    Err(Error::new(ErrorKind::TooLong, CONTENT, length, length, given))
+                let found = to_u32(reply.bytes.len());
+                if found > length {
+                    Err(Error::new(ErrorKind::TooLong, CONTENT, length, length, found))
                 } else {
                     Ok(())
                 }

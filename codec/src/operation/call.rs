@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Function, Request, Service, Task};
+use super::{AdsService, Function, Request, Task};
 use crate::address::{IndexGroup, IndexOffset};
 use crate::ads::{AdsError, AmsPort};
 use crate::bytes::to_u32;
@@ -16,11 +16,11 @@ use crate::layout::{Field, Stream};
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
 /// use ads_cnc::ads::AmsPort;
-/// use ads_cnc::operation::{Call, Function, Service};
+/// use ads_cnc::operation::{AdsService, Call, Function};
 ///
 /// let call = Call {
 ///     port: AmsPort::SDA,
-///     service: Service::ReadWrite,
+///     service: AdsService::ReadWrite,
 ///     index_group: IndexGroup::new(0x12_2301),
 ///     index_offset: IndexOffset::new(0x44),
 ///     read_length: 4,
@@ -33,7 +33,7 @@ pub struct Call<'a> {
     /// The AMS port of the receiver.
     pub port: AmsPort,
     /// The service.
-    pub service: Service,
+    pub service: AdsService,
     /// Index group.
     pub index_group: IndexGroup,
     /// Index offset.
@@ -49,13 +49,13 @@ pub struct Call<'a> {
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
 /// use ads_cnc::ads::{AdsError, AmsPort};
-/// use ads_cnc::operation::{Call, DispatchError, Service};
+/// use ads_cnc::operation::{AdsService, Call, DispatchError};
 ///
 /// // The offset 0x4E is reserved.
 /// let index_offset = IndexOffset::new(0x4E);
 /// let call = Call {
 ///     port: AmsPort::SDA,
-///     service: Service::ReadWrite,
+///     service: AdsService::ReadWrite,
 ///     index_group: IndexGroup::new(0x12_2301),
 ///     index_offset,
 ///     read_length: 4,
@@ -78,9 +78,9 @@ pub enum DispatchError {
     /// The function requires another service.
     Service {
         /// The service that the function requires.
-        expected: Service,
+        expected: AdsService,
         /// The service of the request.
-        found: Service,
+        found: AdsService,
     },
     /// The data is not a valid request for the function.
     Stream(Error),
@@ -126,11 +126,11 @@ impl<'a> Call<'a> {
     /// ```
     /// use ads_cnc::address::{IndexGroup, IndexOffset};
     /// use ads_cnc::ads::AmsPort;
-    /// use ads_cnc::operation::{Call, DispatchError, Request, Service};
+    /// use ads_cnc::operation::{AdsService, Call, DispatchError, Request};
     ///
     /// let call = Call {
     ///     port: AmsPort::SDA,
-    ///     service: Service::ReadWrite,
+    ///     service: AdsService::ReadWrite,
     ///     index_group: IndexGroup::new(0x12_2301),
     ///     index_offset: IndexOffset::new(0x46),
     ///     read_length: 4,
@@ -139,8 +139,8 @@ impl<'a> Call<'a> {
     /// let Ok(Request::HandleByName(request)) = call.dispatch() else { panic!() };
     /// assert_eq!(request.name.text(), "V.E.vartest");
     ///
-    /// let read = Call { service: Service::Read, ..call };
-    /// let error = DispatchError::Service { expected: Service::ReadWrite, found: Service::Read };
+    /// let read = Call { service: AdsService::Read, ..call };
+    /// let error = DispatchError::Service { expected: AdsService::ReadWrite, found: AdsService::Read };
     /// assert_eq!(read.dispatch(), Err(error));
     /// ```
     ///
@@ -161,7 +161,7 @@ impl<'a> Call<'a> {
             }
             if spec.service == self.service {
                 return match spec.service {
-                    Service::Read if !self.data.is_empty() => {
+                    AdsService::Read if !self.data.is_empty() => {
                         Err(DispatchError::Stream(self.read_with_data()))
                     }
                     _ => Request::decode(function, group, self),
@@ -180,9 +180,9 @@ impl<'a> Call<'a> {
     #[cold]
     pub(super) fn read_with_data(&self) -> Error {
         let whole = Field::whole(Stream::ReadRequest);
-        let given = to_u32(self.data.len()).saturating_add(READ_REQUEST_LEN);
+        let found = to_u32(self.data.len()).saturating_add(READ_REQUEST_LEN);
         let len = READ_REQUEST_LEN;
-        Error::new(ErrorKind::Trailing, whole, len, len, given)
+        Error::new(ErrorKind::Trailing, whole, len, len, found)
     }
 }
 
@@ -196,7 +196,7 @@ mod tests {
     fn dispatch_rejects_a_read_with_data() {
         let read = Call {
             port: AmsPort::COM,
-            service: Service::Read,
+            service: AdsService::Read,
             index_group: IndexGroup::new(0x13_0101),
             index_offset: IndexOffset::new(1),
             read_length: 84,

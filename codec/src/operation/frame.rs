@@ -1,6 +1,6 @@
 //! Calls in AMS frames.
 
-use super::{Call, Service};
+use super::{AdsService, Call};
 use crate::ads::{Command, FrameRef, ReadRequest, ReadWriteRequestRef, WriteRequestRef};
 use crate::error::Error;
 use crate::stream::{Decode, Encode};
@@ -38,16 +38,16 @@ impl<'a> Call<'a> {
         let (service, index_group, index_offset, read_length, data) = match frame.header().command {
             Command::READ => {
                 let read = ReadRequest::decode(frame.data())?;
-                (Service::Read, read.index_group, read.index_offset, read.length, &[][..])
+                (AdsService::Read, read.index_group, read.index_offset, read.length, &[][..])
             }
             Command::WRITE => {
                 let write = WriteRequestRef::decode(frame.data())?;
-                (Service::Write, write.index_group, write.index_offset, 0, write.data)
+                (AdsService::Write, write.index_group, write.index_offset, 0, write.data)
             }
             Command::READ_WRITE => {
                 let both = ReadWriteRequestRef::decode(frame.data())?;
                 let (group, offset) = (both.index_group, both.index_offset);
-                (Service::ReadWrite, group, offset, both.read_length, both.data)
+                (AdsService::ReadWrite, group, offset, both.read_length, both.data)
             }
             _ => return Ok(None),
         };
@@ -62,18 +62,18 @@ impl<'a> Call<'a> {
 impl Encode for Call<'_> {
     fn encoded_len(&self) -> usize {
         match self.service {
-            Service::Read => self.read_request().encoded_len(),
-            Service::Write => self.write_request().encoded_len(),
-            Service::ReadWrite => self.read_write_request().encoded_len(),
+            AdsService::Read => self.read_request().encoded_len(),
+            AdsService::Write => self.write_request().encoded_len(),
+            AdsService::ReadWrite => self.read_write_request().encoded_len(),
         }
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         match self.service {
-            Service::Read if !self.data.is_empty() => Err(self.read_with_data()),
-            Service::Read => self.read_request().encode(buf),
-            Service::Write => self.write_request().encode(buf),
-            Service::ReadWrite => self.read_write_request().encode(buf),
+            AdsService::Read if !self.data.is_empty() => Err(self.read_with_data()),
+            AdsService::Read => self.read_request().encode(buf),
+            AdsService::Write => self.write_request().encode(buf),
+            AdsService::ReadWrite => self.read_write_request().encode(buf),
         }
     }
 }

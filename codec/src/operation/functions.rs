@@ -20,8 +20,8 @@ use super::docs::documented;
 use super::table::functions;
 use super::typed::{Parts, call, field, operation, sealed};
 use super::{
-    Call, DispatchError, Effect, FunctionSpec, GroupRule, IntoName, ObjectList, OffsetRule,
-    Operation, Reply, Service, Task, WriteValue,
+    AdsService, Call, DispatchError, Effect, FunctionSpec, GroupRule, IntoName, ObjectList,
+    OffsetRule, Operation, Reply, Task, WriteValue,
 };
 use crate::address::{
     Attribute, Channel, ChannelAxis, Class, ClassGroup, ComGroup, ElementAddress, Group,

@@ -37,6 +37,6 @@ pub use call::{Call, DispatchError};
 pub use functions::*;
 pub use reply::Reply;
 pub use rules::{GroupRule, OffsetRule};
-pub use service::{Service, Task};
+pub use service::{AdsService, Task};
 pub use table::{Effect, FunctionSpec};
 pub use typed::Operation;

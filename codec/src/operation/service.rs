@@ -10,14 +10,14 @@ use crate::ads::{AmsPort, Command};
 ///
 /// ```
 /// use ads_cnc::ads::Command;
-/// use ads_cnc::operation::{Function, Service};
+/// use ads_cnc::operation::{AdsService, Function};
 ///
-/// assert_eq!(Function::CountObjects.spec().service, Service::Read);
+/// assert_eq!(Function::CountObjects.spec().service, AdsService::Read);
 /// assert_eq!(Function::WriteByName.spec().service.command(), Command::WRITE);
-/// assert_eq!(Service::ReadWrite.to_string(), "ReadWrite");
+/// assert_eq!(AdsService::ReadWrite.to_string(), "ReadWrite");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Service {
+pub enum AdsService {
     /// ADS Read.
     Read,
     /// ADS Write.
@@ -26,7 +26,7 @@ pub enum Service {
     ReadWrite,
 }
 
-impl Service {
+impl AdsService {
     /// The AMS command of the service.
     pub const fn command(self) -> Command {
         match self {
@@ -37,7 +37,7 @@ impl Service {
     }
 }
 
-impl fmt::Display for Service {
+impl fmt::Display for AdsService {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(self, f)
     }

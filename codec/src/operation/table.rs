@@ -1,6 +1,6 @@
 //! A row of the function table, and the macro that generates types and dispatch from the rows.
 
-use super::{GroupRule, OffsetRule, Service, Task};
+use super::{AdsService, GroupRule, OffsetRule, Task};
 use crate::address::Group;
 use crate::layout::Stream;
 
@@ -22,7 +22,7 @@ pub struct FunctionSpec {
     /// The function's name in reports.
     pub name: &'static str,
     /// The ADS service of the function.
-    pub service: Service,
+    pub service: AdsService,
     /// The task that serves the function.
     pub task: Task,
     /// The index groups.
@@ -89,11 +89,11 @@ macro_rules! functions {
         /// Its [row](FunctionSpec::section) contains its section in the manual.
         ///
         /// ```
-        /// use ads_cnc::operation::{Function, Service, Task};
+        /// use ads_cnc::operation::{AdsService, Function, Task};
         ///
         /// let spec = Function::HandleByName.spec();
-        /// assert_eq!((spec.task, spec.service), (Task::Sda, Service::ReadWrite));
-        /// let writes = Function::ALL.iter().filter(|it| it.spec().service == Service::Write);
+        /// assert_eq!((spec.task, spec.service), (Task::Sda, AdsService::ReadWrite));
+        /// let writes = Function::ALL.iter().filter(|it| it.spec().service == AdsService::Write);
         /// assert_eq!(writes.count(), 6);
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -113,7 +113,7 @@ macro_rules! functions {
                 match self { $(
                     Self::$function => const { &FunctionSpec {
                         name: $name,
-                        service: Service::$service,
+                        service: AdsService::$service,
                         task: Task::$task,
                         group: $group,
                         offset: $offset,

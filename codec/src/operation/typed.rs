@@ -1,6 +1,6 @@
 //! Typed operations: the trait, and the macro that declares an operation from its row in the table.
 
-use super::{Call, Function, Service};
+use super::{AdsService, Call, Function};
 use crate::address::{IndexGroup, IndexOffset};
 use crate::ads::AmsPort;
 use crate::error::Error;
@@ -66,7 +66,7 @@ pub(super) fn call<'b>(
 /// ```
 /// use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
 /// use ads_cnc::ads::AmsPort;
-/// use ads_cnc::operation::{CountVariables, Operation, Service};
+/// use ads_cnc::operation::{AdsService, CountVariables, Operation};
 /// use ads_cnc::{Error, Kind, VariableCount};
 ///
 /// /// Any transport.
@@ -74,7 +74,7 @@ pub(super) fn call<'b>(
 ///     fn send(
 ///         &mut self,
 ///         port: AmsPort,
-///         service: Service,
+///         service: AdsService,
 ///         index_group: IndexGroup,
 ///         index_offset: IndexOffset,
 ///         read_length: u32,
@@ -98,7 +98,7 @@ pub(super) fn call<'b>(
 /// let count = CountVariables::new(Channel::new(1)?, Kind::V_E);
 /// let mut buf = [0; 256];
 /// let call = count.call(&mut buf)?;
-/// assert_eq!((call.port, call.service), (AmsPort::SDA, Service::ReadWrite));
+/// assert_eq!((call.port, call.service), (AmsPort::SDA, AdsService::ReadWrite));
 /// assert_eq!((call.index_offset.get(), call.data), (0x44, &b"V.E\0"[..]));
 /// assert_eq!(count.decode_reply(&[123, 0, 0, 0])?, VariableCount(123));
 /// # Ok::<(), ads_cnc::Error>(())
@@ -116,7 +116,7 @@ pub trait Operation: sealed::Sealed {
     }
 
     /// The ADS service of the function.
-    fn service(&self) -> Service {
+    fn service(&self) -> AdsService {
         const { Self::FUNCTION.spec().service }
     }
 

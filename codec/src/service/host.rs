@@ -194,6 +194,7 @@ impl<'s> Host<'s> {
     }
 
     /// The next step. Returns the same step until its completion is reported.
+    #[must_use = "the step has to be executed"]
     pub fn step(&self) -> HostStep<'_> {
         if let Some(variable) = self.phase.asks() {
             return HostStep::Read(variable);

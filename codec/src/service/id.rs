@@ -59,12 +59,12 @@ impl ServiceId {
 
     fn from_chars(chars: Chars<'_>) -> Result<Self, Error> {
         let field = ServiceVariable::Uuid.field();
-        let (len, given) = (to_u32(Self::LEN), to_u32(chars.clone().count()));
-        if given < len {
-            return Err(Error::new(ErrorKind::Truncated, field, 0, len, given));
+        let (len, found) = (to_u32(Self::LEN), to_u32(chars.clone().count()));
+        if found < len {
+            return Err(Error::new(ErrorKind::Truncated, field, 0, len, found));
         }
-        if given > len {
-            return Err(Error::new(ErrorKind::Trailing, field, len, len, given));
+        if found > len {
+            return Err(Error::new(ErrorKind::Trailing, field, len, len, found));
         }
         let mut id = [0; Self::LEN];
         for ((at, byte), character) in id.iter_mut().enumerate().zip(chars) {

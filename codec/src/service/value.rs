@@ -62,8 +62,8 @@ impl fmt::Debug for ServiceText {
 }
 
 impl ServiceVariable {
-    /// Decodes the text in a value of this variable: the bytes before the first NUL, or all of them
-    /// (VAR-22).
+    /// Decodes the text in a value of this variable: the bytes before the first NUL, or all bytes of a
+    /// value without a NUL (VAR-22).
     ///
     /// ```
     /// use ads_cnc::service::ServiceVariable;
@@ -95,11 +95,11 @@ impl ServiceVariable {
     /// [`Truncated`](ErrorKind::Truncated) and [`Trailing`](ErrorKind::Trailing) for a value that
     /// does not have exactly four bytes.
     pub fn state(self, value: &[u8]) -> Result<u32, Error> {
-        let given = to_u32(value.len());
+        let found = to_u32(value.len());
         match value.split_first_chunk() {
-            None => Err(Error::new(ErrorKind::Truncated, self.field(), 0, 4, given)),
+            None => Err(Error::new(ErrorKind::Truncated, self.field(), 0, 4, found)),
             Some((le, [])) => Ok(u32::from_le_bytes(*le)),
-            Some(_) => Err(Error::new(ErrorKind::Trailing, self.field(), 4, 4, given)),
+            Some(_) => Err(Error::new(ErrorKind::Trailing, self.field(), 4, 4, found)),
         }
     }
 }

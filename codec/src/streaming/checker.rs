@@ -43,12 +43,12 @@ use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 #[derive(Clone)]
 pub struct Checker {
     state: ScanState,
-    judge: Judge,
+    judge: CheckerState,
 }
 
 /// The state of the checks between lines.
 #[derive(Clone)]
-struct Judge {
+struct CheckerState {
     labels: Labels,
     /// The last program end, if no line with code has followed.
     end: Option<(ProgramEnd, u32)>,
@@ -98,7 +98,7 @@ impl Checker {
     /// Creates a checker at the first line of a program.
     pub fn new() -> Self {
         let labels = Labels::with_limits(labels::LABELS, labels::CHARACTERS);
-        Self { state: ScanState::START, judge: Judge { labels, end: None } }
+        Self { state: ScanState::START, judge: CheckerState { labels, end: None } }
     }
 
     /// Checks the next lines; returns their events in the order of the text.
@@ -129,7 +129,7 @@ impl ScanState {
     }
 }
 
-impl Judge {
+impl CheckerState {
     /// Records the labels of these lines, and returns the state after them.
     fn look_ahead(&mut self, mut scan: Scan<'_>) -> ScanState {
         self.labels.keep(scan.state().program);
@@ -191,7 +191,7 @@ impl fmt::Debug for Checker {
 /// ```
 pub struct CheckEvents<'c> {
     scan: Scan<'c>,
-    judge: &'c mut Judge,
+    judge: &'c mut CheckerState,
 }
 
 impl<'c> CheckEvents<'c> {
@@ -271,7 +271,7 @@ impl fmt::Debug for CheckEvents<'_> {
 #[derive(Clone)]
 pub struct Diagnostics<'a> {
     scan: Scan<'a>,
-    judge: Judge,
+    judge: CheckerState,
     done: bool,
 }
 
@@ -279,7 +279,7 @@ impl<'a> Diagnostics<'a> {
     pub(super) fn new(text: NcText<'a>) -> Self {
         let scan = Scan::resume(ScanState::START, text.bytes());
         let labels = Labels::with_limits(usize::MAX, usize::MAX);
-        let mut judge = Judge { labels, end: None };
+        let mut judge = CheckerState { labels, end: None };
         judge.look_ahead(scan.clone());
         Self { scan, judge, done: false }
     }

@@ -106,25 +106,25 @@ impl<'a> Packets<'a> {
 
 /// Copies as many lines as fit into the packet. Returns the rest of the text and the length of the packet.
 fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], usize) {
-    let (mut rest, mut room, mut free) = (text, packet.as_mut_slice(), STREAM_PACKET_MAX);
+    let (mut rest, mut free_space, mut free) = (text, packet.as_mut_slice(), STREAM_PACKET_MAX);
     while !rest.is_empty() {
-        let Some((after, left)) = copy_line(rest, room) else {
+        let Some((after, left)) = copy_line(rest, free_space) else {
             break;
         };
-        (rest, free, room) = (after, left.len(), left);
+        (rest, free, free_space) = (after, left.len(), left);
     }
     (rest, STREAM_PACKET_MAX.saturating_sub(free))
 }
 
 /// Copies a line and ends it with CR LF. Returns the text after the line and the remaining room; `None` if
 /// the line does not fit.
-fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
-    let (line, _) = split_at_end(text.get(..=room.len()).unwrap_or(text));
-    let (out, room) = room.split_at_mut_checked(line.len())?;
+fn copy_line<'a, 'b>(text: &'a [u8], free_space: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
+    let (line, _) = split_at_end(text.get(..=free_space.len()).unwrap_or(text));
+    let (out, free_space) = free_space.split_at_mut_checked(line.len())?;
     out.iter_mut().zip(line).for_each(|(out, byte)| *out = *byte);
-    let (end, room) = room.split_first_chunk_mut()?;
+    let (end, free_space) = free_space.split_first_chunk_mut()?;
     *end = [CR, LF];
-    Some((after_end(text.get(line.len()..)?), room))
+    Some((after_end(text.get(line.len()..)?), free_space))
 }
 
 #[cfg(test)]
@@ -137,9 +137,9 @@ mod tests {
         for len in 0..40 {
             let text = [&b"X".repeat(len)[..], b"\nY"].concat();
             for free in 0..44 {
-                let mut room = [0; 44];
-                let copied =
-                    copy_line(&text, &mut room[..free]).map(|(rest, room)| (rest, room.len()));
+                let mut free_space = [0; 44];
+                let copied = copy_line(&text, &mut free_space[..free])
+                    .map(|(rest, free_space)| (rest, free_space.len()));
                 let wanted = (free >= len + 2).then(|| (&b"Y"[..], free - len - 2));
                 assert_eq!(copied, wanted, "{len} characters, room for {free}");
             }

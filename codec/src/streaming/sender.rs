@@ -69,7 +69,7 @@ impl Ack {
 ///
 /// let mut sender = Sender::new(NcText::new(b"M30\n")?);
 /// assert_eq!(sender.state(), SenderState::Ready);
-/// sender.packet();
+/// assert_eq!(sender.packet(), Some(&b"M30\r\n"[..]));
 /// assert_eq!(sender.state(), SenderState::InFlight);
 /// sender.acknowledge(Ack::Busy)?;
 /// assert_eq!(sender.state(), SenderState::Waiting);
@@ -95,7 +95,7 @@ pub enum SenderState {
 /// use ads_cnc::streaming::{Ack, NcText, Progress, Sender};
 ///
 /// let mut sender = Sender::new(NcText::new(b"N10 G0 X0\nN20 M30\n")?);
-/// sender.packet();
+/// assert_eq!(sender.packet(), Some(&b"N10 G0 X0\r\nN20 M30\r\n"[..]));
 /// sender.acknowledge(Ack::Accepted)?;
 /// assert_eq!(sender.sent(), Progress { packets: 1, lines: 2, bytes: 20 });
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -176,6 +176,7 @@ impl<'a> Sender<'a> {
     }
 
     /// The packet to write now; `None` if all packets were accepted or one was rejected.
+    #[must_use = "the packet has to be written to the CNC"]
     pub fn packet(&mut self) -> Option<&[u8]> {
         if matches!(self.state, SenderState::Stopped | SenderState::Done) {
             return None;

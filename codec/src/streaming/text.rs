@@ -1,6 +1,7 @@
 //! NC text that can be streamed, and its lines.
 
 use core::fmt;
+use core::iter::FusedIterator;
 
 #[cfg(feature = "alloc")]
 use super::Diagnostics;
@@ -120,6 +121,8 @@ impl<'a> Iterator for Lines<'a> {
         Some(line)
     }
 }
+
+impl FusedIterator for Lines<'_> {}
 
 /// Checks a line; returns its first error.
 fn check(line: &[u8], number: usize) -> Result<(), LineError> {

@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Write as _};
 use core::hash::{Hash, Hasher};
+use core::iter::FusedIterator;
 
 use super::end::text_len;
 use super::{char_to_cp1252, cp1252_to_char};
@@ -201,6 +202,8 @@ impl Iterator for Chars<'_> {
         }
     }
 }
+
+impl FusedIterator for Chars<'_> {}
 
 impl PartialEq for CncStr<'_> {
     fn eq(&self, other: &CncStr<'_>) -> bool {

@@ -62,8 +62,8 @@ pub(crate) fn not_optional_nul(field: Field, at: u32, bytes: &[u8], len: usize) 
 pub(crate) fn not_padded(field: Field, at: u32, len: usize, tail: &[u8]) -> Error {
     let after = at.saturating_add(to_u32(len)).saturating_add(1);
     let end = after.saturating_add(to_u32(padding_len(tail)));
-    let given = after.saturating_add(to_u32(tail.len()));
-    Error::new(ErrorKind::Trailing, field.to_whole(), end, end, given)
+    let found = after.saturating_add(to_u32(tail.len()));
+    Error::new(ErrorKind::Trailing, field.to_whole(), end, end, found)
 }
 
 #[cfg(test)]

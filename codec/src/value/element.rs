@@ -1,6 +1,7 @@
 //! Elements of a type that is known at run time.
 
 use core::fmt;
+use core::iter::FusedIterator;
 use core::ops::Range;
 
 use zerocopy::FromBytes as _;
@@ -147,12 +148,12 @@ impl<'a> Elements<'a> {
         dimensions: U32List<'a>,
         bytes: &'a [u8],
     ) -> Result<Self, Error> {
-        let given = to_u32(bytes.len());
+        let found = to_u32(bytes.len());
         match data_type.size() {
-            None => Ok(Self { shape: Shape::new(data_type, dimensions, given)?, bytes }),
+            None => Ok(Self { shape: Shape::new(data_type, dimensions, found)?, bytes }),
             Some(each) => match Shape::with_element_size(data_type, each, dimensions) {
                 Some(shape) => shape.elements(bytes),
-                None => Err(Error::new(ErrorKind::Truncated, VALUE, 0, u32::MAX, given)),
+                None => Err(Error::new(ErrorKind::Truncated, VALUE, 0, u32::MAX, found)),
             },
         }
     }
@@ -268,6 +269,8 @@ impl ExactSizeIterator for ElementIter<'_> {
         self.indices.len()
     }
 }
+
+impl FusedIterator for ElementIter<'_> {}
 
 impl<'a> IntoIterator for Elements<'a> {
     type Item = Element<'a>;

@@ -29,6 +29,10 @@ use crate::text::{CncStr, TextRef};
 /// assert_eq!(op.encode(&mut [0; 32])?[..13], *b"V.E.test\0\x7b\0\0\0");
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    note = "values are numbers, `bool`, slices and arrays of these, `CncStr`, `TextRef`, `Element` and `Elements`",
+    note = "write a structure of your own member by member"
+)]
 pub trait EncodeValue: sealed::Sealed {
     /// The type of the elements.
     fn data_type(&self) -> DataType;

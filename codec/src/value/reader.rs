@@ -49,6 +49,7 @@ const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 /// );
 /// # Ok::<(), Error>(())
 /// ```
+#[derive(Debug)]
 pub struct Reader<'a>(bytes::Reader<'a>);
 
 impl<'a> Reader<'a> {

@@ -13,6 +13,10 @@ use super::DataType;
 /// assert_eq!(<i32 as Scalar>::TYPE, DataType::Sgn32);
 /// assert_eq!(<f32 as Scalar>::TYPE, DataType::Real32);
 /// ```
+#[diagnostic::on_unimplemented(
+    note = "the numbers of a CNC are `u8` to `u64`, `i8` to `i64`, `f32`, `f64`, `bool` and `Boolean`",
+    note = "read a structure of your own with `value::Reader`"
+)]
 pub trait Scalar: sealed::Wire + Copy + Default + PartialEq + fmt::Debug + 'static {
     /// The CNC's type that the Rust type represents.
     const TYPE: DataType;

@@ -28,8 +28,8 @@ fn get<T: Scalar>(bytes: &[u8], index: usize) -> Result<T, Error> {
 fn copy_to<T: Scalar>(bytes: &[u8], out: &mut [T]) -> Result<(), Error> {
     let all = split::<T>(bytes)?;
     if all.len() != out.len() {
-        let (count, given) = (to_u32(all.len()), to_u32(out.len()));
-        return Err(Error::new(ErrorKind::Mismatch, COUNT, 0, count, given));
+        let (count, found) = (to_u32(all.len()), to_u32(out.len()));
+        return Err(Error::new(ErrorKind::Mismatch, COUNT, 0, count, found));
     }
     out.iter_mut().zip(all).for_each(|(out, wire)| *out = T::from_wire(*wire));
     Ok(())

@@ -1,6 +1,7 @@
 //! A list of UNS32 in a stream, in memory or in a name.
 
 use core::fmt;
+use core::iter::FusedIterator;
 
 use zerocopy::IntoBytes as _;
 use zerocopy::little_endian::U32;
@@ -169,6 +170,15 @@ impl Iterator for U32Iter<'_> {
 }
 
 impl ExactSizeIterator for U32Iter<'_> {}
+
+impl FusedIterator for U32Iter<'_> {}
+
+/// Formats the remaining numbers.
+impl fmt::Debug for U32Iter<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("U32Iter").field(&U32List(self.0)).finish()
+    }
+}
 
 impl<'a> IntoIterator for U32List<'a> {
     type Item = u32;

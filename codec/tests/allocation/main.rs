@@ -14,7 +14,7 @@ use std::hint::black_box;
 use ads_cnc::ads::{AmsPort, FrameRef};
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::STREAM_PACKET_MAX;
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc::streaming::{Ack, NcText, Sender, check_line_ends};
 use ads_cnc::{Decode as _, Encode as _, Error, HandleReadRef};
 use common::{CALLS, Subject};
@@ -120,7 +120,7 @@ fn dispatch_errors_allocate_nothing() {
     for sample in CALLS {
         let count = allocations(|| {
             for port in [0, 551, 552, 553, 851] {
-                for service in [Service::Read, Service::Write, Service::ReadWrite] {
+                for service in [AdsService::Read, AdsService::Write, AdsService::ReadWrite] {
                     let _ =
                         black_box(Call { port: AmsPort(port), service, ..sample.call }.dispatch());
                 }

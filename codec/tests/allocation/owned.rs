@@ -12,7 +12,7 @@ use crate::{excess, start};
 
 #[test]
 fn memory_of_decoding_is_limited_by_the_input() {
-    // By stream: the numbers of rejected and of accepted inputs, and the maximum length of the latter.
+    // By stream: the number of rejected inputs, the number and the maximum length of accepted inputs.
     let mut seen: BTreeMap<Stream, (u32, u32, usize)> = BTreeMap::new();
     each_input(|stream, bytes| {
         let decode = Subject::of(stream).owned.len;
@@ -164,7 +164,7 @@ fn memory_of_a_checker_is_limited() {
     }
 }
 
-/// The memory of the check of a whole text only grows with its labels.
+/// The check of a whole text needs memory only for the different labels of the text.
 #[test]
 fn memory_of_diagnostics_is_limited_by_the_labels() {
     use ads_cnc::streaming::NcText;

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{AdsService, Call, Function};
 
 /// A call of a function.
 pub(crate) struct CallSample {
@@ -12,11 +12,11 @@ pub(crate) struct CallSample {
 }
 
 const fn read(slug: &'static str, function: Function, place: (u32, u32, u32)) -> CallSample {
-    sample(slug, function, 553, Service::Read, place, b"")
+    sample(slug, function, 553, AdsService::Read, place, b"")
 }
 
 const fn sda(slug: &'static str, function: Function, place: (u32, u32, u32)) -> CallSample {
-    sample(slug, function, 552, Service::Read, place, b"")
+    sample(slug, function, 552, AdsService::Read, place, b"")
 }
 
 const fn variable(
@@ -25,7 +25,7 @@ const fn variable(
     place: (u32, u32, u32),
     data: &'static [u8],
 ) -> CallSample {
-    sample(slug, function, 552, Service::ReadWrite, place, data)
+    sample(slug, function, 552, AdsService::ReadWrite, place, data)
 }
 
 const fn write(
@@ -34,14 +34,14 @@ const fn write(
     offset: u32,
     data: &'static [u8],
 ) -> CallSample {
-    sample(slug, function, 552, Service::Write, (0x12_2301, offset, 0), data)
+    sample(slug, function, 552, AdsService::Write, (0x12_2301, offset, 0), data)
 }
 
 const fn sample(
     slug: &'static str,
     function: Function,
     port: u16,
-    service: Service,
+    service: AdsService,
     (group, offset, read_length): (u32, u32, u32),
     data: &'static [u8],
 ) -> CallSample {
@@ -105,7 +105,7 @@ pub(crate) const CALLS: &[CallSample] = &[
         "handle-from-geo",
         Function::HandleByName,
         551,
-        Service::ReadWrite,
+        AdsService::ReadWrite,
         (0x12_2306, 0x46, 4),
         b"V.A.ACT_POS.X\0",
     ),
@@ -199,7 +199,7 @@ pub(crate) const CALLS: &[CallSample] = &[
         "write-content",
         Function::WriteElement,
         552,
-        Service::Write,
+        AdsService::Write,
         (0x12_3301, 1, 0),
         b"\x01",
     ),
@@ -207,7 +207,7 @@ pub(crate) const CALLS: &[CallSample] = &[
         "stream",
         Function::WriteProgramStream,
         553,
-        Service::Write,
+        AdsService::Write,
         (0x12_0101, 0x90, 0),
         b"N10 M30\r\n",
     ),
@@ -215,7 +215,7 @@ pub(crate) const CALLS: &[CallSample] = &[
         "stream-printed-by-index",
         Function::WriteProgramStream,
         553,
-        Service::Write,
+        AdsService::Write,
         (0x2_0101, 0x90, 0),
         b"N10 M30\r\n",
     ),
@@ -228,7 +228,7 @@ pub(crate) const CALLS: &[CallSample] = &[
         "write-object-printed",
         Function::WriteObject,
         553,
-        Service::Write,
+        AdsService::Write,
         (0x12_0101, 1, 0),
         b"\x01",
     ),

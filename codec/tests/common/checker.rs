@@ -2,7 +2,7 @@
 
 use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 
-use super::findings::{FindingsBend, findings_of};
+use super::findings::{DiagnosticsMutation, findings_of};
 use super::streaming::reference_lines;
 
 /// Checks lines; returns the diagnostics and the program ends. An open comment block is not reported here.
@@ -36,12 +36,12 @@ pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,
     ended: Option<(ProgramEnd, u32)>,
-    bend: FindingsBend,
+    mutation: DiagnosticsMutation,
 }
 
 impl CheckedLots {
-    pub(crate) fn new(bend: FindingsBend) -> Self {
-        Self { checker: Checker::new(), so_far: Vec::new(), ended: None, bend }
+    pub(crate) fn new(mutation: DiagnosticsMutation) -> Self {
+        Self { checker: Checker::new(), so_far: Vec::new(), ended: None, mutation }
     }
 
     /// Checks the next part, which consists of lines that can be streamed.
@@ -49,7 +49,7 @@ impl CheckedLots {
         let before = self.checker.lines();
         self.so_far.extend_from_slice(lot);
         let (mut findings, ends) = check_lines(&mut self.checker, lot);
-        (self.bend)(&mut findings, before);
+        (self.mutation)(&mut findings, before);
         let mut wanted = findings_of(&self.so_far);
         let open = wanted.iter().find(|found| found.kind == DiagnosticKind::OpenComment).copied();
         assert_eq!(self.checker.open_comment(), open);

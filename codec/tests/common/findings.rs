@@ -5,16 +5,16 @@ use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 use super::streaming::reference_lines;
 
 /// A fault that changes the diagnostics of lines, given the number of lines before these lines.
-pub(crate) type FindingsBend = fn(&mut Vec<Diagnostic>, u32);
+pub(crate) type DiagnosticsMutation = fn(&mut Vec<Diagnostic>, u32);
 
 pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {
     NcText::new(text).expect("a text that can be streamed").diagnostics().collect()
 }
 
 /// For any text, diagnostics are within the text, in its order, and independent of the line ends.
-pub(crate) fn check_findings(text: &[u8], bend: FindingsBend) -> Vec<Diagnostic> {
+pub(crate) fn check_findings(text: &[u8], mutation: DiagnosticsMutation) -> Vec<Diagnostic> {
     let mut all = findings_of(text);
-    bend(&mut all, 0);
+    mutation(&mut all, 0);
     let lines = reference_lines(text);
     for finding in &all {
         let line = &lines[finding.line as usize - 1];

@@ -5,12 +5,12 @@ use std::fmt::Debug;
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, FrameRef};
 use ads_cnc::layout::{Field, FieldSpec, Size, Stream};
 use ads_cnc::limits::DESCRIPTOR_LEN;
-use ads_cnc::operation::{Call, DispatchError, Function, Request, Service, Task};
+use ads_cnc::operation::{AdsService, Call, DispatchError, Function, Request, Task};
 use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 
-#[cfg(all(feature = "binrw", feature = "std"))]
+#[cfg(feature = "binrw")]
 use super::subjects::ReadAndWritten;
-use super::{Fault, Reading, Subject};
+use super::{Fault, StreamType, Subject};
 
 /// The initial value of the bytes of a buffer, which shows that a byte was not written.
 const UNTOUCHED: u8 = 0x55;
@@ -20,7 +20,7 @@ type Length = Result<usize, Error>;
 
 /// A fault added to a correct codec, to verify that the laws detect it.
 #[derive(Clone, Copy)]
-pub(crate) struct Bend {
+pub(crate) struct Mutation {
     /// Changes the announced length, or the error.
     pub(crate) len: fn(Length) -> Length,
     /// Changes the parts of an error.
@@ -40,13 +40,13 @@ pub(crate) struct Bend {
     /// Changes the result of `decode_prefix`: the length of the stream, or the error.
     pub(crate) prefix: fn(&[u8], Length) -> Length,
     /// Changes the bytes that `BinWrite` writes after `BinRead`, and the position of the reader.
-    #[cfg(all(feature = "binrw", feature = "std"))]
+    #[cfg(feature = "binrw")]
     pub(crate) binrw: fn(&[u8], ReadAndWritten) -> ReadAndWritten,
     /// Changes the bytes of a value written by its type.
     pub(crate) typed: fn(&mut [u8]),
 }
 
-impl Bend {
+impl Mutation {
     /// No fault.
     pub(crate) const NONE: Self = Self {
         len: |len| len,
@@ -58,7 +58,7 @@ impl Bend {
         joined: |_| (),
         same: |_, same| same,
         prefix: |_, prefix| prefix,
-        #[cfg(all(feature = "binrw", feature = "std"))]
+        #[cfg(feature = "binrw")]
         binrw: |_, read| read,
         typed: |_| (),
     };
@@ -72,47 +72,47 @@ impl Bend {
 /// Checks that view, owned type and walk agree, including errors, and encode accepted bytes to the
 /// same bytes. Returns their common result.
 pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
-    check_bent(stream, bytes, &Bend::NONE)
+    check_bent(stream, bytes, &Mutation::NONE)
 }
 
-/// Like [`check`], for a codec to which `bend` adds a fault.
-pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
+/// Like [`check`], for a codec to which `mutation` adds a fault.
+pub(crate) fn check_bent(stream: Stream, bytes: &[u8], mutation: &Mutation) -> Result<(), Error> {
     let subject = Subject::of(stream);
-    let verdict = walk(stream, bytes, bend);
-    let wanted = Bend::NONE.told(verdict);
+    let verdict = walk(stream, bytes, mutation);
+    let wanted = Mutation::NONE.told(verdict);
     for reading in subject.readings() {
-        let len = (bend.len)((reading.len)(bytes));
-        assert_eq!(bend.told(len), wanted, "{stream}: {} and walk of {bytes:x?}", reading.name);
+        let len = (mutation.len)((reading.len)(bytes));
+        assert_eq!(mutation.told(len), wanted, "{stream}: {} and walk of {bytes:x?}", reading.name);
         if let Ok(len) = len {
             assert_eq!(len, bytes.len(), "{stream}: encoded_len of {bytes:x?}");
-            check_encode(reading, bytes, bend);
+            check_encode(reading, bytes, mutation);
         }
     }
     #[cfg(feature = "alloc")]
     {
-        let same = (subject.same)(bytes).map(|same| (bend.same)(bytes, same));
+        let same = (subject.same)(bytes).map(|same| (mutation.same)(bytes, same));
         assert_eq!(same, verdict.map(|()| true), "{stream}: view and owned of {bytes:x?}");
         let mut vec = (subject.to_vec)(bytes);
-        vec.iter_mut().for_each(bend.vec);
+        vec.iter_mut().for_each(mutation.vec);
         assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: encode_to_vec of {bytes:x?}");
     }
-    check_prefix(stream, bytes, (bend.prefix)(bytes, (subject.prefix)(bytes)), verdict);
+    check_prefix(stream, bytes, (mutation.prefix)(bytes, (subject.prefix)(bytes)), verdict);
     if verdict.is_ok() && ends_by_its_fields(stream) {
         let longer = [bytes, &[0xFF]].concat();
-        let prefix = (bend.prefix)(&longer, (subject.prefix)(&longer));
+        let prefix = (mutation.prefix)(&longer, (subject.prefix)(&longer));
         assert_eq!(prefix, Ok(bytes.len()), "{stream}: front of {longer:x?}");
     }
-    #[cfg(all(feature = "binrw", feature = "std"))]
+    #[cfg(feature = "binrw")]
     {
         // After an error, the reader is at its first position again, and nothing is written.
         let prefix = (subject.prefix)(bytes);
         let wanted = prefix.map_or((None, 0), |len| (Some(bytes[..len].to_vec()), len));
-        let read = (bend.binrw)(bytes, (subject.binrw)(bytes));
+        let read = (mutation.binrw)(bytes, (subject.binrw)(bytes));
         assert_eq!(read, wanted, "{stream}: BinRead and BinWrite of {bytes:x?}");
     }
     // A longer value would take more time, but test nothing else.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
-        super::check_typed(bytes, bend.typed);
+        super::check_typed(bytes, mutation.typed);
     }
     verdict
 }
@@ -149,40 +149,40 @@ pub(crate) fn check_value<T>(value: &T)
 where
     T: Encode + PartialEq + Debug + for<'a> Decode<'a>,
 {
-    check_value_bent(value, &Bend::NONE);
+    check_value_bent(value, &Mutation::NONE);
 }
 
-/// Like [`check_value`], for a codec to which `bend` adds a fault. Returns the bytes.
+/// Like [`check_value`], for a codec to which `mutation` adds a fault. Returns the bytes.
 #[cfg(feature = "alloc")]
-pub(crate) fn check_value_bent<T>(value: &T, bend: &Bend) -> Vec<u8>
+pub(crate) fn check_value_bent<T>(value: &T, mutation: &Mutation) -> Vec<u8>
 where
     T: Encode + PartialEq + Debug + for<'a> Decode<'a>,
 {
     let mut bytes = value.encode_to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
-    (bend.written)(&mut bytes);
-    assert_eq!(Ok(bytes.len()), (bend.len)(Ok(value.encoded_len())), "{value:?}");
-    check_too_small(bytes.len(), bend, |buf| value.encode(buf).map(drop));
+    (mutation.written)(&mut bytes);
+    assert_eq!(Ok(bytes.len()), (mutation.len)(Ok(value.encoded_len())), "{value:?}");
+    check_too_small(bytes.len(), mutation, |buf| value.encode(buf).map(drop));
     assert_eq!(T::decode(&bytes).as_ref(), Ok(value));
-    assert_eq!(check_bent(T::STREAM, &bytes, bend), Ok(()), "{value:?}");
+    assert_eq!(check_bent(T::STREAM, &bytes, mutation), Ok(()), "{value:?}");
     bytes
 }
 
 /// Checks that the segments of accepted bytes cover them without gaps and join to the same bytes, and
 /// that the offset of an error is within its stream.
-fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
+fn walk(stream: Stream, bytes: &[u8], mutation: &Mutation) -> Result<(), Error> {
     let (mut end, mut parts) = (0, Vec::new());
     let verdict = stream.walk(bytes, |segment| {
         parts.push((segment.field, segment.bytes));
         assert_eq!(segment.offset as usize, end, "{stream}: {segment:?}");
         assert_eq!(segment.bytes, &bytes[end..end + segment.bytes.len()]);
-        end += (bend.segment)(segment.bytes.len());
+        end += (mutation.segment)(segment.bytes.len());
     });
     match verdict {
         Ok(()) => {
             assert_eq!(end, bytes.len(), "{stream}: bytes in no segment of {bytes:x?}");
             let mut room = vec![UNTOUCHED; bytes.len()];
             let mut joined = stream.join(parts, &mut room).map(<[u8]>::to_vec);
-            joined.iter_mut().for_each(bend.joined);
+            joined.iter_mut().for_each(mutation.joined);
             assert_eq!(joined.as_deref(), Ok(bytes), "{stream}: joined from {bytes:x?}");
         }
         Err(error) => {
@@ -195,28 +195,28 @@ fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
 
 /// Checks that the decoded value encodes to the same bytes, that no byte after them is written, and that
 /// nothing is written to a buffer that is too small.
-fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
+fn check_encode(reading: StreamType, bytes: &[u8], mutation: &Mutation) {
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
     assert_eq!((reading.encode)(bytes, &mut large), Ok(bytes.len()));
-    (bend.written)(&mut large[..bytes.len()]);
+    (mutation.written)(&mut large[..bytes.len()]);
     assert_eq!(large[..bytes.len()], *bytes);
     assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
 
-    check_too_small(bytes.len(), bend, |buf| (reading.encode)(bytes, buf));
+    check_too_small(bytes.len(), mutation, |buf| (reading.encode)(bytes, buf));
 }
 
 /// Checks that a buffer that is too small causes an error with the needed and the available bytes, and that
 /// nothing is written to it.
 fn check_too_small<T: Debug>(
     len: usize,
-    bend: &Bend,
+    mutation: &Mutation,
     encode: impl Fn(&mut [u8]) -> Result<T, Error>,
 ) {
     for less in [0, len / 2, len.saturating_sub(1)] {
         if less < len {
             let mut small = vec![UNTOUCHED; less];
             let error = encode(&mut small).expect_err("the buffer is too small");
-            (bend.small)(&mut small);
+            (mutation.small)(&mut small);
             assert_eq!(error.kind(), ErrorKind::BufferTooSmall);
             let (expected, found) = (error.expected() as usize, error.found() as usize);
             assert_eq!((expected, found), (len, less));
@@ -227,17 +227,17 @@ fn check_too_small<T: Debug>(
 
 /// Checks that a dispatched request encodes to the same call, which is dispatched to the same request.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
-    check_call_bent(call, &Bend::NONE, |_| ()).map(drop)
+    check_call_bent(call, &Mutation::NONE, |_| ()).map(drop)
 }
 
-/// Like [`check_call`], for a codec to which `bend` adds a fault; `wrong` changes the encoded call. Returns
-/// the function.
+/// Like [`check_call`], for a codec to which `mutation` adds a fault; `wrong` changes the encoded call.
+/// Returns the function.
 pub(crate) fn check_call_bent(
     call: &Call<'_>,
-    bend: &Bend,
+    mutation: &Mutation,
     wrong: impl Fn(&mut Call<'_>),
 ) -> Result<Function, DispatchError> {
-    check_frame(call, bend);
+    check_frame(call, mutation);
     let request = call.dispatch()?;
     let mut buf = vec![0; request.encoded_len()];
     let mut again = request.encode(&mut buf).unwrap_or_else(|error| panic!("{request:?}: {error}"));
@@ -247,12 +247,12 @@ pub(crate) fn check_call_bent(
     assert_eq!(address(&again), address(call), "{request:?}");
     assert_eq!(again.data, call.data, "{request:?}");
     assert_eq!(request.encoded_len(), call.data.len(), "{request:?}");
-    check_too_small(call.data.len(), bend, |buf| request.encode(buf).map(drop));
+    check_too_small(call.data.len(), mutation, |buf| request.encode(buf).map(drop));
     assert_eq!(again.dispatch(), Ok(request));
 
     let spec = request.function().spec();
     assert_eq!(spec.service, call.service);
-    assert_eq!(spec.request.is_none(), call.service == Service::Read);
+    assert_eq!(spec.request.is_none(), call.service == AdsService::Read);
     // SDA and GEO serve the same functions.
     let is_com = |call: &Call<'_>| Task::from_port(call.port) == Some(Task::Com);
     assert_eq!(is_com(&again), is_com(call));
@@ -261,22 +261,22 @@ pub(crate) fn check_call_bent(
 
 /// Checks that a call that is encoded to a frame and decoded from it is unchanged, except for the read
 /// length of a Write, which a frame does not contain. A Read with data must be rejected.
-fn check_frame(call: &Call<'_>, bend: &Bend) {
+fn check_frame(call: &Call<'_>, mutation: &Mutation) {
     let mut bytes = vec![0; call.encoded_len()];
     let data = match call.encode(&mut bytes) {
         Ok(data) => data,
         Err(error) => {
-            assert_eq!((call.service, error.kind()), (Service::Read, ErrorKind::Trailing));
+            assert_eq!((call.service, error.kind()), (AdsService::Read, ErrorKind::Trailing));
             assert!(!call.data.is_empty());
             return;
         }
     };
     assert_eq!(data.len(), call.encoded_len());
-    check_too_small(data.len(), bend, |buf| call.encode(buf).map(drop));
+    check_too_small(data.len(), mutation, |buf| call.encode(buf).map(drop));
     let end = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: call.port };
     let header = AmsHeader::request(end, end, call.service.command(), 1);
     let frame = FrameRef::new(header, data).expect("no more data than a service has");
-    let read_length = if call.service == Service::Write { 0 } else { call.read_length };
+    let read_length = if call.service == AdsService::Write { 0 } else { call.read_length };
     assert_eq!(Call::from_frame(&frame), Ok(Some(Call { read_length, ..*call })));
 }
 
@@ -294,14 +294,14 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), D
 /// function, except for replies longer than the read length, and that accepted replies encode to the
 /// same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
-    check_reply_bent(call, bytes, &Bend::NONE).map(drop)
+    check_reply_bent(call, bytes, &Mutation::NONE).map(drop)
 }
 
-/// Like [`check_reply`], for a codec to which `bend` adds a fault. Returns the function.
+/// Like [`check_reply`], for a codec to which `mutation` adds a fault. Returns the function.
 pub(crate) fn check_reply_bent(
     call: &Call<'_>,
     bytes: &[u8],
-    bend: &Bend,
+    mutation: &Mutation,
 ) -> Result<Function, Error> {
     let request = call.dispatch().expect("a call that is answered");
     let reply = request.decode_reply(bytes);
@@ -309,7 +309,7 @@ pub(crate) fn check_reply_bent(
         Some(stream) => check(stream, bytes),
         None => NoData::decode(bytes).map(drop),
     };
-    let verdict = (bend.len)(reply.map(|reply| reply.encoded_len()));
+    let verdict = (mutation.len)(reply.map(|reply| reply.encoded_len()));
     // A length that is not a multiple of 84 requests one descriptor (COM-3).
     let asked = match (request, call.read_length as usize) {
         (Request::ReadDescriptors(_), length) if length % DESCRIPTOR_LEN != 0 => DESCRIPTOR_LEN,
@@ -323,14 +323,14 @@ pub(crate) fn check_reply_bent(
         assert!(most.is_ok_and(|most| bytes.len() <= most), "{request:?}: {bytes:x?}");
     }
     if bytes.len() <= asked || verdict.is_ok() {
-        assert_eq!(bend.told(verdict), Bend::NONE.told(wanted), "{request:?}: {bytes:x?}");
+        assert_eq!(mutation.told(verdict), Mutation::NONE.told(wanted), "{request:?}: {bytes:x?}");
     }
     let reply = reply?;
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
     assert_eq!(reply.encode(&mut large).map(<[u8]>::len), Ok(bytes.len()));
-    (bend.written)(&mut large[..bytes.len()]);
+    (mutation.written)(&mut large[..bytes.len()]);
     assert_eq!(large[..bytes.len()], *bytes);
     assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
-    check_too_small(bytes.len(), bend, |buf| reply.encode(buf).map(drop));
+    check_too_small(bytes.len(), mutation, |buf| reply.encode(buf).map(drop));
     Ok(request.function())
 }

@@ -25,7 +25,7 @@ pub(super) fn is_text(variable: ServiceVariable) -> bool {
 
 /// A fault that is added to a host, to verify that the laws detect it.
 #[derive(Clone, Copy)]
-pub(crate) struct HostBend {
+pub(crate) struct HostMutation {
     /// Changes the value passed to the host, given the read value and the previous value of the
     /// variable.
     pub(crate) read: for<'v> fn(&'v [u8], Option<&'v [u8]>) -> &'v [u8],
@@ -37,7 +37,7 @@ pub(crate) struct HostBend {
     pub(crate) refused: fn(&mut Host<'_>),
 }
 
-impl HostBend {
+impl HostMutation {
     pub(crate) const NONE: Self = Self {
         read: |value, _| value,
         state: |state| state,
@@ -64,13 +64,13 @@ pub(crate) struct CheckedHost<'s> {
     reads: Vec<(ServiceVariable, Vec<u8>)>,
     asked: Option<Step>,
     answer: (Vec<u8>, u32),
-    bend: HostBend,
+    mutation: HostMutation,
 }
 
 impl<'s> CheckedHost<'s> {
-    pub(crate) fn new(ids: &'s [ServiceId], bend: HostBend) -> Self {
+    pub(crate) fn new(ids: &'s [ServiceId], mutation: HostMutation) -> Self {
         let (reads, answer) = (Vec::new(), (Vec::new(), 0));
-        Self { host: Host::new(ids), ids, reads, asked: None, answer, bend }
+        Self { host: Host::new(ids), ids, reads, asked: None, answer, mutation }
     }
 
     pub(crate) fn step(&self) -> Step {
@@ -93,10 +93,10 @@ impl<'s> CheckedHost<'s> {
             return;
         };
         let last = self.reads.iter().rev().find(|(of, _)| *of == variable);
-        let told = (self.bend.read)(value, last.map(|(_, value)| &value[..]));
+        let told = (self.mutation.read)(value, last.map(|(_, value)| &value[..]));
         let read = self.host.read(told);
         if let Err(error) = read {
-            (self.bend.refused)(&mut self.host);
+            (self.mutation.refused)(&mut self.host);
             let valid = if is_text(variable) { text(value).len() < 128 } else { value.len() == 4 };
             assert!(!valid, "{error}: {value:x?}");
             assert!(self.step() == Step::Wait || self.step() == before);
@@ -142,7 +142,7 @@ impl<'s> CheckedHost<'s> {
     /// Checks the order of the writes: RESPONSE, REQUEST_STATE, RESPONSE_STATE.
     pub(crate) fn written(&mut self) {
         let before = self.step();
-        (self.bend.written)(&mut self.host);
+        (self.mutation.written)(&mut self.host);
         let wanted = match &before {
             Step::Write(ServiceVariable::Response, _) => {
                 Step::Write(ServiceVariable::RequestState, vec![0; 4])
@@ -162,7 +162,7 @@ impl<'s> CheckedHost<'s> {
     /// Checks that a host reads after a failed write, and repeats any other failed step.
     pub(crate) fn failed(&mut self) {
         let before = self.step();
-        (self.bend.failed)(&mut self.host);
+        (self.mutation.failed)(&mut self.host);
         match before {
             Step::Write(..) => assert!(matches!(self.step(), Step::Read(_))),
             _ => assert_eq!(self.step(), before),
@@ -171,7 +171,7 @@ impl<'s> CheckedHost<'s> {
 
     pub(crate) fn poll(&mut self) {
         let before = self.step();
-        (self.bend.poll)(&mut self.host);
+        (self.mutation.poll)(&mut self.host);
         let waited = before == Step::Wait;
         let looks = Step::Read(ServiceVariable::RequestState);
         assert_eq!(self.step(), if waited { looks } else { before });
@@ -187,7 +187,7 @@ impl<'s> CheckedHost<'s> {
     pub(crate) fn answer(&mut self, response: &[u8], response_state: u32) {
         let before = self.step();
         let response = text(response);
-        let told = (self.bend.state)(response_state);
+        let told = (self.mutation.state)(response_state);
         let taken = self.host.answer(CncStr::from_bytes(response).unwrap(), told);
         let valid = response.len() < 128 && response_state != 0;
         assert_eq!(taken.is_ok(), valid, "{response:x?}, {response_state}");

@@ -30,7 +30,7 @@ pub(crate) use frames::{
     Frames, SPLIT, Split, check_frames, check_split, check_verdicts_stay, frame, frame_header,
 };
 pub(crate) use laws::{
-    Bend, check, check_bent, check_call, check_call_bent, check_reply, check_reply_bent,
+    Mutation, check, check_bent, check_call, check_call_bent, check_reply, check_reply_bent,
     check_request,
 };
 #[cfg(feature = "alloc")]
@@ -39,5 +39,5 @@ pub(crate) use operations::{Parameters, check_made, check_operation};
 pub(crate) use samples::{SAMPLES, Sample, each_sample};
 #[cfg(feature = "arbitrary")]
 pub(crate) use subjects::made;
-pub(crate) use subjects::{Reading, SUBJECTS, Subject};
+pub(crate) use subjects::{SUBJECTS, StreamType, Subject};
 pub(crate) use typed::check_typed;

@@ -68,14 +68,14 @@ pub(crate) fn split(name: &str) -> Option<Pieces> {
 
 /// A fault that is added to parsing or building, to verify that the laws detect it.
 #[derive(Clone, Copy)]
-pub(crate) struct NameBend {
+pub(crate) struct NameMutation {
     pub(crate) pieces: fn(&mut Pieces),
     pub(crate) fault: fn(Fault) -> Fault,
     /// Changes built names.
     pub(crate) written: fn(String) -> String,
 }
 
-impl NameBend {
+impl NameMutation {
     pub(crate) const NONE: Self =
         Self { pieces: |_| (), fault: |fault| fault, written: |name| name };
 }
@@ -83,15 +83,15 @@ impl NameBend {
 /// Checks any CP1252 bytes without NUL. Parsing them, or the same text in UTF-8, has the same result as
 /// splitting strings. A valid name is built again; the error for an invalid name has the position of the
 /// fault.
-pub(crate) fn check_name(wire: &[u8], bend: NameBend) -> Result<Pieces, Fault> {
+pub(crate) fn check_name(wire: &[u8], mutation: NameMutation) -> Result<Pieces, Fault> {
     let utf8: String = wire.iter().map(|&byte| cp1252_to_char(byte)).collect();
     let of_wire = VariablePath::from_text(CncStr::from_bytes(wire).expect("no NUL"));
     let of_utf8 = VariablePath::new(&utf8);
-    let verdict = of_wire.map_err(Fault::of).map_err(bend.fault);
+    let verdict = of_wire.map_err(Fault::of).map_err(mutation.fault);
     assert_eq!(verdict, of_utf8.map_err(Fault::of), "{utf8:?}");
     let mut found = of_wire.ok().map(Pieces::of);
     if let Some(pieces) = &mut found {
-        (bend.pieces)(pieces);
+        (mutation.pieces)(pieces);
     }
     let wanted = split(&utf8);
     assert_eq!(found, wanted, "{utf8:?}");
@@ -99,7 +99,7 @@ pub(crate) fn check_name(wire: &[u8], bend: NameBend) -> Result<Pieces, Fault> {
         (Ok(path), Some(pieces)) => {
             assert_eq!(of_utf8.map(Pieces::of).ok(), Some(pieces.clone()));
             check_parts(path, &utf8, &pieces);
-            check_built(path, &pieces, bend);
+            check_built(path, &pieces, mutation);
             Ok(pieces)
         }
         (Err(fault), _) => {
@@ -125,10 +125,10 @@ fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
 
 /// Checks that the name built from the pieces is the name without leading zeros of indices; also
 /// checks an element of its array, and the conversion to the axis interface and back.
-fn check_built(path: VariablePath<'_>, pieces: &Pieces, bend: NameBend) {
+fn check_built(path: VariablePath<'_>, pieces: &Pieces, mutation: NameMutation) {
     let mut buf = [0x55; NAME_MAX + 1];
     let built = pieces.write(&mut buf).expect("no longer than it was");
-    assert_eq!((bend.written)(built.to_string()), pieces.name());
+    assert_eq!((mutation.written)(built.to_string()), pieces.name());
     assert_eq!(Pieces::of(built), *pieces);
     let len = built.text().len();
     assert!(buf[len..].iter().all(|&byte| byte == 0x55));
@@ -140,7 +140,7 @@ fn check_built(path: VariablePath<'_>, pieces: &Pieces, bend: NameBend) {
     let (mut one, mut two) = ([0; NAME_MAX], [0; NAME_MAX]);
     let whole = path.variable();
     let element = whole.write_element(path.elements(), &mut one).expect("as long at most");
-    let of_element = (bend.written)(element.to_string());
+    let of_element = (mutation.written)(element.to_string());
     assert_eq!(split(&of_element), Some(pieces.clone()), "{path}");
 
     let written = path.write_axis(CncStr::new("X").unwrap(), &mut one);
@@ -148,7 +148,7 @@ fn check_built(path: VariablePath<'_>, pieces: &Pieces, bend: NameBend) {
         Ok(there) => {
             assert!(there.axis().is_some_and(|axis| axis == "X"));
             let back = there.write_without_axis(&mut two).expect("it has an axis");
-            assert_eq!(split(&(bend.written)(back.to_string())), Some(pieces.clone()));
+            assert_eq!(split(&(mutation.written)(back.to_string())), Some(pieces.clone()));
         }
         Err(error) => {
             let other = pieces.kind != "V.A";

@@ -59,64 +59,72 @@ impl Parameters<'_> {
 }
 
 /// Checks that a server dispatches the operation of this function to the same operation, if these
-/// parameters are valid; `bend` adds a fault to the encoded call.
+/// parameters are valid; `mutation` adds a fault to the encoded call.
 pub(crate) fn check_made(
     function: Function,
     of: &Parameters<'_>,
-    bend: &dyn Fn(&mut Call<'_>),
+    mutation: &dyn Fn(&mut Call<'_>),
 ) -> Result<(), Error> {
     let Parameters { channel, axis, class, dynamic, number, count, text, bytes, .. } = *of;
     let indices = U32List::from(of.indices);
     let kind = || Kind::new(text);
     match function {
-        Function::CountObjects => made(CountObjects::new(of.list()), bend),
-        Function::ReadDescriptors => made(ReadDescriptors::new(of.list(), number, count)?, bend),
-        Function::CountVariables => made(CountVariables::new(channel, kind()?), bend),
-        Function::DescribeByIndex => made(DescribeByIndex::new(channel, number, kind()?), bend),
-        Function::HandleByName => made(HandleByName::new(channel, text)?, bend),
-        Function::ReadByHandle => made(ReadByHandle::new(channel, Handle(number), indices), bend),
-        Function::ReadByName => made(ReadByName::new(channel, text)?, bend),
-        Function::WriteByHandle => {
-            made(WriteByHandle::new(channel, Handle(number), indices, bytes), bend)
+        Function::CountObjects => made(CountObjects::new(of.list()), mutation),
+        Function::ReadDescriptors => {
+            made(ReadDescriptors::new(of.list(), number, count)?, mutation)
         }
-        Function::WriteByName => made(WriteByName::new(channel, text, bytes)?, bend),
-        Function::DescribeExtended => made(DescribeExtended::new(channel, number, kind()?), bend),
-        Function::DescribeByName => made(DescribeByName::new(channel, text)?, bend),
-        Function::AxisHandleByName => made(AxisHandleByName::new(channel, axis, text)?, bend),
-        Function::AxisReadByName => made(AxisReadByName::new(channel, axis, text)?, bend),
-        Function::AxisWriteByName => made(AxisWriteByName::new(channel, axis, text, bytes)?, bend),
-        Function::CountDynamic => made(CountDynamic::new(channel, dynamic), bend),
+        Function::CountVariables => made(CountVariables::new(channel, kind()?), mutation),
+        Function::DescribeByIndex => made(DescribeByIndex::new(channel, number, kind()?), mutation),
+        Function::HandleByName => made(HandleByName::new(channel, text)?, mutation),
+        Function::ReadByHandle => {
+            made(ReadByHandle::new(channel, Handle(number), indices), mutation)
+        }
+        Function::ReadByName => made(ReadByName::new(channel, text)?, mutation),
+        Function::WriteByHandle => {
+            made(WriteByHandle::new(channel, Handle(number), indices, bytes), mutation)
+        }
+        Function::WriteByName => made(WriteByName::new(channel, text, bytes)?, mutation),
+        Function::DescribeExtended => {
+            made(DescribeExtended::new(channel, number, kind()?), mutation)
+        }
+        Function::DescribeByName => made(DescribeByName::new(channel, text)?, mutation),
+        Function::AxisHandleByName => made(AxisHandleByName::new(channel, axis, text)?, mutation),
+        Function::AxisReadByName => made(AxisReadByName::new(channel, axis, text)?, mutation),
+        Function::AxisWriteByName => {
+            made(AxisWriteByName::new(channel, axis, text, bytes)?, mutation)
+        }
+        Function::CountDynamic => made(CountDynamic::new(channel, dynamic), mutation),
         Function::DynamicNameByIndex => {
-            made(DynamicNameByIndex::new(channel, dynamic, number)?, bend)
+            made(DynamicNameByIndex::new(channel, dynamic, number)?, mutation)
         }
         Function::DynamicValueByName => {
-            made(DynamicValueByName::new(channel, dynamic, text)?, bend)
+            made(DynamicValueByName::new(channel, dynamic, text)?, mutation)
         }
         Function::DynamicValueByIndex => {
-            made(DynamicValueByIndex::new(channel, dynamic, number)?, bend)
+            made(DynamicValueByIndex::new(channel, dynamic, number)?, mutation)
         }
         Function::FindInstance => {
             let find = FindInstance::new(class, number, count);
             // Spindles have no logical address.
             let by_index = class != Class::Spindle && of.place % 2 == 1;
-            made(if by_index { find.by_index() } else { find }, bend)
+            made(if by_index { find.by_index() } else { find }, mutation)
         }
-        Function::CountElements => made(CountElements::new(of.address()?)?, bend),
-        Function::ReadElement => made(ReadElement::new(of.address()?, count)?, bend),
-        Function::WriteElement => made(WriteElement::new(of.address()?, bytes)?, bend),
-        Function::ReadElementName => made(ReadElementName::new(of.address()?), bend),
-        Function::ReadElementType => made(ReadElementType::new(of.address()?), bend),
-        Function::ReadElementLength => made(ReadElementLength::new(of.address()?), bend),
-        Function::ReadElementUnit => made(ReadElementUnit::new(of.address()?), bend),
-        Function::ReadElementWriteFlag => made(ReadElementWriteFlag::new(of.address()?), bend),
-        Function::WriteProgramStream => made(WriteProgramStream::new(channel, bytes), bend),
+        Function::CountElements => made(CountElements::new(of.address()?)?, mutation),
+        Function::ReadElement => made(ReadElement::new(of.address()?, count)?, mutation),
+        Function::WriteElement => made(WriteElement::new(of.address()?, bytes)?, mutation),
+        Function::ReadElementName => made(ReadElementName::new(of.address()?), mutation),
+        Function::ReadElementType => made(ReadElementType::new(of.address()?), mutation),
+        Function::ReadElementLength => made(ReadElementLength::new(of.address()?), mutation),
+        Function::ReadElementUnit => made(ReadElementUnit::new(of.address()?), mutation),
+        Function::ReadElementWriteFlag => made(ReadElementWriteFlag::new(of.address()?), mutation),
+        Function::WriteProgramStream => made(WriteProgramStream::new(channel, bytes), mutation),
         Function::ReadObject => {
             let (group, offset) = of.object();
-            made(ReadObject::new(group, offset, count)?, bend)
+            made(ReadObject::new(group, offset, count)?, mutation)
         }
         Function::WriteObject => {
             let (group, offset) = of.object();
-            made(WriteObject::new(group, offset, bytes)?, bend)
+            made(WriteObject::new(group, offset, bytes)?, mutation)
         }
         other => panic!("{other:?} is made of nothing here"),
     }
@@ -131,7 +139,7 @@ pub(crate) fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O
 /// Like [`check_operation`], for an operation that may be invalid: then encoding must write nothing.
 fn made<'a, O: Operation + Into<Request<'a>>>(
     operation: O,
-    bend: &dyn Fn(&mut Call<'_>),
+    mutation: &dyn Fn(&mut Call<'_>),
 ) -> Result<(), Error> {
     let (group, offset) = (operation.index_group(), operation.index_offset());
     let (length, len) = (operation.read_length(), operation.encoded_len());
@@ -147,7 +155,7 @@ fn made<'a, O: Operation + Into<Request<'a>>>(
             return Err(error);
         }
     };
-    bend(&mut call);
+    mutation(&mut call);
     let found = (call.index_group, call.index_offset, call.read_length, call.data.len());
     assert_eq!(found, wanted, "{request:?}");
     assert_eq!((call.port, call.service), (spec.task.port(), spec.service), "{request:?}");

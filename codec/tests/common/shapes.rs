@@ -17,7 +17,7 @@ pub(crate) struct Described<'a> {
 
 /// A fault that is added to shapes and values, to verify that the laws detect it.
 #[derive(Clone, Copy)]
-pub(crate) struct ShapeBend {
+pub(crate) struct ShapeMutation {
     /// Changes the indices.
     pub(crate) indices: fn(&mut [u32]),
     pub(crate) place: fn(Result<u32, Fault>) -> Result<u32, Fault>,
@@ -25,7 +25,7 @@ pub(crate) struct ShapeBend {
     pub(crate) size: fn(u32) -> u32,
 }
 
-impl ShapeBend {
+impl ShapeMutation {
     pub(crate) const NONE: Self =
         Self { indices: |_| (), place: |place| place, written: |_| (), size: |size| size };
 }
@@ -70,9 +70,9 @@ fn place(of: &Described<'_>) -> Result<u128, Fault> {
 
 /// Checks that a shape is accepted exactly if its size matches its type and dimensions, that the index of
 /// an element follows from the sizes of the inner arrays, and that a value encodes to the same bytes.
-pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, ErrorKind> {
+pub(crate) fn check_shape(of: &Described<'_>, mutation: ShapeMutation) -> Result<u32, ErrorKind> {
     let dimensions = U32List::from(of.dimensions);
-    let shape = Shape::new(of.data_type, dimensions, (bend.size)(of.size));
+    let shape = Shape::new(of.data_type, dimensions, (mutation.size)(of.size));
     let wanted = each(of);
     assert_eq!(shape.map(|shape| shape.element_size()).ok(), wanted, "{of:?}");
     let shape = shape.map_err(|error| error.kind())?;
@@ -82,9 +82,9 @@ pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, Er
     );
 
     let mut indices = of.indices.to_vec();
-    (bend.indices)(&mut indices);
+    (mutation.indices)(&mut indices);
     let indices = U32List::from(&indices[..]);
-    let found = (bend.place)(shape.index_of(indices).map_err(Fault::of));
+    let found = (mutation.place)(shape.index_of(indices).map_err(Fault::of));
     let wanted = place(of);
     assert_eq!(found.map(u128::from), wanted, "{of:?}");
 
@@ -101,28 +101,28 @@ pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, Er
         let at = place as usize * each;
         let bytes = &of.bytes[at..at + each];
         let element = elements.element(indices).expect("an element");
-        check_element(shape, element, bytes, bend);
-        check_element(shape, elements.get(place as usize).expect("it is there"), bytes, bend);
+        check_element(shape, element, bytes, mutation);
+        check_element(shape, elements.get(place as usize).expect("it is there"), bytes, mutation);
     } else {
         assert_eq!(elements.element(indices).map_err(Fault::of).err(), wanted.err());
     }
-    check_written(shape, elements, of.bytes, bend);
+    check_written(shape, elements, of.bytes, mutation);
     Ok(shape.count())
 }
 
 /// Checks that an element encodes to its bytes, by the shape and by itself.
-fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], bend: ShapeBend) {
+fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], mutation: ShapeMutation) {
     let mut buf = vec![0x55; bytes.len()];
     assert_eq!(element.encode_value(&mut buf), Ok(bytes));
     if bytes.len() <= shape.element_size() as usize {
         let mut buf = vec![0x55; bytes.len() + 1];
         assert_eq!(shape.element_shape().encode(&element, &mut buf), Ok(bytes));
-        (bend.written)(&mut buf[..bytes.len()]);
+        (mutation.written)(&mut buf[..bytes.len()]);
         assert_eq!((&buf[..bytes.len()], buf[bytes.len()]), (bytes, 0x55));
     }
 }
 
-fn check_written(shape: Shape<'_>, elements: Elements<'_>, bytes: &[u8], bend: ShapeBend) {
+fn check_written(shape: Shape<'_>, elements: Elements<'_>, bytes: &[u8], mutation: ShapeMutation) {
     let mut buf = vec![0x55; bytes.len() + 1];
     let written = shape.encode(&elements, &mut buf).map(<[u8]>::len);
     if bytes.len() > shape.size() as usize {
@@ -130,7 +130,7 @@ fn check_written(shape: Shape<'_>, elements: Elements<'_>, bytes: &[u8], bend: S
         assert!(buf.iter().all(|&byte| byte == 0x55));
         return;
     }
-    (bend.written)(&mut buf[..bytes.len()]);
+    (mutation.written)(&mut buf[..bytes.len()]);
     assert_eq!((written, &buf[..bytes.len()], buf[bytes.len()]), (Ok(bytes.len()), bytes, 0x55));
     if let Some(less) = bytes.len().checked_sub(1) {
         let error = shape.encode(&elements, &mut buf[..less]).expect_err("a byte too few");

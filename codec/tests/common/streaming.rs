@@ -54,12 +54,12 @@ fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
 
 /// A fault that is added to the packets of a text, to verify that the laws detect it.
 #[derive(Clone, Copy)]
-pub(crate) struct TextBend {
+pub(crate) struct TextMutation {
     pub(crate) packets: fn(&mut Vec<Vec<u8>>),
     pub(crate) fault: fn(TextFault) -> Option<TextFault>,
 }
 
-impl TextBend {
+impl TextMutation {
     pub(crate) const NONE: Self = Self { packets: |_| (), fault: Some };
 }
 
@@ -70,23 +70,23 @@ pub(crate) fn packets(bytes: &[u8]) -> Vec<Vec<u8>> {
 }
 
 /// Checks that the first fault of the bytes is detected or, without a fault, that the packets are correct.
-pub(crate) fn check_text(bytes: &[u8], bend: TextBend) -> Result<Vec<Vec<u8>>, TextFault> {
+pub(crate) fn check_text(bytes: &[u8], mutation: TextMutation) -> Result<Vec<Vec<u8>>, TextFault> {
     let verdict = NcText::new(bytes).map(drop).map_err(fault_of);
-    let found = verdict.err().and_then(bend.fault);
+    let found = verdict.err().and_then(mutation.fault);
     assert_eq!(found, reference_fault(bytes), "{bytes:x?}");
-    verdict.map(|()| check_packets_bent(bytes, bend))
+    verdict.map(|()| check_packets_bent(bytes, mutation))
 }
 
 /// Checks the laws of packets.
 pub(crate) fn check_packets(bytes: &[u8]) {
-    check_packets_bent(bytes, TextBend::NONE);
+    check_packets_bent(bytes, TextMutation::NONE);
 }
 
-fn check_packets_bent(bytes: &[u8], bend: TextBend) -> Vec<Vec<u8>> {
+fn check_packets_bent(bytes: &[u8], mutation: TextMutation) -> Vec<Vec<u8>> {
     let text = NcText::new(bytes).unwrap();
     let lines = reference_lines(bytes);
     let mut packets = packets(bytes);
-    (bend.packets)(&mut packets);
+    (mutation.packets)(&mut packets);
     let wire = packets.concat();
     assert_eq!(wire, ended(&lines), "all packets together");
     assert_eq!((text.wire_len(), text.line_count()), (wire.len(), lines.len()));
@@ -109,14 +109,14 @@ fn check_packets_bent(bytes: &[u8], bend: TextBend) -> Vec<Vec<u8>> {
 
 /// A fault that is added to a sender, to verify that the laws detect it.
 #[derive(Clone, Copy)]
-pub(crate) struct SenderBend {
+pub(crate) struct SenderMutation {
     /// Changes the acknowledgement.
     pub(crate) ack: fn(Ack) -> Ack,
     /// Changes the reported progress.
     pub(crate) sent: fn(Progress) -> Progress,
 }
 
-impl SenderBend {
+impl SenderMutation {
     pub(crate) const NONE: Self = Self { ack: |ack| ack, sent: |sent| sent };
 }
 
@@ -128,16 +128,16 @@ pub(crate) struct CheckedSender<'t> {
     sent: Progress,
     state: SenderState,
     busy_count: u32,
-    bend: SenderBend,
+    mutation: SenderMutation,
 }
 
 impl<'t> CheckedSender<'t> {
-    pub(crate) fn new(text: &'t [u8], bend: SenderBend) -> Self {
+    pub(crate) fn new(text: &'t [u8], mutation: SenderMutation) -> Self {
         let packets = packets(text);
         let state = if packets.is_empty() { SenderState::Done } else { SenderState::Ready };
         let sender = Sender::new(NcText::new(text).unwrap());
         let (wire, sent) = (packets.concat(), Progress::default());
-        let checked = Self { sender, wire, packets, sent, state, busy_count: 0, bend };
+        let checked = Self { sender, wire, packets, sent, state, busy_count: 0, mutation };
         checked.check();
         checked
     }
@@ -158,7 +158,7 @@ impl<'t> CheckedSender<'t> {
     /// Checks that the sender accepts exactly one acknowledgement per packet.
     pub(crate) fn acknowledge(&mut self, ack: Ack) {
         let out = self.state == SenderState::InFlight;
-        let taken = self.sender.acknowledge((self.bend.ack)(ack));
+        let taken = self.sender.acknowledge((self.mutation.ack)(ack));
         assert_eq!(taken, if out { Ok(()) } else { Err(UnexpectedAck) });
         match ack {
             _ if !out => {}
@@ -184,7 +184,7 @@ impl<'t> CheckedSender<'t> {
     /// the counts agree.
     fn check(&self) {
         let sender = &self.sender;
-        let found = ((self.bend.sent)(sender.sent()), sender.state(), sender.busy_count());
+        let found = ((self.mutation.sent)(sender.sent()), sender.state(), sender.busy_count());
         assert_eq!(found, (self.sent, self.state, self.busy_count));
         assert_eq!(sender.left_bytes(), self.wire.len() - self.sent.bytes);
     }

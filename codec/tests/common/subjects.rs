@@ -3,11 +3,11 @@
 use ads_cnc::layout::Stream;
 use ads_cnc::{Decode as _, Encode as _, Error};
 
-use super::Bend;
+use super::Mutation;
 
 /// One of the types of a stream, borrowed or owned.
 #[derive(Clone, Copy)]
-pub(crate) struct Reading {
+pub(crate) struct StreamType {
     /// `view` or `owned`.
     pub(crate) name: &'static str,
     /// Decodes the bytes; returns the encoded length.
@@ -18,22 +18,22 @@ pub(crate) struct Reading {
 
 /// The result of `BinRead` and `BinWrite`: the written bytes if the input was accepted, and the
 /// position of the reader.
-#[cfg(all(feature = "binrw", feature = "std"))]
+#[cfg(feature = "binrw")]
 pub(crate) type ReadAndWritten = (Option<Vec<u8>>, usize);
 
 /// A stream with its types.
 pub(crate) struct Subject {
     pub(crate) stream: Stream,
-    pub(crate) view: Reading,
+    pub(crate) view: StreamType,
     #[cfg(feature = "alloc")]
-    pub(crate) owned: Reading,
+    pub(crate) owned: StreamType,
     /// Decodes the stream at the front of the bytes; returns its length.
     pub(crate) prefix: fn(&[u8]) -> Result<usize, Error>,
     /// Decodes both types and compares them.
     #[cfg(feature = "alloc")]
     pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
     /// Reads the bytes with `BinRead`, and writes the value with `BinWrite`.
-    #[cfg(all(feature = "binrw", feature = "std"))]
+    #[cfg(feature = "binrw")]
     pub(crate) binrw: fn(&[u8]) -> ReadAndWritten,
     /// Decodes the bytes to the owned type, and encodes it into a vector.
     #[cfg(feature = "alloc")]
@@ -44,7 +44,7 @@ pub(crate) struct Subject {
     pub(crate) twice: fn(&[u8], &mut dyn FnMut()),
     /// Generates a value from the bytes, checks the laws, and returns the encoded bytes.
     #[cfg(feature = "arbitrary")]
-    pub(crate) made: fn(&[u8], &Bend) -> Vec<u8>,
+    pub(crate) made: fn(&[u8], &Mutation) -> Vec<u8>,
 }
 
 impl Subject {
@@ -53,7 +53,7 @@ impl Subject {
         found.unwrap_or_else(|| panic!("{stream} has no readings"))
     }
 
-    pub(crate) fn readings(&self) -> impl Iterator<Item = Reading> {
+    pub(crate) fn readings(&self) -> impl Iterator<Item = StreamType> {
         #[cfg(feature = "alloc")]
         return [self.view, self.owned].into_iter();
         #[cfg(not(feature = "alloc"))]
@@ -79,15 +79,15 @@ fn decoded_and_copied<T: Clone>(decoded: Result<T, Error>, call: &mut dyn FnMut(
     drop(std::hint::black_box((decoded, copy)));
 }
 
-#[cfg(all(feature = "binrw", feature = "std"))]
+#[cfg(feature = "binrw")]
 fn read_and_written<T>(bytes: &[u8]) -> ReadAndWritten
 where
     T: for<'a> binrw::BinRead<Args<'a> = ()> + binrw::meta::ReadEndian,
     T: for<'a> binrw::BinWrite<Args<'a> = ()> + binrw::meta::WriteEndian,
 {
-    let mut reader = std::io::Cursor::new(bytes);
+    let mut reader = binrw::io::Cursor::new(bytes);
     let written = T::read(&mut reader).ok().map(|value| {
-        let mut writer = std::io::Cursor::new(Vec::new());
+        let mut writer = binrw::io::Cursor::new(Vec::new());
         value.write(&mut writer).unwrap();
         writer.into_inner()
     });
@@ -96,7 +96,7 @@ where
 
 macro_rules! reading {
     ($name:literal, $reading:ty) => {
-        Reading {
+        StreamType {
             name: $name,
             len: |bytes| Ok(<$reading>::decode(bytes)?.encoded_len()),
             encode: |bytes, buf| Ok(<$reading>::decode(bytes)?.encode(buf)?.len()),
@@ -113,7 +113,7 @@ macro_rules! subjects {
         owned: subjects!(@owned $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         same: subjects!(@same $view $( , $owned )?),
-        #[cfg(all(feature = "binrw", feature = "std"))]
+        #[cfg(feature = "binrw")]
         binrw: subjects!(@binrw $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         to_vec: subjects!(@to_vec $view $( , $owned )?),
@@ -138,8 +138,8 @@ macro_rules! subjects {
     (@to_vec $view:ty, $owned:ty) => { |bytes| <$owned>::decode(bytes)?.encode_to_vec() };
     (@twice $both:ty) => { |bytes, call| decoded_and_copied(<$both>::decode(bytes), call) };
     (@twice $view:ty, $owned:ty) => { |bytes, call| decoded_and_copied(<$owned>::decode(bytes), call) };
-    (@made $both:ty) => { |bytes, bend| super::check_value_bent(&made::<$both>(bytes), bend) };
-    (@made $view:ty, $owned:ty) => { |bytes, bend| super::check_value_bent(&made::<$owned>(bytes), bend) };
+    (@made $both:ty) => { |bytes, mutation| super::check_value_bent(&made::<$both>(bytes), mutation) };
+    (@made $view:ty, $owned:ty) => { |bytes, mutation| super::check_value_bent(&made::<$owned>(bytes), mutation) };
 }
 
 /// All streams.

@@ -8,7 +8,7 @@ use encoding_rs::{EncoderResult, WINDOWS_1252};
 
 /// A fault that is added to a text, to verify that the laws detect it.
 #[derive(Clone, Copy)]
-pub(crate) struct CncStrBend {
+pub(crate) struct CncStrMutation {
     pub(crate) shown: fn(String) -> String,
     pub(crate) bytes: fn(&mut Vec<u8>),
     /// Changes the length of the displayed text.
@@ -16,7 +16,7 @@ pub(crate) struct CncStrBend {
     pub(crate) fault: fn(Fault) -> Option<Fault>,
 }
 
-impl CncStrBend {
+impl CncStrMutation {
     pub(crate) const NONE: Self =
         Self { shown: |text| text, bytes: |_| (), len: |len, _| len, fault: Some };
 }
@@ -29,15 +29,15 @@ fn fault_of(error: Error) -> Fault {
 }
 
 /// Checks any bytes as CP1252: a text without a NUL has the same characters as in the crate `encoding_rs`.
-pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fault> {
+pub(crate) fn check_cp1252(bytes: &[u8], mutation: CncStrMutation) -> Result<String, Fault> {
     let found = CncStr::from_bytes(bytes).map_err(fault_of);
     let nul = bytes.iter().position(|&byte| byte == 0);
     let wanted = nul.map(|at| (ErrorKind::InnerNul, at, at as u32));
-    assert_eq!(found.err().and_then(bend.fault), wanted, "{bytes:x?}");
+    assert_eq!(found.err().and_then(mutation.fault), wanted, "{bytes:x?}");
     let text = found?;
     let (characters, faulty) = WINDOWS_1252.decode_without_bom_handling(bytes);
     assert!(!faulty);
-    let shown = check_both(text, &characters, bytes, bend);
+    let shown = check_both(text, &characters, bytes, mutation);
     for (&byte, character) in bytes.iter().zip(characters.chars()) {
         assert_eq!((cp1252_to_char(byte), char_to_cp1252(character)), (character, Some(byte)));
     }
@@ -47,7 +47,7 @@ pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fau
 
 /// Checks any Rust string: its CP1252 bytes are the same as in the crate `encoding_rs`, or the first
 /// character without a CP1252 byte is an error.
-pub(crate) fn check_utf8(utf8: &str, bend: CncStrBend) -> Result<String, Fault> {
+pub(crate) fn check_utf8(utf8: &str, mutation: CncStrMutation) -> Result<String, Fault> {
     let found = CncStr::new(utf8).map_err(fault_of);
     let mut bytes = Vec::new();
     let mut fault = None;
@@ -60,9 +60,9 @@ pub(crate) fn check_utf8(utf8: &str, bend: CncStrBend) -> Result<String, Fault> 
             None => fault = fault.or(Some((ErrorKind::NotCp1252, at, character.into()))),
         }
     }
-    assert_eq!(found.err().and_then(bend.fault), fault, "{utf8:?}");
+    assert_eq!(found.err().and_then(mutation.fault), fault, "{utf8:?}");
     let text = found?;
-    Ok(check_both(text, utf8, &bytes, bend))
+    Ok(check_both(text, utf8, &bytes, mutation))
 }
 
 fn encoded(character: char) -> Option<u8> {
@@ -74,14 +74,19 @@ fn encoded(character: char) -> Option<u8> {
 }
 
 /// Checks that the text created from these characters equals the text created from these bytes.
-fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend) -> String {
-    let shown = (bend.shown)(text.to_string());
+fn check_both(
+    text: CncStr<'_>,
+    characters: &str,
+    bytes: &[u8],
+    mutation: CncStrMutation,
+) -> String {
+    let shown = (mutation.shown)(text.to_string());
     assert_eq!(shown, characters);
     assert!(text.chars().eq(characters.chars()) && text == *characters);
     let mut again: Vec<u8> = text.bytes().collect();
-    (bend.bytes)(&mut again);
+    (mutation.bytes)(&mut again);
     assert_eq!(again, bytes);
-    let len = (bend.len)(text.len(), characters);
+    let len = (mutation.len)(text.len(), characters);
     assert_eq!((len, text.is_empty()), (bytes.len(), bytes.is_empty()));
 
     let wire = CncStr::from_bytes(bytes).expect("text without NUL");

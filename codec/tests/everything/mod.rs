@@ -8,7 +8,7 @@ mod named;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
-use ads_cnc::operation::{Call, Operation, ReadElement, ReadObject, Service, WriteElement};
+use ads_cnc::operation::{AdsService, Call, Operation, ReadElement, ReadObject, WriteElement};
 use ads_cnc::sda::*;
 use ads_cnc::service::{Host, HostStep, ServiceId};
 use ads_cnc::streaming::{Ack, NcText, Sender, check_line_ends};
@@ -51,9 +51,9 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
         four.map_or(0, |four| u32::from_le_bytes(*four))
     };
     let service = match number(0) & 3 {
-        0 => Service::Read,
-        1 => Service::Write,
-        _ => Service::ReadWrite,
+        0 => AdsService::Read,
+        1 => AdsService::Write,
+        _ => AdsService::ReadWrite,
     };
     let call = Call {
         port: AmsPort(number(1) as u16),

@@ -35,14 +35,14 @@ fn answer(
 ) -> io::Result<()> {
     stream.set_nodelay(true)?;
     let mut requests = vec![0; request_len * BATCH];
-    let mut held = 0;
+    let mut buffered = 0;
     loop {
-        let count = stream.read(&mut requests[held..])?;
+        let count = stream.read(&mut requests[buffered..])?;
         if count == 0 {
             return Ok(());
         }
-        held += count;
-        stream.write_all(&replies[..held / request_len * reply_len])?;
-        held %= request_len;
+        buffered += count;
+        stream.write_all(&replies[..buffered / request_len * reply_len])?;
+        buffered %= request_len;
     }
 }

@@ -1,13 +1,13 @@
 //! The simulated CNC without a socket, for counting instructions: feeds the bytes of requests to the
 //! code of a connection's thread.
 
-use ads_cnc_conformance::simulator::{Cnc, NET_ID, Received};
+use ads_cnc_conformance::simulator::{Cnc, NET_ID, ReceiveBuffer};
 
 use crate::work::{Result, Work};
 
 /// Feeds `count` requests, `depth` at a time.
 pub(crate) fn feed(work: &Work, count: usize, depth: usize) -> Result<()> {
-    let (cnc, mut received) = (Cnc::with_default_model()?, Received::new());
+    let (cnc, mut received) = (Cnc::with_default_model()?, ReceiveBuffer::new());
     let (mut requests, mut replies) = (Vec::new(), Vec::new());
     for _ in 0..depth {
         work.request(1, &mut requests)?;

@@ -83,7 +83,7 @@ struct Client<'a> {
     next: (u32, u32),
     out: Vec<u8>,
     received: Vec<u8>,
-    held: usize,
+    buffered: usize,
 }
 
 impl<'a> Client<'a> {
@@ -95,7 +95,7 @@ impl<'a> Client<'a> {
         stream.set_write_timeout(Some(WAIT_MAX))?;
         let received = vec![0; 256 * 1024];
         let mut client =
-            Self { stream, work, is_echo, next: (1, 1), out: Vec::new(), received, held: 0 };
+            Self { stream, work, is_echo, next: (1, 1), out: Vec::new(), received, buffered: 0 };
         client.ask(1)?;
         while client.replies()? == 0 {}
         Ok(client)
@@ -145,23 +145,23 @@ impl<'a> Client<'a> {
 
     /// Reads once; returns the number of complete replies.
     fn replies(&mut self) -> Result<usize> {
-        let count = self.stream.read(&mut self.received[self.held..])?;
+        let count = self.stream.read(&mut self.received[self.buffered..])?;
         if count == 0 {
             return Err("the server has closed the connection".into());
         }
-        self.held += count;
+        self.buffered += count;
         let (mut at, mut replies) = (0, 0);
         loop {
             let expected = if self.is_echo { 0 } else { self.next.1 };
-            let Some(len) = self.work.check(&self.received[at..self.held], expected)? else {
+            let Some(len) = self.work.check(&self.received[at..self.buffered], expected)? else {
                 break;
             };
             self.next.1 = self.next.1.wrapping_add(1);
             at += len;
             replies += 1;
         }
-        self.received.copy_within(at..self.held, 0);
-        self.held -= at;
+        self.received.copy_within(at..self.buffered, 0);
+        self.buffered -= at;
         Ok(replies)
     }
 }

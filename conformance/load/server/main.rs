@@ -26,7 +26,7 @@ use work::{Result, Work};
 #[derive(Parser)]
 struct Args {
     #[command(subcommand)]
-    command: Option<Other>,
+    command: Option<Subcommands>,
 
     /// Number of turns of each server.
     #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..))]
@@ -54,7 +54,7 @@ struct Args {
 }
 
 #[derive(Subcommand)]
-enum Other {
+enum Subcommands {
     /// The echo.
     #[command(hide = true)]
     Echo { request_len: usize, reply: String },
@@ -87,11 +87,11 @@ fn compared() -> Result<()> {
         found.ok_or_else(|| format!("no request has the name {name}"))
     };
     match &args.command {
-        Some(Other::Echo { request_len, reply }) => echo::serve(*request_len, &bytes(reply)?),
-        Some(Other::Feed { name, count, depth }) => {
+        Some(Subcommands::Echo { request_len, reply }) => echo::serve(*request_len, &bytes(reply)?),
+        Some(Subcommands::Feed { name, count, depth }) => {
             feed::feed(find(name)?, *count, (*depth).into())
         }
-        Some(Other::Names) => {
+        Some(Subcommands::Names) => {
             works.iter().for_each(|work| println!("{}", work.name));
             Ok(())
         }

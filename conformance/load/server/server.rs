@@ -63,13 +63,13 @@ impl Server {
         let stdout = child.stdout.take();
         let addr = SocketAddr::from(([0, 0, 0, 0], 0));
         let mut server = Self { name, addr, about: String::new(), child };
-        let (tell, told) = mpsc::channel();
+        let (sender, receiver) = mpsc::channel();
         thread::spawn(move || {
             let mut line = String::new();
             let read = stdout.map(|stdout| BufReader::new(stdout).read_line(&mut line));
-            let _gone = tell.send(read.map(|_| line));
+            let _gone = sender.send(read.map(|_| line));
         });
-        let line = told.recv_timeout(START).ok().flatten().unwrap_or_default();
+        let line = receiver.recv_timeout(START).ok().flatten().unwrap_or_default();
         let rest = line.trim_end().strip_prefix("listening on ");
         let rest = rest.ok_or_else(|| format!("{name}: no line with the address"))?;
         let (addr, about) = rest.split_once(", ").unwrap_or((rest, ""));

@@ -5,11 +5,12 @@ use std::error::Error;
 use ads_cnc::address::Channel;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::operation::{
-    Call, Operation as _, ReadByHandle, ReadByName, ReadDescriptors, ReadObject, Request, Service,
+    AdsService, Call, Operation as _, ReadByHandle, ReadByName, ReadDescriptors, ReadObject,
+    Request,
 };
 use ads_cnc::{Encode as _, Handle, U32List};
+use ads_cnc_conformance::ads_service::{decode_reply, encode_reply};
 use ads_cnc_conformance::simulator::{Cnc, DATA_MAX, NET_ID};
-use ads_cnc_conformance::wire_service::{decode_reply, encode_reply};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;
 
@@ -24,7 +25,7 @@ pub(crate) struct Work {
     pub(crate) offset: u32,
     /// The header of the request.
     header: AmsHeader,
-    service: Service,
+    service: AdsService,
     payload: Vec<u8>,
     /// The expected data of the reply.
     pub(crate) expected: Vec<u8>,
@@ -74,7 +75,7 @@ impl Work {
         let mut buf = vec![0; request.encoded_len()];
         let call = request.encode(&mut buf)?;
         let Call { port, service, index_group, index_offset, .. } = call;
-        if service == Service::Write {
+        if service == AdsService::Write {
             return Err(format!("{name}: not a query").into());
         }
         let payload = call.encode_to_vec()?;

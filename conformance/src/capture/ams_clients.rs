@@ -6,8 +6,8 @@ use ads_cnc::ads::AmsNetId;
 
 use super::frames::{Span, is_reply};
 use super::link::AmsFrame;
-use super::table::{CONNECTIONS_MAX, ConnectionEvent, Ending, SegmentDirection};
-use super::tcp::Mark;
+use super::table::{CONNECTIONS_MAX, ConnectionEnd, ConnectionEvent, SegmentDirection};
+use super::tcp::CapturePosition;
 
 /// Added to the number of a conversation without TCP, so that it differs from the number of each
 /// TCP connection. The TCP connections are numbered from 1.
@@ -22,7 +22,7 @@ struct AmsClient {
     /// Number of bytes sent by the machine (index 0) and to the machine (index 1).
     sent: [u64; 2],
     /// The direction of the first request.
-    way: SegmentDirection,
+    direction: SegmentDirection,
 }
 
 /// The clients of all AMS frames that were captured without TCP.
@@ -35,7 +35,12 @@ pub(super) struct AmsClients {
 }
 
 impl AmsClients {
-    pub(super) fn push(&mut self, frame: AmsFrame<'_>, mark: Mark, out: &mut Vec<ConnectionEvent>) {
+    pub(super) fn push(
+        &mut self,
+        frame: AmsFrame<'_>,
+        mark: CapturePosition,
+        out: &mut Vec<ConnectionEvent>,
+    ) {
         self.frames = self.frames.saturating_add(1);
         let (from, to) = (frame.header.source, frame.header.target);
         let is_reply = is_reply(&frame.header);
@@ -46,8 +51,9 @@ impl AmsClients {
             }
             self.clients = self.clients.saturating_add(1);
             let connection = NUMBERS | self.clients;
-            let way = SegmentDirection { connection, from: client.into(), to: other.into() };
-            self.all.insert(client.net_id, AmsClient { last: 0, packet: 0, sent: [0; 2], way });
+            let direction = SegmentDirection { connection, from: client.into(), to: other.into() };
+            self.all
+                .insert(client.net_id, AmsClient { last: 0, packet: 0, sent: [0; 2], direction });
             out.push(ConnectionEvent::Running(connection));
         }
         let Some(known) = self.all.get_mut(&client.net_id) else { return };
@@ -59,13 +65,13 @@ impl AmsClients {
         let length = u32::try_from(frame.bytes.len()).unwrap_or(u32::MAX);
         let bytes = [&[0, 0], &length.to_le_bytes()[..], frame.bytes].concat();
         *sent = sent.saturating_add(u64::try_from(bytes.len()).unwrap_or(u64::MAX));
-        let mark = Mark { acknowledged: Some(*received), ..mark };
+        let mark = CapturePosition { acknowledged: Some(*received), ..mark };
         let span = Span { first: mark, last: mark, end: *sent };
-        let connection = known.way.connection;
-        let way = SegmentDirection { connection, from: from.into(), to: to.into() };
+        let connection = known.direction.connection;
+        let direction = SegmentDirection { connection, from: from.into(), to: to.into() };
         out.push(match frame.is_cut {
-            true => ConnectionEvent::Cut(bytes, way, span),
-            false => ConnectionEvent::Frame(bytes, way, span),
+            true => ConnectionEvent::Cut(bytes, direction, span),
+            false => ConnectionEvent::Frame(bytes, direction, span),
         });
     }
 
@@ -84,11 +90,11 @@ impl AmsClients {
 }
 
 impl AmsClient {
-    fn ending(&self) -> Ending {
-        let way = self.way;
-        let back = SegmentDirection { from: way.to, to: way.from, ..way };
-        let unseen = self.sent.iter().zip([way, back]).find(|(sent, _)| **sent == 0);
-        let unseen = unseen.map(|(_, way)| way);
-        Ending { connection: way.connection, last: self.packet, unseen }
+    fn ending(&self) -> ConnectionEnd {
+        let direction = self.direction;
+        let back = SegmentDirection { from: direction.to, to: direction.from, ..direction };
+        let unseen = self.sent.iter().zip([direction, back]).find(|(sent, _)| **sent == 0);
+        let unseen = unseen.map(|(_, direction)| direction);
+        ConnectionEnd { connection: direction.connection, last: self.packet, unseen }
     }
 }

@@ -7,7 +7,7 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Task;
 use ads_cnc::{Decode as _, Error};
 
-use super::tcp::Mark;
+use super::tcp::CapturePosition;
 
 #[derive(Debug)]
 pub(super) enum FramePiece {
@@ -28,8 +28,8 @@ pub(super) enum FramePiece {
 /// The location of a frame in the capture: its first and last packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Span {
-    pub(super) first: Mark,
-    pub(super) last: Mark,
+    pub(super) first: CapturePosition,
+    pub(super) last: CapturePosition,
     /// Offset of the byte after the frame, from the beginning of its direction.
     pub(super) end: u64,
 }
@@ -40,9 +40,9 @@ pub(super) struct Frames {
     bytes: Vec<u8>,
     /// For each segment in the buffer, the offset of its first byte in the buffer, and its location
     /// in the capture.
-    marks: VecDeque<(usize, Mark)>,
+    marks: VecDeque<(usize, CapturePosition)>,
     /// Offset of the first byte of the buffer, from the beginning of the direction.
-    place: u64,
+    offset: u64,
     /// Whether synchronization was lost, so that a frame may begin at any offset.
     is_lost: bool,
     skipped: usize,
@@ -52,7 +52,7 @@ impl Frames {
     /// Memory of the buffer and its marks; for many small segments, the marks need more memory than
     /// the bytes.
     pub(super) fn memory_size(&self) -> usize {
-        let marks = self.marks.capacity().saturating_mul(size_of::<(usize, Mark)>());
+        let marks = self.marks.capacity().saturating_mul(size_of::<(usize, CapturePosition)>());
         self.bytes.capacity().saturating_add(marks)
     }
 
@@ -62,7 +62,12 @@ impl Frames {
     }
 
     /// Appends bytes and emits the pieces that are now complete.
-    pub(super) fn push(&mut self, bytes: &[u8], mark: Mark, out: &mut impl FnMut(FramePiece)) {
+    pub(super) fn push(
+        &mut self,
+        bytes: &[u8],
+        mark: CapturePosition,
+        out: &mut impl FnMut(FramePiece),
+    ) {
         self.marks.push_back((self.bytes.len(), mark));
         self.bytes.extend_from_slice(bytes);
         while self.step(out) {}
@@ -79,7 +84,7 @@ impl Frames {
             }
             self.drop(begun);
         }
-        self.place = self.place.saturating_add(length);
+        self.offset = self.offset.saturating_add(length);
         self.is_lost = true;
     }
 
@@ -137,10 +142,10 @@ impl Frames {
         if self.bytes.len() < FrameRef::HEADERS_LEN {
             return false;
         }
-        let place = (0..=last).find(|&place| self.bytes.get(place..).is_some_and(is_plausible));
-        match place {
-            Some(place) => {
-                self.skip(place);
+        let offset = (0..=last).find(|&offset| self.bytes.get(offset..).is_some_and(is_plausible));
+        match offset {
+            Some(offset) => {
+                self.skip(offset);
                 self.emit_skipped(out);
                 self.is_lost = false;
                 true
@@ -168,9 +173,9 @@ impl Frames {
     fn drop(&mut self, length: usize) {
         let length = length.min(self.bytes.len());
         self.bytes.drain(..length);
-        self.place = self.place.saturating_add(u64::try_from(length).unwrap_or(u64::MAX));
-        for (place, _) in &mut self.marks {
-            *place = place.saturating_sub(length);
+        self.offset = self.offset.saturating_add(u64::try_from(length).unwrap_or(u64::MAX));
+        for (offset, _) in &mut self.marks {
+            *offset = offset.saturating_sub(length);
         }
         // Of several marks at offset 0, only the last one applies.
         while matches!(self.marks.get(1), Some((0, _))) {
@@ -185,9 +190,9 @@ impl Frames {
 
     /// The location in the capture of the first `length` bytes.
     fn span(&self, length: usize) -> Option<Span> {
-        let inside = self.marks.iter().take_while(|(place, _)| *place < length);
+        let inside = self.marks.iter().take_while(|(offset, _)| *offset < length);
         let first = self.marks.front().map(|(_, mark)| *mark)?;
-        let end = self.place.saturating_add(u64::try_from(length).unwrap_or(u64::MAX));
+        let end = self.offset.saturating_add(u64::try_from(length).unwrap_or(u64::MAX));
         Some(Span { first, last: inside.last().map_or(first, |(_, mark)| *mark), end })
     }
 }

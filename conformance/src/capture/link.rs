@@ -142,24 +142,24 @@ fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
 /// not captured.
 fn ends(net: &LaxNetSlice<'_>, missing: usize) -> Option<(IpAddr, IpAddr, usize)> {
     // With segmentation offload, the length in the header is 0, because the network card sets it.
-    let lost = |told: usize, there: usize| match told {
+    let lost = |header_length: usize, captured_length: usize| match header_length {
         0 => missing,
-        told => told.saturating_sub(there),
+        header_length => header_length.saturating_sub(captured_length),
     };
     match net {
         LaxNetSlice::Ipv4(ip) => {
             let header = ip.header();
             let extensions = ip.extensions().auth.map_or(0, |auth| auth.slice().len());
-            let there = header.slice().len().saturating_add(extensions);
-            let there = there.saturating_add(ip.payload().payload.len());
-            let missing = lost(header.total_len().into(), there);
+            let captured_length = header.slice().len().saturating_add(extensions);
+            let captured_length = captured_length.saturating_add(ip.payload().payload.len());
+            let missing = lost(header.total_len().into(), captured_length);
             Some((header.source_addr().into(), header.destination_addr().into(), missing))
         }
         LaxNetSlice::Ipv6(ip) => {
             let header = ip.header();
-            let there = ip.extensions().slice().len();
-            let there = there.saturating_add(ip.payload().payload.len());
-            let missing = lost(header.payload_length().into(), there);
+            let captured_length = ip.extensions().slice().len();
+            let captured_length = captured_length.saturating_add(ip.payload().payload.len());
+            let missing = lost(header.payload_length().into(), captured_length);
             Some((header.source_addr().into(), header.destination_addr().into(), missing))
         }
         LaxNetSlice::Arp(_) => None,

@@ -54,7 +54,7 @@ use self::judge::TrafficJudge;
 use self::link::PacketContent;
 use self::table::{ConnectionEvent, ConnectionTable};
 use self::tally::{count, count_of};
-use self::tcp::Mark;
+use self::tcp::CapturePosition;
 use crate::judge::{CaseOutcome, attribute};
 use crate::process::progress;
 
@@ -139,11 +139,11 @@ pub fn frames(
 impl CapturePiece {
     fn of(event: ConnectionEvent) -> Option<Self> {
         Some(match event {
-            ConnectionEvent::Frame(bytes, way, _) => {
-                Self::Frame { from: way.from, to: way.to, bytes }
+            ConnectionEvent::Frame(bytes, direction, _) => {
+                Self::Frame { from: direction.from, to: direction.to, bytes }
             }
-            ConnectionEvent::Gap(length, way, _) => {
-                Self::Gap { from: way.from, to: way.to, length }
+            ConnectionEvent::Gap(length, direction, _) => {
+                Self::Gap { from: direction.from, to: direction.to, length }
             }
             ConnectionEvent::Cut(bytes, ..) | ConnectionEvent::Broken(_, bytes, ..) => {
                 Self::Rest(bytes.len())
@@ -190,7 +190,7 @@ fn read(
     let end = packets(input, |packet| {
         let content = link::content(&packet);
         let Packet { number, time, .. } = packet;
-        let mark = Mark { packet: number, time, acknowledged: None };
+        let mark = CapturePosition { packet: number, time, acknowledged: None };
         let wanted = matches!(&content, PacketContent::Tcp(segment) if table.wants(segment));
         each(ReadStep::Packet(&packet, content, wanted));
         if let (PacketContent::Tcp(segment), true) = (content, wanted) {

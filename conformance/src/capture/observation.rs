@@ -15,8 +15,8 @@ use crate::rules::Observation;
 pub(super) struct Location {
     pub(super) from: Endpoint,
     pub(super) to: Endpoint,
-    pub(super) asked: Option<Span>,
-    pub(super) answered: Option<Span>,
+    pub(super) request: Option<Span>,
+    pub(super) reply: Option<Span>,
 }
 
 impl Display for Location {
@@ -28,14 +28,14 @@ impl Display for Location {
             }
             span.last.time.map_or(Ok(()), |time| write!(f, " at {time}"))
         };
-        if let Some(asked) = self.asked {
-            packets(f, asked)?;
+        if let Some(request) = self.request {
+            packets(f, request)?;
         }
-        if let Some(answered) = self.answered {
-            f.write_str(if self.asked.is_some() { ", answered in " } else { "" })?;
-            packets(f, answered)?;
+        if let Some(reply) = self.reply {
+            f.write_str(if self.request.is_some() { ", answered in " } else { "" })?;
+            packets(f, reply)?;
         }
-        let is_known = self.asked.or(self.answered).is_some();
+        let is_known = self.request.or(self.reply).is_some();
         write!(f, "{}{} to {}", if is_known { ", " } else { "" }, self.from, self.to)
     }
 }
@@ -52,7 +52,7 @@ pub(super) enum CapturedFrames<'e> {
 impl Observation for CapturedFrames<'_> {
     fn time(&self) -> Option<Duration> {
         let (Self::Exchange(_, location) | Self::Bytes(_, location)) = self;
-        location.asked?.last.time.map(Time::since_1970)
+        location.request?.last.time.map(Time::since_1970)
     }
 
     fn evidence(&self) -> Evidence {

@@ -7,7 +7,7 @@ use ads_cnc::Error;
 use super::endpoint::Endpoint;
 use super::frames::{FramePiece, Frames, Span};
 use super::link::TcpSegment;
-use super::tcp::{DirectedSegment, DirectionState, Mark, ReassembledPiece};
+use super::tcp::{CapturePosition, DirectedSegment, DirectionState, ReassembledPiece};
 
 /// Maximum number of connections that are followed at the same time; beyond that, the connection that
 /// was idle for the longest time is ended.
@@ -41,7 +41,7 @@ pub(super) enum ConnectionEvent {
     Broken(Error, Vec<u8>, SegmentDirection, Span),
     Cut(Vec<u8>, SegmentDirection, Span),
     /// Number of bytes that were not captured.
-    Gap(u64, SegmentDirection, Mark),
+    Gap(u64, SegmentDirection, CapturePosition),
     /// Number of bytes skipped to find the next frame.
     Skipped(usize),
     /// A connection whose beginning was not captured.
@@ -52,12 +52,12 @@ pub(super) enum ConnectionEvent {
     /// A frame that was incomplete when the connection or the capture ended.
     Unfinished,
     /// The connection has ended.
-    Ended(Ending),
+    Ended(ConnectionEnd),
 }
 
 /// The end of a connection.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ending {
+pub(super) struct ConnectionEnd {
     pub(super) connection: u64,
     pub(super) last: u64,
     /// The direction of which no segment was captured, not even an acknowledgement; `None` if the
@@ -69,7 +69,7 @@ pub(super) struct Ending {
 struct TcpConnection {
     number: u64,
     ends: [Endpoint; 2],
-    halves: [DirectionState; 2],
+    direction_states: [DirectionState; 2],
     frames: [Frames; 2],
     /// Whether the connection is known to carry AMS: by its port, or because it contains a frame.
     is_ams: bool,
@@ -104,20 +104,23 @@ impl ConnectionTable {
     }
 
     /// Whether early segments of the sender wait for missing bytes.
-    pub(super) fn waits(&self, way: &SegmentDirection) -> bool {
-        self.half(way).is_some_and(|half| half.memory_size() > 0)
+    pub(super) fn waits(&self, direction: &SegmentDirection) -> bool {
+        self.direction_state(direction)
+            .is_some_and(|direction_state| direction_state.memory_size() > 0)
     }
 
     /// Whether the bytes of the sender were captured up to this offset.
-    pub(super) fn has(&self, way: &SegmentDirection, place: u64) -> bool {
+    pub(super) fn has(&self, direction: &SegmentDirection, place: u64) -> bool {
         // Without TCP, the offset is always that of the last captured byte.
-        matches!(way.from, Endpoint::Ams(..))
-            || self.half(way).is_some_and(|half| half.is_seen() && half.offset() >= place)
+        matches!(direction.from, Endpoint::Ams(..))
+            || self.direction_state(direction).is_some_and(|direction_state| {
+                direction_state.is_seen() && direction_state.offset() >= place
+            })
     }
 
-    fn half(&self, way: &SegmentDirection) -> Option<&DirectionState> {
-        let connection = self.open.get(&key(way.from, way.to))?;
-        connection.halves.get(connection.side(way.from))
+    fn direction_state(&self, direction: &SegmentDirection) -> Option<&DirectionState> {
+        let connection = self.open.get(&key(direction.from, direction.to))?;
+        connection.direction_states.get(connection.side(direction.from))
     }
 
     /// Whether a segment is on one of the selected ports.
@@ -133,7 +136,7 @@ impl ConnectionTable {
     pub(super) fn push(
         &mut self,
         segment: &TcpSegment<'_>,
-        mark: Mark,
+        mark: CapturePosition,
         out: &mut Vec<ConnectionEvent>,
     ) {
         self.segments = self.segments.saturating_add(1);
@@ -159,7 +162,7 @@ impl ConnectionTable {
         connection.push(segment, mark, self.ports == Ports::Any, out);
         self.buffered =
             self.buffered.saturating_sub(before).saturating_add(connection.memory_size());
-        let over = segment.rst || connection.halves.iter().all(DirectionState::is_over);
+        let over = segment.rst || connection.direction_states.iter().all(DirectionState::is_over);
         if connection.is_ams && std::mem::take(&mut connection.joined) {
             out.insert(events, ConnectionEvent::Joined(connection.number));
         }
@@ -193,9 +196,9 @@ impl ConnectionTable {
         if !connection.is_ams {
             out.truncate(events);
         }
-        for half in &connection.halves {
-            self.repeated = self.repeated.saturating_add(half.repeated);
-            self.early = self.early.saturating_add(half.early);
+        for direction_state in &connection.direction_states {
+            self.repeated = self.repeated.saturating_add(direction_state.repeated);
+            self.early = self.early.saturating_add(direction_state.early);
         }
     }
 
@@ -216,7 +219,7 @@ impl TcpConnection {
         Self {
             number,
             ends,
-            halves: Default::default(),
+            direction_states: Default::default(),
             frames: Default::default(),
             is_ams,
             is_whole: true,
@@ -227,8 +230,10 @@ impl TcpConnection {
     }
 
     fn memory_size(&self) -> usize {
-        let halves = self.halves.iter().map(DirectionState::memory_size);
-        halves.chain(self.frames.iter().map(Frames::memory_size)).fold(0, usize::saturating_add)
+        let direction_states = self.direction_states.iter().map(DirectionState::memory_size);
+        direction_states
+            .chain(self.frames.iter().map(Frames::memory_size))
+            .fold(0, usize::saturating_add)
     }
 
     fn side(&self, from: Endpoint) -> usize {
@@ -238,14 +243,16 @@ impl TcpConnection {
     /// Whether a SYN belongs to this connection: it is a retransmitted SYN, or the SYN of the other
     /// side.
     fn is_same(&self, segment: &TcpSegment<'_>) -> bool {
-        let half = self.halves.get(self.side(segment.from));
-        half.is_none_or(|half| half.is_new() || half.begins_with(segment.sequence))
+        let direction_state = self.direction_states.get(self.side(segment.from));
+        direction_state.is_none_or(|direction_state| {
+            direction_state.is_new() || direction_state.begins_with(segment.sequence)
+        })
     }
 
     fn push(
         &mut self,
         segment: &TcpSegment<'_>,
-        mark: Mark,
+        mark: CapturePosition,
         any: bool,
         out: &mut Vec<ConnectionEvent>,
     ) {
@@ -253,17 +260,21 @@ impl TcpConnection {
         let other = 1_usize.saturating_sub(side);
         self.packet = self.packet.max(mark.packet);
         let acknowledged = segment.acknowledged.filter(|_| !segment.rst);
-        let place = self.halves.get(other).zip(acknowledged);
-        let mark = Mark { acknowledged: place.and_then(|(half, at)| half.offset_of(at)), ..mark };
-        let Some(half) = self.halves.get_mut(side) else { return };
+        let place = self.direction_states.get(other).zip(acknowledged);
+        let mark = CapturePosition {
+            acknowledged: place.and_then(|(direction_state, at)| direction_state.offset_of(at)),
+            ..mark
+        };
+        let Some(direction_state) = self.direction_states.get_mut(side) else { return };
         let Some(frames) = self.frames.get_mut(side) else { return };
-        if half.is_new() && !segment.syn && !segment.payload.is_empty() {
+        if direction_state.is_new() && !segment.syn && !segment.payload.is_empty() {
             frames.begin_anywhere();
             self.joined |= std::mem::take(&mut self.is_whole);
-        } else if !half.is_seen() && any {
+        } else if !direction_state.is_seen() && any {
             frames.begin_anywhere();
         }
-        let way = SegmentDirection { connection: self.number, from: segment.from, to: segment.to };
+        let direction =
+            SegmentDirection { connection: self.number, from: segment.from, to: segment.to };
         let part = DirectedSegment {
             sequence: segment.sequence,
             syn: segment.syn,
@@ -272,13 +283,13 @@ impl TcpConnection {
             mark,
         };
         let is_ams = &mut self.is_ams;
-        half.push(part, &mut |piece| feed(frames, piece, way, is_ams, out));
+        direction_state.push(part, &mut |piece| feed(frames, piece, direction, is_ams, out));
         if segment.fin {
             let length = segment.payload.len().saturating_add(segment.missing);
             let length = u32::try_from(length).unwrap_or(u32::MAX);
-            half.end_at(segment.sequence.wrapping_add(length), mark);
+            direction_state.end_at(segment.sequence.wrapping_add(length), mark);
         }
-        if let (Some(other), Some(number)) = (self.halves.get_mut(other), acknowledged) {
+        if let (Some(other), Some(number)) = (self.direction_states.get_mut(other), acknowledged) {
             if self.is_whole {
                 other.begin_at(number);
             }
@@ -290,53 +301,56 @@ impl TcpConnection {
     fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
         let [one, other] = self.ends;
         for (side, (from, to)) in [(one, other), (other, one)].into_iter().enumerate() {
-            let way = SegmentDirection { connection: self.number, from, to };
-            let (Some(half), Some(frames)) = (self.halves.get_mut(side), self.frames.get_mut(side))
+            let direction = SegmentDirection { connection: self.number, from, to };
+            let (Some(direction_state), Some(frames)) =
+                (self.direction_states.get_mut(side), self.frames.get_mut(side))
             else {
                 continue;
             };
             let is_ams = &mut self.is_ams;
-            half.flush(&mut |piece| feed(frames, piece, way, is_ams, out));
-            frames.end(&mut |found| push_event(found, way, is_ams, out));
+            direction_state.flush(&mut |piece| feed(frames, piece, direction, is_ams, out));
+            frames.end(&mut |found| push_event(found, direction, is_ams, out));
         }
         let (connection, last) = (self.number, self.packet);
-        let mut ways = [(one, other), (other, one)].into_iter().zip(&self.halves);
-        let unseen = ways.find(|(_, half)| !half.is_seen());
+        let mut directions = [(one, other), (other, one)].into_iter().zip(&self.direction_states);
+        let unseen = directions.find(|(_, direction_state)| !direction_state.is_seen());
         let unseen = unseen.map(|((from, to), _)| SegmentDirection { connection, from, to });
-        out.push(ConnectionEvent::Ended(Ending { connection, last, unseen }));
+        out.push(ConnectionEvent::Ended(ConnectionEnd { connection, last, unseen }));
     }
 }
 
 fn feed(
     frames: &mut Frames,
     piece: ReassembledPiece<'_>,
-    way: SegmentDirection,
+    direction: SegmentDirection,
     is_ams: &mut bool,
     out: &mut Vec<ConnectionEvent>,
 ) {
     match piece {
         ReassembledPiece::Data(bytes, mark) => {
-            frames.push(bytes, mark, &mut |found| push_event(found, way, is_ams, out));
+            frames.push(bytes, mark, &mut |found| push_event(found, direction, is_ams, out));
         }
         ReassembledPiece::Gap(length, mark) => {
-            frames.gap(length, &mut |found| push_event(found, way, is_ams, out));
-            out.push(ConnectionEvent::Gap(length, way, mark));
+            frames.gap(length, &mut |found| push_event(found, direction, is_ams, out));
+            out.push(ConnectionEvent::Gap(length, direction, mark));
         }
     }
 }
 
 fn push_event(
     found: FramePiece,
-    way: SegmentDirection,
+    direction: SegmentDirection,
     is_ams: &mut bool,
     out: &mut Vec<ConnectionEvent>,
 ) {
     *is_ams |= matches!(found, FramePiece::Frame(..));
     out.push(match found {
-        FramePiece::Frame(frame, span) => ConnectionEvent::Frame(frame, way, span),
+        FramePiece::Frame(frame, span) => ConnectionEvent::Frame(frame, direction, span),
         FramePiece::Router => ConnectionEvent::Router,
-        FramePiece::Broken(error, bytes, span) => ConnectionEvent::Broken(error, bytes, way, span),
-        FramePiece::Cut(bytes, span) => ConnectionEvent::Cut(bytes, way, span),
+        FramePiece::Broken(error, bytes, span) => {
+            ConnectionEvent::Broken(error, bytes, direction, span)
+        }
+        FramePiece::Cut(bytes, span) => ConnectionEvent::Cut(bytes, direction, span),
         FramePiece::Skipped(length) => ConnectionEvent::Skipped(length),
         FramePiece::Unfinished => ConnectionEvent::Unfinished,
     });

@@ -5,7 +5,7 @@ use std::fmt::Display;
 
 use ads_cnc::CncStr;
 use ads_cnc::ads::{AmsPort, Command};
-use ads_cnc::operation::{Call, DispatchError, Function, Service};
+use ads_cnc::operation::{AdsService, Call, DispatchError, Function};
 
 use super::file::FileEnd;
 use crate::exchange::Exchange;
@@ -137,7 +137,7 @@ impl CaptureTally {
             plural(self.exchanges, "request"),
         )];
         // Number, unit and text of each line.
-        let told = [
+        let counters = [
             (self.ethercat, "AMS frame", " in EtherCAT, without TCP"),
             (self.refused, "request", " with an error reply"),
             (self.joined, "connection", " with a beginning that was not captured"),
@@ -161,8 +161,8 @@ impl CaptureTally {
             (self.fragments, "fragment", " of IP packets, not reassembled"),
             (self.unreadable, "packet", " with truncated or invalid headers, not judged"),
         ];
-        let told = told.into_iter().filter(|(number, ..)| *number > 0);
-        lines.extend(told.map(|(number, noun, what)| plural(number, noun) + what));
+        let counters = counters.into_iter().filter(|(number, ..)| *number > 0);
+        lines.extend(counters.map(|(number, noun, what)| plural(number, noun) + what));
         lines.extend(unjudged("link types", &self.links));
         lines.extend(unjudged("frames to AMS ports", &self.other_ports));
         let commands = self.commands.iter().map(|(number, count)| {
@@ -255,7 +255,7 @@ fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Opti
             Some(format!("at port {} instead of {}", call.port, spec.task.port()))
         }
         // A Read at the address of a function may address an element (SDA-12).
-        DispatchError::Service { expected, found } if *found != Service::Read => {
+        DispatchError::Service { expected, found } if *found != AdsService::Read => {
             Some(format!("by {found} instead of {expected}"))
         }
         _ => None,
@@ -264,7 +264,7 @@ fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Opti
 
 /// The result of an exchange, with the first bytes of a value.
 fn answered(exchange: &Exchange) -> String {
-    let written = (exchange.service == Service::Write).then_some(&*exchange.data);
+    let written = (exchange.service == AdsService::Write).then_some(&*exchange.data);
     match exchange.success() {
         Some([]) if written.is_some_and(|data| !data.is_empty()) => {
             format!("{} written", bytes_of(written.unwrap_or_default()))

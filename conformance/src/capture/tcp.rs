@@ -25,7 +25,7 @@ const BEFORE_SYN: u32 = 0x1_0000;
 
 /// The location of bytes in the capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Mark {
+pub(super) struct CapturePosition {
     pub(super) packet: u64,
     pub(super) time: Option<Time>,
     /// Offset up to which the sender of the bytes had received the other direction; `None` if unknown.
@@ -35,9 +35,9 @@ pub(super) struct Mark {
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum ReassembledPiece<'a> {
     /// The next bytes.
-    Data(&'a [u8], Mark),
+    Data(&'a [u8], CapturePosition),
     /// Bytes that were not captured.
-    Gap(u64, Mark),
+    Gap(u64, CapturePosition),
 }
 
 /// A segment of this direction.
@@ -48,7 +48,7 @@ pub(super) struct DirectedSegment<'a> {
     pub(super) payload: &'a [u8],
     /// Number of bytes after the payload that were not captured.
     pub(super) missing: usize,
-    pub(super) mark: Mark,
+    pub(super) mark: CapturePosition,
 }
 
 /// The state of one direction.
@@ -70,7 +70,7 @@ pub(super) struct DirectionState {
     /// Offset acknowledged by the other side; `acknowledged_by` is the location of the segment with
     /// this acknowledgement.
     acknowledged: u64,
-    acknowledged_by: Option<Mark>,
+    acknowledged_by: Option<CapturePosition>,
     waiting: u32,
     /// Retransmitted segments.
     pub(super) repeated: u64,
@@ -82,7 +82,7 @@ pub(super) struct DirectionState {
 struct EarlySegment {
     bytes: Vec<u8>,
     missing: usize,
-    mark: Mark,
+    mark: CapturePosition,
 }
 
 impl DirectionState {
@@ -189,14 +189,14 @@ impl DirectionState {
     }
 
     /// Sets the sequence number of the FIN.
-    pub(super) fn end_at(&mut self, sequence: u32, mark: Mark) {
+    pub(super) fn end_at(&mut self, sequence: u32, mark: CapturePosition) {
         self.begin_at(sequence);
         self.end = self.offset_of(sequence);
         self.acknowledged_by.get_or_insert(mark);
     }
 
     /// Notes that the other side has received all bytes before `sequence`.
-    pub(super) fn acknowledge(&mut self, sequence: u32, mark: Mark) {
+    pub(super) fn acknowledge(&mut self, sequence: u32, mark: CapturePosition) {
         let Some(next) = self.next else { return };
         let after = sequence.wrapping_sub(next);
         let offset = self.offset.saturating_add(after.into());
@@ -224,7 +224,7 @@ impl DirectionState {
         &mut self,
         bytes: &[u8],
         missing: usize,
-        mark: Mark,
+        mark: CapturePosition,
         out: &mut impl FnMut(ReassembledPiece<'_>),
     ) {
         if !bytes.is_empty() {

@@ -8,19 +8,19 @@ use std::path::{Path, PathBuf};
 use ads_cnc::Encode as _;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::layout::{Segment as Piece, Size, Stream, Type as FieldType};
-use ads_cnc::operation::{Call, Function, Request, Service};
+use ads_cnc::operation::{AdsService, Call, Function, Request};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{
-    Accept, Context, Direction, Expect, Hex, Provenance, ProvenanceKind, Segment,
-    Service as VectorService, Type, VERSION, Vector, requirement,
+    Accept, AdsService as VectorService, Context, Direction, Expect, Hex, Provenance,
+    ProvenanceKind, Segment, Type, VERSION, Vector, requirement,
 };
 use serde_json::json;
 
+use crate::ads_service;
 use crate::client::frame;
 use crate::codec::decode_stream;
 use crate::rules::TargetVariable;
 use crate::text::json as json_text;
-use crate::wire_service;
 
 /// Maximum number of vectors of a capture.
 pub const VECTORS_MAX: usize = 10_000;
@@ -68,9 +68,9 @@ impl Collector {
         let kept = self.keep_texts || function == Function::ReadElementType;
         let context = Context {
             service: Some(match call.service {
-                Service::Read => VectorService::Read,
-                Service::Write => VectorService::Write,
-                Service::ReadWrite => VectorService::ReadWrite,
+                AdsService::Read => VectorService::Read,
+                AdsService::Write => VectorService::Write,
+                AdsService::ReadWrite => VectorService::ReadWrite,
             }),
             index_group: Some(call.index_group.get()),
             index_offset: Some(call.index_offset.get()),
@@ -102,7 +102,7 @@ impl Collector {
         if received.is_none() {
             return;
         }
-        let reply = wire_service::encode_reply(call.service, AdsError::NO_ERROR, received);
+        let reply = ads_service::encode_reply(call.service, AdsError::NO_ERROR, received);
         let Ok(reply) = reply else { return };
         let frame =
             FrameRef::new(header.response(), &reply).and_then(|frame| frame.encode_to_vec());
@@ -111,13 +111,13 @@ impl Collector {
         }
     }
 
-    fn frame(&mut self, way: Direction, service: Service, bytes: &[u8]) {
+    fn frame(&mut self, way: Direction, service: AdsService, bytes: &[u8]) {
         let mut segments = Vec::new();
         let (tcp, rest) = bytes.split_at(bytes.len().min(6));
         let (ams, data) = rest.split_at(rest.len().min(32));
         let inside = match way {
-            Direction::Request => wire_service::request_stream(service),
-            _ => wire_service::reply_stream(service),
+            Direction::Request => ads_service::request_stream(service),
+            _ => ads_service::reply_stream(service),
         };
         for (stream, bytes) in
             [(Stream::AmsTcpHeader, tcp), (Stream::AmsHeader, ams), (inside, data)]
@@ -131,7 +131,7 @@ impl Collector {
             Context::default(),
             bytes,
             segments,
-            &[ADS_5.as_str(), wire_service::clause(service).as_str()],
+            &[ADS_5.as_str(), ads_service::clause(service).as_str()],
         );
     }
 

@@ -7,13 +7,13 @@ use clap::{Args, ValueEnum};
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name::{no_channel, written};
+use super::name_args::{no_channel, written};
 use super::progress::ProgressLine;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::exit::Exit;
 use crate::objects::{
-    NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
-    VALUE, WalkResult, absent_of, channels_of, columns, csv, table, walk,
+    ListedValue, NAMES_MAX, OBJECTS_MAX, ObjectReport, ObjectsReport, Options, Pattern,
+    REQUESTS_MAX, VALUE, WalkResult, absent_of, channels_of, columns, csv, table, walk,
 };
 use crate::session::{Session, ToolError};
 use crate::text::{hex, json, plural};
@@ -267,7 +267,7 @@ fn read_all(
                 | ToolError::Reply(_)
                 | ToolError::Unable(_)
                 | ToolError::Unsendable(_)
-                | ToolError::Refused(_)),
+                | ToolError::NotPermitted(_)),
             ) => Err(why.to_string()),
             Err(error) => return Err(error),
         });
@@ -279,7 +279,7 @@ fn read_all(
     Ok(contents)
 }
 
-fn cell(object: &Object, content: &ReadContent, format: BrowseFormat) -> String {
+fn cell(object: &ListedValue, content: &ReadContent, format: BrowseFormat) -> String {
     let text = match content {
         Ok(bytes) => plain(&object.ty, bytes).unwrap_or_else(|| hex::spaced(bytes)),
         Err(_) if format == BrowseFormat::Csv => return String::new(),

@@ -31,7 +31,7 @@ const TRAFFIC: &str = "Traffic";
 /// 552 (SDA) and 553 (COM), and calls of undocumented addresses.
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES, after_long_help = AFTER)]
-pub(super) struct CheckArguments {
+pub(super) struct CheckArgs {
     /// The capture to read
     file: PathBuf,
 
@@ -57,8 +57,10 @@ pub(super) struct CheckArguments {
     #[arg(long, help_heading = TRAFFIC, requires = "extract_vectors")]
     keep_texts: bool,
 
-    /// Judge only this: an area (VAR), a requirement (VAR-11) or the ID of a case; repeatable
-    #[arg(long, value_name = "AREA|ID")]
+    /// Judge only this: an area (VAR), a requirement (VAR-11), a section of a manual with all
+    /// sections below it (ads:4.3) or the ID of a case; * stands for any characters, ? for one;
+    /// repeatable [default: all]
+    #[arg(long, value_name = "AREA|SECTION|ID")]
     only: Vec<String>,
 
     /// Judge by this edition only, en-1.05 or de-1.051 [default: both]
@@ -129,7 +131,7 @@ impl Read for CountedRead {
     }
 }
 
-impl CheckArguments {
+impl CheckArgs {
     /// Reads and judges the file and writes the reports.
     pub(super) fn execute(&self) -> Exit {
         let usage = |why: String| {

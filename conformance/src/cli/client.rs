@@ -9,7 +9,7 @@ use clap::Args;
 use serde::Deserialize;
 
 use super::message::print_error;
-use crate::clients::{
+use crate::client_suite::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };
 use crate::exit::Exit;
@@ -20,7 +20,7 @@ use crate::text::{did_you_mean, json_error};
 /// This client tests the suite and serves as an example. It connects only to this machine. See
 /// conformance/adapters/CLIENTS.md.
 #[derive(Args, Debug)]
-pub(super) struct ClientArguments {
+pub(super) struct ClientCommandArgs {
     /// Enable a defect (see --list-defects)
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
@@ -45,15 +45,15 @@ enum Instruction {
 /// Exit code of a client with the defect of crashing, as after SIGABRT.
 const ABORT_EXIT_CODE: i32 = 134;
 
-impl ClientArguments {
+impl ClientCommandArgs {
     /// Executes the instructions of the suite until `bye` or the end of stdin.
     pub(super) fn execute(&self) -> Exit {
         if self.list_defects {
             return written(list());
         }
-        let defect = match self.defect.as_deref().map(|id| (id, clients::find_defect(id))) {
+        let defect = match self.defect.as_deref().map(|id| (id, client_suite::find_defect(id))) {
             Some((id, None)) => {
-                let near = did_you_mean(id, clients::defects().iter().map(|defect| defect.id));
+                let near = did_you_mean(id, client_suite::defects().iter().map(|defect| defect.id));
                 print_error(format_args!(
                     "no defect has the ID {id}{near}; client --list-defects shows all"
                 ));
@@ -80,12 +80,12 @@ fn written(done: io::Result<()>) -> Exit {
 
 fn list() -> io::Result<()> {
     let mut out = io::stdout().lock();
-    clients::defects().iter().try_for_each(|defect| {
+    client_suite::defects().iter().try_for_each(|defect| {
         writeln!(out, "{:<30} {:<7} {defect}", defect.id, defect.requirement)
     })
 }
 
-fn answer(fault: Option<clients::ClientFault>) -> io::Result<()> {
+fn answer(fault: Option<client_suite::ClientFault>) -> io::Result<()> {
     let mut out = io::stdout().lock();
     let mut say = |line: String| {
         out.write_all(line.as_bytes())?;
@@ -95,7 +95,7 @@ fn answer(fault: Option<clients::ClientFault>) -> io::Result<()> {
     say(serde_json::to_string(&ReferenceClient::hello())?)?;
     for line in io::stdin().lock().lines() {
         let line = line?;
-        let (place, action) = match serde_json::from_str::<Instruction>(&line) {
+        let (cnc_address, action) = match serde_json::from_str::<Instruction>(&line) {
             Ok(Instruction::Bye) => return Ok(()),
             Ok(Instruction::Do { address, net_id, port, action, args }) => {
                 let Ok(net_id) = net_id.parse() else { continue };
@@ -106,18 +106,18 @@ fn answer(fault: Option<clients::ClientFault>) -> io::Result<()> {
                 continue;
             }
         };
-        say(done(fault, &place, &action)?)?;
+        say(done(fault, &cnc_address, &action)?)?;
     }
     Ok(())
 }
 
 /// Executes an action and returns the result; with some defects, it exits or hangs instead.
 fn done(
-    fault: Option<clients::ClientFault>,
-    place: &CncAddress,
+    fault: Option<client_suite::ClientFault>,
+    cnc_address: &CncAddress,
     action: &Action,
 ) -> io::Result<String> {
-    match clients::answer(fault, place, action) {
+    match client_suite::answer(fault, cnc_address, action) {
         ClientReaction::Answer(answer) => Ok(serde_json::to_string(&answer)?),
         ClientReaction::Garbled(what) => Ok(what),
         ClientReaction::Died(_) => std::process::exit(ABORT_EXIT_CODE),
@@ -128,7 +128,7 @@ fn done(
 }
 
 /// Executes the action in the environment variable `ADS_CNC_DO`.
-fn once(fault: Option<clients::ClientFault>) -> io::Result<()> {
+fn once(fault: Option<client_suite::ClientFault>) -> io::Result<()> {
     let env_variable =
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));
     let line = env_variable("ADS_CNC_DO")?;
@@ -138,12 +138,12 @@ fn once(fault: Option<clients::ClientFault>) -> io::Result<()> {
         }
         line => {
             let wrong = || io::Error::other("ADS_CNC_DO or the address of the CNC is invalid");
-            let place = CncAddress {
+            let cnc_address = CncAddress {
                 addr: env_variable("ADS_CNC_ADDRESS")?.parse().map_err(|_| wrong())?,
                 net_id: env_variable("ADS_CNC_NET_ID")?.parse().map_err(|_| wrong())?,
                 port: env_variable("ADS_CNC_PORT")?.parse().map_err(|_| wrong())?,
             };
-            done(fault, &place, &Action::parse(line).ok_or_else(wrong)?)?
+            done(fault, &cnc_address, &Action::parse(line).ok_or_else(wrong)?)?
         }
     };
     let mut out = io::stdout().lock();

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use crate::simulator::Cnc;
-use crate::simulator::program::State;
+use crate::simulator::program::ProgramState;
 
 /// A channel, and the file for its executed lines.
 #[derive(Clone, Debug)]
@@ -61,7 +61,7 @@ pub(super) fn log(cnc: &Cnc) {
         let Ok((executed, state)) = ran else { continue };
         let (lines, bytes) = (executed.line_count(), executed.byte_count());
         match state {
-            State::Aborted(why) => {
+            ProgramState::Aborted(why) => {
                 tracing::warn!(channel, lines, bytes, "streaming was aborted: {why}");
             }
             _ if lines > 0 => tracing::info!(channel, lines, bytes, "NC lines were run"),

@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::Service;
+use ads_cnc::operation::AdsService;
 use ads_cnc::value::DataType;
 use clap::{Args, ValueEnum};
 
 use super::check::compressed;
 use super::display::Color;
 use super::message::print_error;
-use super::name::number;
+use super::name_args::number;
 use crate::exit::Exit;
 use crate::explain::{
     ExplainQuery, ExplainSubject, Paint, ServiceAddress, ValueFormat, candidates, explain,
@@ -201,20 +201,22 @@ impl Explain {
                 format!("no stream has the name {name}{near}\n{instead}")
             });
         }
-        let place = self.group.zip(self.offset).map(|(group, offset)| ServiceAddress {
+        let ads_address = self.group.zip(self.offset).map(|(group, offset)| ServiceAddress {
             port: self.port.map(AmsPort),
-            service: self.service.map(Service::from),
+            service: self.service.map(AdsService::from),
             group: IndexGroup::new(group),
             offset: IndexOffset::new(offset),
             reply: self.reply,
         });
-        match place {
-            Some(place) if !self.frame && bytes.is_none() => Ok(ExplainSubject::Address(place)),
-            Some(place) if !self.frame => Ok(ExplainSubject::Place(place)),
-            place if self.frame => Ok(ExplainSubject::Frames(place)),
-            place => match bytes.unwrap_or_default() {
+        match ads_address {
+            Some(ads_address) if !self.frame && bytes.is_none() => {
+                Ok(ExplainSubject::Address(ads_address))
+            }
+            Some(ads_address) if !self.frame => Ok(ExplainSubject::Place(ads_address)),
+            ads_address if self.frame => Ok(ExplainSubject::Frames(ads_address)),
+            ads_address => match bytes.unwrap_or_default() {
                 [] => Err(format!("no bytes are given\n{EXPLAIN_HELP}")),
-                bytes if looks_like_frame(bytes) => Ok(ExplainSubject::Frames(place)),
+                bytes if looks_like_frame(bytes) => Ok(ExplainSubject::Frames(ads_address)),
                 bytes if self.file.is_some() && !self.hex && is_hex(bytes) => {
                     Err("the file contains hexadecimal text: add --hex".to_owned())
                 }
@@ -274,7 +276,7 @@ impl Explain {
     }
 }
 
-impl From<ServiceName> for Service {
+impl From<ServiceName> for AdsService {
     fn from(name: ServiceName) -> Self {
         match name {
             ServiceName::Read => Self::Read,

@@ -6,11 +6,11 @@ use clap::Args;
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name::{NameArgs, headline, written};
+use super::name_args::{NameArgs, headline, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use crate::exit::Exit;
 use crate::named::find;
-use crate::objects::{Object, ObjectReport, ObjectsReport};
+use crate::objects::{ListedValue, ObjectReport, ObjectsReport};
 use crate::session::ToolError;
 use crate::text::{hex, json};
 use crate::values::{lines, plain};
@@ -92,7 +92,7 @@ impl Get {
     }
 
     /// The exit code for these bytes: a failure if they are not a value of the type.
-    fn judge(&self, object: &Object, bytes: &[u8]) -> Exit {
+    fn judge(&self, object: &ListedValue, bytes: &[u8]) -> Exit {
         match object.ty.elements(bytes) {
             Ok(Some(_)) => Exit::Success,
             // With --hex the bytes are the result.

@@ -15,7 +15,7 @@ impl std::str::FromStr for Filter {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let odd = || {
+        let invalid = || {
             "expected a level (off, error, warn, info, debug, trace) or a list of module=level, \
              as ads_cnc_conformance::simulator=debug"
                 .to_owned()
@@ -28,9 +28,9 @@ impl std::str::FromStr for Filter {
             is_level(word) || word.split_once('=').is_some_and(|(_, level)| is_level(level))
         };
         if !words.into_iter().all(known) {
-            return Err(odd());
+            return Err(invalid());
         }
-        text.parse().map(Self).map_err(|_| odd())
+        text.parse().map(Self).map_err(|_| invalid())
     }
 }
 

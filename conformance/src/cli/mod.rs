@@ -1,6 +1,5 @@
 //! The command line of `ads-cnc`.
 
-mod again;
 mod browse;
 mod check;
 mod client;
@@ -13,10 +12,11 @@ mod list;
 mod log;
 mod message;
 mod model;
-mod name;
+mod name_args;
 mod not_sent;
 mod numbers;
 mod progress;
+mod repeat_command;
 mod report;
 mod report_output;
 mod requirements;
@@ -57,23 +57,23 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Subcommands {
     /// Serve a simulated CNC over AMS/TCP
-    Serve(serve::Args),
+    Serve(serve::ServeArgs),
     Run(Box<run::Run>),
     Report(report::ReportArgs),
-    Check(check::CheckArguments),
+    Check(check::CheckArgs),
     Explain(explain::Explain),
-    Tables(tables::TablesArguments),
-    Wireshark(tables::WiresharkArguments),
+    Tables(tables::TablesArgs),
+    Wireshark(tables::WiresharkArgs),
     Requirements(requirements::Requirements),
-    Stream(stream::StreamArguments),
-    Service(service::ServiceArguments),
+    Stream(stream::StreamArgs),
+    Service(service::ServiceArgs),
     Completions(completions::Completions),
     Browse(browse::Browse),
     Get(get::Get),
     Set(set::Set),
-    Testee(testee::TesteeArguments),
-    Selftest(selftest::SelfTestArguments),
-    Client(client::ClientArguments),
+    Testee(testee::TesteeArgs),
+    Selftest(selftest::SelfTestArgs),
+    Client(client::ClientCommandArgs),
 }
 
 /// The subcommands by purpose, as the help lists them.

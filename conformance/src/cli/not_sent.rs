@@ -25,7 +25,7 @@ impl fmt::Display for NotSent<'_> {
         let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
         let verdict = match &self.0.outcome {
             // The error of the command contains the reason.
-            Err(ExchangeError::Refused(_)) => "would be rejected".to_owned(),
+            Err(ExchangeError::NotPermitted(_)) => "would be rejected".to_owned(),
             Err(ExchangeError::Unsendable(error)) => format!("cannot be encoded: {error}"),
             _ => "would be sent".to_owned(),
         };

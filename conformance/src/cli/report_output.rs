@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::message::print_error;
-use crate::clients;
+use crate::client_suite;
 use crate::exit::Exit;
 use crate::judge::Waivers;
 use crate::matrix;
@@ -209,7 +209,7 @@ fn waivers(file: &Path) -> Result<Waivers, String> {
              prints for each failure of the run:\n{WAIVER}"
         ));
     }
-    let cases = matrix::cases().into_iter().chain([clients::requests_case()]);
+    let cases = matrix::cases().into_iter().chain([client_suite::requests_case()]);
     let known: Vec<String> = cases.map(|case| case.id).collect();
     if let Some(id) = waivers.cases().find(|id| known.iter().all(|known| known != id)) {
         let near = did_you_mean(id, known.iter().map(String::as_str));

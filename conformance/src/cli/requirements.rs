@@ -8,7 +8,7 @@ use ads_cnc_vectors::{Erratum, erratum};
 
 use super::message::print_error;
 use crate::exit::Exit;
-use crate::judge::{clauses_of, names};
+use crate::judge::{clauses_of, matches, names, sections};
 use crate::matrix::{self, RequirementRow};
 use crate::text::did_you_mean;
 
@@ -19,13 +19,14 @@ use crate::text::did_you_mean;
     ads-cnc requirements VAR --format json\n\n\
     Exit codes: 0 printed, 2 wrong usage, 3 no requirement matches, 70 internal error")]
 pub(super) struct Requirements {
-    /// An area (VAR), a requirement (VAR-11), a stream (variable-description), a function
-    /// (ReadByName), the ID of a case or an erratum (E-17) [default: all requirements]
-    #[arg(value_name = "AREA|STREAM|ID", conflicts_with = "only")]
+    /// An area (VAR), a requirement (VAR-11), a section of a manual (ads:4.3), a stream
+    /// (variable-description), a function (ReadByName), the ID of a case or an erratum (E-17)
+    /// [default: all requirements]
+    #[arg(value_name = "AREA|SECTION|STREAM|ID", conflicts_with = "only")]
     wanted: Vec<String>,
 
     /// Same as the argument, with the option name of run; repeatable
-    #[arg(long, value_name = "AREA|STREAM|ID")]
+    #[arg(long, value_name = "AREA|SECTION|STREAM|ID")]
     only: Vec<String>,
 
     /// Output format
@@ -93,12 +94,11 @@ impl Requirements {
     }
 }
 
-/// Whether the word is the area or the ID of the requirement in this row, the ID of one of its
-/// cases or vectors, or the name of a stream or function that the requirement defines.
+/// Whether the word or pattern names the requirement in this row, one of its cases or vectors, or
+/// the word is the name of a stream or function that the requirement defines.
 fn is_named(row: &RequirementRow, word: &str) -> bool {
-    let has = |ids: &[String], prefix: &str| {
-        ids.iter().any(|id| word.eq_ignore_ascii_case(&format!("{prefix}{id}")))
-    };
+    let has =
+        |ids: &[String], prefix: &str| ids.iter().any(|id| matches(word, &format!("{prefix}{id}")));
     names(word, &row.id)
         || clauses(word).iter().any(|clause| names(clause, &row.id))
         || has(&row.cases, "")
@@ -108,14 +108,17 @@ fn is_named(row: &RequirementRow, word: &str) -> bool {
 
 /// The message for a word that does not match any row.
 fn no_such(word: &str, rows: &[RequirementRow]) -> String {
+    let functions = Function::ALL.iter().map(|one| id(*one));
+    let made: Vec<String> = functions.chain(sections()).collect();
     let ids = rows.iter().flat_map(|row| {
         let area = row.id.split('-').next().unwrap_or(&row.id);
         [area, &row.id].into_iter().chain(row.cases.iter().map(String::as_str))
     });
-    let functions: Vec<String> = Function::ALL.iter().map(|one| id(*one)).collect();
     let streams = Stream::all().map(|stream| stream.layout().name);
-    let near = did_you_mean(word, ids.chain(streams).chain(functions.iter().map(String::as_str)));
-    format!("no requirement, area, stream, function, case or erratum has the ID {word}{near}")
+    let near = did_you_mean(word, ids.chain(streams).chain(made.iter().map(String::as_str)));
+    format!(
+        "no requirement, area, section, stream, function, case or erratum has the ID {word}{near}"
+    )
 }
 
 /// The clauses of the stream or function of this name.

@@ -16,12 +16,12 @@ use std::time::Instant;
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::again::again;
 use super::display::DisplayArgs;
 use super::list;
 use super::message::print_error;
 use super::numbers::whole;
 use super::progress::Watch;
+use super::repeat_command::again;
 use super::report_output::{Reports, WAIVER, show, write};
 use super::run_client::ClientArgs;
 use super::run_testee;
@@ -29,7 +29,7 @@ use super::serve::find_defect;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN};
 use crate::edition::Edition;
 use crate::exit::Exit;
-use crate::faults::Seed;
+use crate::faults::SeededDefect;
 use crate::judge::{
     Case, CaseOutcome, CaseSubject, ENOUGH, Needs, Plan, Selection, Unmatched, Waivers, any_seed,
 };
@@ -96,9 +96,10 @@ pub(super) struct Run {
     #[arg(long, hide_short_help = true, requires = "target", conflicts_with_all = ["testee", "client", "client_listen"])]
     malformed: bool,
 
-    /// Run only these cases: an area (VAR), a requirement (VAR-11), a stream (variable-description)
-    /// or the ID of a case; repeatable or comma-separated [default: all]
-    #[arg(long, help_heading = SELECTION, value_name = "AREA|STREAM|ID", value_delimiter = ',')]
+    /// Run only these cases: an area (VAR), a requirement (VAR-11), a section of a manual and those
+    /// below it (ads:4.3, stream:3, service:2), a stream (variable-description) or the ID of a case; *
+    /// and ? are wildcards; repeatable or comma-separated [default: all]
+    #[arg(long, help_heading = SELECTION, value_name = "AREA|SECTION|STREAM|ID", value_delimiter = ',')]
     only: Vec<String>,
 
     /// Judge by this edition only, en-1.05 or de-1.051; the simulated CNC follows it [default:
@@ -275,7 +276,7 @@ impl Run {
         let is_left = print_left_changed(&changes);
         match exit {
             Exit::Internal => exit,
-            _ if is_left => Exit::LeftChanged,
+            _ if is_left => Exit::UnrestoredValue,
             exit => exit,
         }
     }
@@ -286,7 +287,7 @@ impl Run {
         seed: u32,
         waivers: Waivers,
         profile: Profile,
-        defect: Option<Seed>,
+        defect: Option<SeededDefect>,
         changes: &Changes,
     ) -> Exit {
         let (first, last) = (changes.clone(), changes.clone());
@@ -297,7 +298,7 @@ impl Run {
                 );
             }
         };
-        let last_words = move || print_left_changed(&last).then_some(Exit::LeftChanged);
+        let last_words = move || print_left_changed(&last).then_some(Exit::UnrestoredValue);
         let interrupt = match Interrupt::catch_with(first_words, last_words) {
             Ok(interrupt) => interrupt,
             Err(error) => {

@@ -17,7 +17,7 @@ use super::message::print_error;
 use super::numbers::time;
 use super::serve::{address, cannot_listen, check_address};
 use crate::capture::Capture;
-use crate::clients::{self, ClientProcess, JudgedClient, Scenario, TestServer};
+use crate::client_suite::{self, ClientProcess, JudgedClient, Scenario, TestServer};
 use crate::deadline::Deadline;
 use crate::judge::{Case, CaseOutcome, Plan};
 use crate::process::interrupt::Interrupt;
@@ -69,8 +69,8 @@ impl ClientArgs {
     /// All scenarios of a client.
     pub(super) fn cases(&self) -> Vec<Case> {
         match &self.client {
-            Some(_) => clients::scenarios().iter().map(Scenario::case).collect(),
-            None => vec![clients::requests_case()],
+            Some(_) => client_suite::scenarios().iter().map(Scenario::case).collect(),
+            None => vec![client_suite::requests_case()],
         }
     }
 
@@ -109,7 +109,7 @@ impl ClientArgs {
         deadline: Deadline,
         most: Option<usize>,
     ) -> OfClient {
-        let mut all = clients::scenarios();
+        let mut all = client_suite::scenarios();
         let mut wanted = Vec::new();
         for case in &plan.cases {
             if let Some(at) = all.iter().position(|one| one.id == case.id) {
@@ -119,8 +119,8 @@ impl ClientArgs {
         let timeout = Duration::from_millis(self.client_timeout);
         let mut process = ClientProcess::new(command, timeout).with_deadline(deadline);
         let JudgedClient { hello, outcomes, requests } =
-            clients::judge(&mut process, server, &wanted, most);
-        let stderr = clients::ClientUnderTest::stderr(&process);
+            client_suite::judge(&mut process, server, &wanted, most);
+        let stderr = client_suite::ClientUnderTest::stderr(&process);
         let identity = hello.map(|hello| hello.client);
         let target = super::run_testee::target("client", command, identity, &stderr);
         OfClient { target, outcomes, frames: requests }
@@ -134,18 +134,19 @@ fn wait_for_client(
     interrupt: &Interrupt,
 ) -> Result<OfClient, String> {
     let (addr, net_id) = (server.addr(), server.net_id());
-    let mut told = false;
+    let mut hint_printed = false;
     // `listen` calls this closure for the first time when the server accepts connections.
     let go_on = || {
-        if !told {
+        if !hint_printed {
             print_error(format_args!(
                 "waiting for a client on {addr}, AMS NetId {net_id}, until it disconnects or Ctrl-C"
             ));
-            told = true;
+            hint_printed = true;
         }
         !(interrupt.is_requested() || deadline.is_over())
     };
-    let (outcome, frames) = clients::listen(server, go_on).map_err(|error| error.to_string())?;
+    let (outcome, frames) =
+        client_suite::listen(server, go_on).map_err(|error| error.to_string())?;
     if deadline.is_over() {
         print_error(deadline);
     }

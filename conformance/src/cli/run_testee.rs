@@ -16,7 +16,9 @@ use crate::exit::Exit;
 use crate::judge::{Case, CaseOutcome, CaseSubject};
 use crate::process::interrupt;
 use crate::report::TargetReport;
-use crate::testee::{JudgedTestee, ProtocolFinding, Terms, TesteeProcess, check_protocol, judge};
+use crate::testee::{
+    JudgedTestee, JudgementOptions, ProtocolStepResult, TesteeProcess, check_protocol, judge,
+};
 use crate::text::shorten;
 
 /// Maximum number of bytes of stderr in a report; of a longer stderr, the report contains the end.
@@ -40,7 +42,7 @@ pub(super) fn run(
     deadline: Deadline,
 ) -> OfTestee {
     let mut process = TesteeProcess::new(command, timeout).with_deadline(deadline);
-    let terms = Terms { seed, subject: CaseSubject::Testee, edition, strict: false };
+    let terms = JudgementOptions { seed, subject: CaseSubject::Testee, edition, strict: false };
     let JudgedTestee { hello, outcomes, .. } = judge(&mut process, cases, terms);
     let identity = hello.map(|hello| hello.testee);
     OfTestee { target: target("testee", command, identity, &process.stderr()), outcomes }
@@ -77,7 +79,7 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
         writeln!(out, "Interrupted: the protocol was not checked.")?;
         return Ok(Exit::Nothing);
     }
-    for ProtocolFinding { what, sent, received, fault } in findings {
+    for ProtocolStepResult { what, sent, received, fault } in findings {
         match &fault {
             None => writeln!(out, "ok     {what}")?,
             Some(fault) => {

@@ -27,7 +27,7 @@ use crate::selftest::{self, SelfTestProgress};
     alarm; 1 otherwise; 3 nothing tested.\n\nExamples:\n  ads-cnc selftest\n  ads-cnc selftest \
     --only VAR-11 --verbose\n  ads-cnc selftest --only cnc --json selftest.json"
 )]
-pub(super) struct SelfTestArguments {
+pub(super) struct SelfTestArgs {
     /// Test only this: a group (codec, cnc, client, miniature, different), an area, a requirement
     /// or the beginning of an ID; repeatable [default: all]
     #[arg(long, value_name = "WORD")]
@@ -57,7 +57,7 @@ pub(super) struct SelfTestArguments {
     json: Option<PathBuf>,
 }
 
-impl SelfTestArguments {
+impl SelfTestArgs {
     pub(super) fn execute(&self) -> Exit {
         let shown = Mutex::new((ProgressLine::new(), "", Instant::now()));
         let tell = |now: SelfTestProgress| {

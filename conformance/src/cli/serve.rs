@@ -14,7 +14,7 @@ use super::model::ModelArgs;
 use super::numbers::whole;
 use super::target::net_id;
 use crate::exit::Exit;
-use crate::faults::{self, Faulty, Seed};
+use crate::faults::{self, Faulty, SeededDefect};
 use crate::net;
 use crate::process::interrupt::Interrupt;
 use crate::session::ToolError;
@@ -51,7 +51,7 @@ const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 /// Options of `serve`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = AFTER_HELP)]
-pub(super) struct Args {
+pub(super) struct ServeArgs {
     /// Listen on this address and port; port 0 lets the system choose a port.
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898", value_parser = address)]
     listen: SocketAddr,
@@ -101,7 +101,7 @@ pub(super) struct Args {
     list_defects: Option<String>,
 }
 
-pub(super) fn serve(args: &Args) -> ExitCode {
+pub(super) fn serve(args: &ServeArgs) -> ExitCode {
     if let Some(part) = &args.list_defects {
         return list_defects(part);
     }
@@ -162,7 +162,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     }
 }
 
-impl Args {
+impl ServeArgs {
     const fn options(&self) -> ServerOptions {
         let idle = match self.idle {
             0 => None,
@@ -219,7 +219,7 @@ pub(super) fn address(text: &str) -> Result<SocketAddr, String> {
 }
 
 /// Applies the options about NC programs to the channels.
-fn programs(cnc: &Cnc, args: &Args) -> Result<(), Box<dyn std::error::Error>> {
+fn programs(cnc: &Cnc, args: &ServeArgs) -> Result<(), Box<dyn std::error::Error>> {
     if let Some(pace) = args.pace {
         for channel in cnc.model().channels() {
             let of_model = cnc.model().program(channel).cloned().unwrap_or_default();
@@ -245,7 +245,7 @@ fn print_model() -> ExitCode {
 
 fn list_defects(part: &str) -> ExitCode {
     let mut out = io::stdout().lock();
-    let fits = |seed: &&Seed| {
+    let fits = |seed: &&SeededDefect| {
         seed.id.contains(part) || seed.requirements.iter().any(|id| id.eq_ignore_ascii_case(part))
     };
     let mut listed = faults::all().iter().filter(fits).peekable();
@@ -266,7 +266,7 @@ fn list_defects(part: &str) -> ExitCode {
 }
 
 /// The defect with this ID, if an ID is given.
-pub(super) fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
+pub(super) fn find_defect(id: Option<&str>) -> Result<Option<SeededDefect>, String> {
     let Some(id) = id else { return Ok(None) };
     faults::by_id(id).cloned().map(Some).ok_or_else(|| unknown_defect(id))
 }

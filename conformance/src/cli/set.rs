@@ -14,14 +14,14 @@ use clap::Args;
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name::{NameArgs, written};
+use super::name_args::{NameArgs, written};
 use super::not_sent;
 use super::target::{
     DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, simulator_gate,
 };
 use crate::exit::Exit;
 use crate::named::{Lookup, by_name_alone, find};
-use crate::objects::{Object, ReportedAccess, ValueAddress};
+use crate::objects::{ListedValue, ReportedAccess, ValueAddress};
 use crate::session::{Session, ToolError};
 use crate::values::{Type, parse, plain};
 
@@ -139,7 +139,7 @@ impl Set {
     }
 
     /// Parses the value by the type of the object and the length of its value.
-    fn value(&self, object: &Object, session: &mut Session) -> Result<NewValue, ToolError> {
+    fn value(&self, object: &ListedValue, session: &mut Session) -> Result<NewValue, ToolError> {
         let old = match session.read(&object.address) {
             Ok(old) => Some(old),
             // A value that cannot be read may be writable.
@@ -156,7 +156,7 @@ impl Set {
     }
 
     /// Checks the write with the gate before connecting, if the name alone determines the address.
-    fn ask_gate(&self, object: &Object, session: &mut Session) -> Result<(), ToolError> {
+    fn ask_gate(&self, object: &ListedValue, session: &mut Session) -> Result<(), ToolError> {
         if session.is_simulated() && !self.target.has_file() {
             return Ok(());
         }
@@ -172,7 +172,7 @@ impl Set {
 
     /// Connects to the target. The gate of the simulated CNC allows exactly this write, also in a
     /// dry run.
-    fn open(&self, alone: Option<&Object>) -> Result<Session, ToolError> {
+    fn open(&self, alone: Option<&ListedValue>) -> Result<Session, ToolError> {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
             Some(object) if simulated && self.target.is_dry() => {
@@ -184,7 +184,7 @@ impl Set {
 
     fn show(
         &self,
-        object: &Object,
+        object: &ListedValue,
         ty: &Type,
         old: Option<&[u8]>,
         new: Option<&[u8]>,
@@ -211,7 +211,7 @@ struct NewValue {
 }
 
 /// Checks that the CNC describes the object as writable.
-fn check(object: &Object) -> Result<(), ToolError> {
+fn check(object: &ListedValue) -> Result<(), ToolError> {
     let name = &object.name;
     if matches!(object.address, ValueAddress::Parameter { kind: DynamicKind::P, .. }) {
         let why = format!("{name} is a P parameter, which no documented function can write");

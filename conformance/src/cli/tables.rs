@@ -15,7 +15,7 @@ use crate::text::plural;
 /// effects.
 #[derive(Args, Debug)]
 #[command(after_help = TABLES_EXAMPLES)]
-pub(super) struct TablesArguments {
+pub(super) struct TablesArgs {
     /// Print one JSON document that follows conformance/schema/tables.schema.json [default: text]
     #[arg(long, conflicts_with = "ksy")]
     json: bool,
@@ -40,7 +40,7 @@ Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 /// `ads_cnc.variable_description.size > 100`.
 #[derive(Args, Debug)]
 #[command(after_help = WIRESHARK_EXAMPLES)]
-pub(super) struct WiresharkArguments {}
+pub(super) struct WiresharkArgs {}
 
 const WIRESHARK_EXAMPLES: &str = "\
 Examples:
@@ -51,7 +51,7 @@ Examples:
 
 Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 
-impl TablesArguments {
+impl TablesArgs {
     /// Prints the tables and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let tables = Tables::new();
@@ -64,7 +64,7 @@ impl TablesArguments {
     }
 }
 
-impl WiresharkArguments {
+impl WiresharkArgs {
     /// Prints the dissector and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let shown = show(|out| {

@@ -224,7 +224,7 @@ impl TargetArgs {
             (Some(target), true) => {
                 let gate = gate.and_malformed().to_address(target.addr.ip());
                 let checked = gate.check_malformed(target.net_id, Moment::now());
-                checked.map_err(|refusal| ToolError::Refused(Box::new(refusal)))?;
+                checked.map_err(|rejection| ToolError::NotPermitted(Box::new(rejection)))?;
                 Ok(gate)
             }
             _ => Ok(gate),
@@ -357,8 +357,8 @@ pub(super) fn simulator_gate(entry: Entry) -> Gate {
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {
-    let odd = || "expected the number of a channel, from 1 to 255".to_owned();
-    Channel::new(text.parse().map_err(|_| odd())?).map_err(|_| odd())
+    let invalid = || "expected the number of a channel, from 1 to 255".to_owned();
+    Channel::new(text.parse().map_err(|_| invalid())?).map_err(|_| invalid())
 }
 
 pub(super) fn net_id(text: &str) -> Result<AmsNetId, String> {
@@ -373,10 +373,10 @@ pub(super) fn net_id(text: &str) -> Result<AmsNetId, String> {
 
 /// Parses a number of requests per second; returns the time between two requests.
 fn pace(text: &str) -> Result<Duration, String> {
-    let odd = || "expected a number greater than 0".to_owned();
-    let rate: f64 = text.parse().map_err(|_| odd())?;
+    let invalid = || "expected a number greater than 0".to_owned();
+    let rate: f64 = text.parse().map_err(|_| invalid())?;
     // An infinite rate would mean no time between requests, and 0 an infinite time.
-    Duration::try_from_secs_f64(rate.recip()).map_err(|_| odd())
+    Duration::try_from_secs_f64(rate.recip()).map_err(|_| invalid())
 }
 
 /// The address of a host, with the port of AMS/TCP if none is given.

@@ -15,7 +15,7 @@ use crate::text::json_error;
 /// This testee tests the suite's side of the protocol and is an example of all answers, one JSON
 /// object per line. See conformance/adapters/README.md.
 #[derive(Args, Debug)]
-pub(super) struct TesteeArguments {
+pub(super) struct TesteeArgs {
     /// Enable a defect of the codec (see serve --list-defects)
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
@@ -26,7 +26,7 @@ pub(super) struct TesteeArguments {
     miniature: Option<Miniature>,
 }
 
-impl TesteeArguments {
+impl TesteeArgs {
     /// Answers the requests of the suite until `bye` or the end of stdin.
     pub(super) fn execute(&self) -> Exit {
         let defect = match find_defect(self.defect.as_deref()) {

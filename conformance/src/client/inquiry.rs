@@ -12,6 +12,7 @@ use ads_cnc_vectors::ids::*;
 use super::Client;
 use crate::evidence::Evidence;
 use crate::exchange::{ExchangeError, Violation, violations};
+use crate::text::hex;
 
 /// A command whose request has no data. The type is that of its reply.
 pub trait Inquiry: for<'a> Decode<'a> {
@@ -95,6 +96,12 @@ impl Client {
         let mut inquired =
             Inquired { port, sent, received, outcome: Err(ExchangeError::NotSent), violations };
         inquired.outcome = self.exchange_inquiry(&mut inquired);
+        tracing::debug!(
+            sent = %hex::spaced(&inquired.sent),
+            received = %hex::spaced(&inquired.received),
+            "{inquired}: {}",
+            inquired.result()
+        );
         inquired
     }
 

@@ -1,16 +1,16 @@
 //! Checks the headers of received frames.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
-use ads_cnc::operation::Service;
+use ads_cnc::operation::AdsService;
 use ads_cnc_vectors::ids::*;
 
 use super::Client;
+use crate::ads_service::{clause, decode_reply, reply_stream};
 use crate::exchange::{Exchange, ExchangeError, Violation, violations};
 use crate::text::plural;
-use crate::wire_service::{clause, decode_reply, reply_stream};
 
 /// Whether the payload is a reply with a result of 0 or 2 bytes, or a length of 2 bytes.
-fn is_narrow(service: Service, payload: &[u8]) -> bool {
+fn is_narrow(service: AdsService, payload: &[u8]) -> bool {
     let missing: [(usize, &[u8]); 3] = [(0, &[0; 4]), (0, &[0; 2]), (6, &[0; 2])];
     missing.into_iter().any(|(at, zeros)| {
         let Some((before, after)) = payload.split_at_checked(at) else { return false };

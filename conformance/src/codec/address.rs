@@ -8,19 +8,19 @@ use ads_cnc::{Decode, Encode as _, Error, ObjectCount};
 use ads_cnc_vectors::{Context, Type};
 
 use super::field_reader::FieldReader;
-use super::{Decoded, Refused, collect, name, one, uns32};
+use super::{CodecError, Decoded, collect, name, one, uns32};
 
 /// Decodes the bytes of an index group or index offset.
-fn number(bytes: &[u8]) -> Result<u32, Refused> {
+fn number(bytes: &[u8]) -> Result<u32, CodecError> {
     Ok(ObjectCount::decode(bytes)?.0)
 }
 
-pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError> {
     let group = IndexGroup::new(number(bytes)?);
     if let Some(base) = context.base {
         let again = of_base(IndexGroup::new(base), group)?;
         if again != group {
-            return Err(Refused::Unsupported(format!(
+            return Err(CodecError::Unsupported(format!(
                 "the group {group} is not of the base {base:#x}, but {again}"
             )));
         }
@@ -50,8 +50,8 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Re
 }
 
 /// Encodes the group that has this base and the number by which `group` exceeds the base.
-fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Refused> {
-    let lacks = || Refused::Unsupported(format!("{base} is not the base of {group}"));
+fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, CodecError> {
+    let lacks = || CodecError::Unsupported(format!("{base} is not the base of {group}"));
     let number = group.get().checked_sub(base.get()).ok_or_else(lacks)?;
     Ok(match base.parts().ok_or_else(lacks)? {
         Group::Com(com) if com.table == ComTable::Axis => {
@@ -106,7 +106,7 @@ fn attribute_name(attribute: Attribute) -> &'static str {
     }
 }
 
-pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError> {
     let stride = stride(context)?;
     let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
     let again = IndexOffset::for_axis(stride, axis, element)?;
@@ -117,18 +117,18 @@ pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, R
 
 /// Encodes a group from its number. If the fields also contain its parts, checks that the parts
 /// encode to the same number.
-pub(super) fn encode_group(of: FieldReader<'_>) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode_group(of: FieldReader<'_>) -> Result<Vec<u8>, CodecError> {
     let number = of.number("index_group")?;
     let group = if of.has("task") { parts(of)?.index_group() } else { IndexGroup::new(number) };
     if group.get() == number {
         Ok(ObjectCount(number).encode_to_vec()?)
     } else {
-        Err(Refused::InvalidFields(format!("{number:#x}, but its parts encode to {group}")))
+        Err(CodecError::InvalidFields(format!("{number:#x}, but its parts encode to {group}")))
     }
 }
 
-fn parts(of: FieldReader<'_>) -> Result<Group, Refused> {
-    let no = |what: &str, word: &str| Refused::InvalidFields(format!("unknown {what} {word}"));
+fn parts(of: FieldReader<'_>) -> Result<Group, CodecError> {
+    let no = |what: &str, word: &str| CodecError::InvalidFields(format!("unknown {what} {word}"));
     let addressings = [Addressing::Logical, Addressing::Index];
     let word = of.word("addressing")?;
     let addressing = addressings.into_iter().find(|&one| addressing(one) == word);
@@ -160,16 +160,16 @@ fn parts(of: FieldReader<'_>) -> Result<Group, Refused> {
     }
 }
 
-pub(super) fn encode_offset(of: FieldReader<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode_offset(of: FieldReader<'_>, context: &Context) -> Result<Vec<u8>, CodecError> {
     let stride = stride(context)?;
     let offset = IndexOffset::for_axis(stride, of.number("axis")?, of.number("element")?)?;
     Ok(ObjectCount(offset.get()).encode_to_vec()?)
 }
 
-fn stride(context: &Context) -> Result<AxisStride, Refused> {
+fn stride(context: &Context) -> Result<AxisStride, CodecError> {
     match context.stride {
         Some(0x1_0000) => Ok(AxisStride::X10000),
         Some(0x1000) => Ok(AxisStride::X1000),
-        other => Err(Refused::Unsupported(format!("the axis stride {other:?}"))),
+        other => Err(CodecError::Unsupported(format!("the axis stride {other:?}"))),
     }
 }

@@ -14,7 +14,7 @@ pub struct Decoded {
 
 /// Why decoding or encoding failed.
 #[derive(Debug)]
-pub enum Refused {
+pub enum CodecError {
     /// The codec rejects the bytes.
     Error(Error),
     /// The fields are not a value of the stream.
@@ -23,7 +23,7 @@ pub enum Refused {
     Unsupported(String),
 }
 
-impl From<Error> for Refused {
+impl From<Error> for CodecError {
     fn from(error: Error) -> Self {
         Self::Error(error)
     }

@@ -7,7 +7,7 @@ use ads_cnc_vectors::{Context, Value};
 
 use super::field_reader::FieldReader;
 use super::stream::{from_fields, to_fields};
-use super::{Decoded, Refused, collect, data, stream, uns16, uns32};
+use super::{CodecError, Decoded, collect, data, stream, uns16, uns32};
 
 /// The length field in a header, which is a counter.
 const LENGTH: &str = "data_length";
@@ -26,7 +26,7 @@ fn field_of(stream: &str) -> String {
     stream.replace('-', "_")
 }
 
-pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError> {
     let Some((frame, len)) = FrameRef::split(bytes, u32::MAX)? else {
         return Err(cut(context, bytes));
     };
@@ -43,15 +43,15 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
         fields.insert(name, value);
     }
     if len != bytes.len() {
-        return Err(Refused::InvalidFields("bytes after the frame".to_owned()));
+        return Err(CodecError::InvalidFields("bytes after the frame".to_owned()));
     }
     let bytes = FrameRef::new(header, frame.data())?.encode_to_vec()?;
     Ok(Decoded { fields, bytes })
 }
 
 /// The error of an incomplete frame, which is the error of its first incomplete part.
-fn cut(context: &Context, bytes: &[u8]) -> Refused {
-    let parts = || -> Result<(), Refused> {
+fn cut(context: &Context, bytes: &[u8]) -> CodecError {
+    let parts = || -> Result<(), CodecError> {
         let (tcp, rest) = bytes.split_at(bytes.len().min(AMS_TCP_HEADER_LEN));
         AmsTcpHeader::decode(tcp)?;
         let (header, data) = rest.split_at(rest.len().min(AMS_HEADER_LEN));
@@ -60,7 +60,8 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
     };
     // The data of other commands has no stream: only the length in the header shows that the data
     // is truncated.
-    let rest = || Refused::InvalidFields("fewer bytes of data than the header requires".to_owned());
+    let rest =
+        || CodecError::InvalidFields("fewer bytes of data than the header requires".to_owned());
     parts().err().unwrap_or_else(rest)
 }
 
@@ -69,7 +70,7 @@ fn service(
     context: &Context,
     header: &AmsHeader,
     bytes: &[u8],
-) -> Result<Option<(String, Value)>, Refused> {
+) -> Result<Option<(String, Value)>, CodecError> {
     if bytes.is_empty() && header.error != AdsError::NO_ERROR {
         return Ok(None);
     }
@@ -86,10 +87,12 @@ fn service(
     Ok(Some((field_of(name), Value::Record(decoded.fields))))
 }
 
-pub(super) fn encode(of: FieldReader<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode(of: FieldReader<'_>, context: &Context) -> Result<Vec<u8>, CodecError> {
     let tcp = of.record("ams_tcp_header")?;
     if tcp.number::<u16>("reserved")? != 0 {
-        return Err(Refused::InvalidFields("the reserved field of a frame must be 0".to_owned()));
+        return Err(CodecError::InvalidFields(
+            "the reserved field of a frame must be 0".to_owned(),
+        ));
     }
     let mut header = of.record("ams_header")?.0.clone();
     header.insert(LENGTH.to_owned(), uns32(0));

@@ -34,7 +34,7 @@ pub struct Question {
     pub edition: String,
     /// The facts that the testee needs, but that the bytes do not contain.
     #[serde(default)]
-    pub context: Known,
+    pub context: QuestionContext,
     #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
     pub hex: Option<Vec<u8>>,
     /// The fields of the value to encode.
@@ -52,7 +52,7 @@ impl Question {
             op: op.into(),
             stream: stream.into(),
             edition: edition.to_owned(),
-            context: Known::default(),
+            context: QuestionContext::default(),
             hex: None,
             value: None,
             packets: None,
@@ -62,7 +62,7 @@ impl Question {
 
 /// The facts that a question needs and its bytes do not contain.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Known {
+pub struct QuestionContext {
     /// Type of the elements of a value or content.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<Type>,
@@ -76,7 +76,7 @@ pub struct Known {
     pub base: Option<String>,
 }
 
-impl From<&Context> for Known {
+impl From<&Context> for QuestionContext {
     fn from(context: &Context) -> Self {
         let address = |number: u32| format!("{number:#x}");
         Self {
@@ -88,7 +88,7 @@ impl From<&Context> for Known {
     }
 }
 
-impl Known {
+impl QuestionContext {
     /// Converts the facts to a context of the vectors; `None` if an address is invalid.
     pub(crate) fn context(&self) -> Option<Context> {
         let address = |text: &Option<String>| match text.as_deref() {

@@ -5,9 +5,9 @@ use ads_cnc::{Kind, PathPart, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::{Tagged, Value};
 
 use super::field_reader::FieldReader;
-use super::{Decoded, Refused, collect, numbers, record, text_tagged};
+use super::{CodecError, Decoded, collect, numbers, record, text_tagged};
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, Refused> {
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, CodecError> {
     let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
     let characters =
         |text: CncStr<'_>| Value::One(Tagged { open: true, ..text_tagged(TextRef::from(text)) });
@@ -22,12 +22,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, Refused> {
     Ok(Decoded { fields: collect(fields), bytes: again.text().bytes().collect() })
 }
 
-pub(super) fn encode(of: FieldReader<'_>) -> Result<Vec<u8>, Refused> {
+pub(super) fn encode(of: FieldReader<'_>) -> Result<Vec<u8>, CodecError> {
     let parts = of
         .records("parts")?
         .into_iter()
         .map(|part| Ok((part.characters("name")?, part.numbers("indices")?)));
-    let parts = parts.collect::<Result<Vec<(CncStr<'_>, Vec<u32>)>, Refused>>()?;
+    let parts = parts.collect::<Result<Vec<(CncStr<'_>, Vec<u32>)>, CodecError>>()?;
     let parts = parts.iter().map(|(name, indices)| PathPart {
         name: *name,
         indices: U32List::from(indices.as_slice()),

@@ -13,12 +13,12 @@ use serde_json::{Map, Value as Json, from_value, json, to_value};
 
 use super::field_reader::{bits, invalid, text};
 use super::fields::{element, one, text_tagged};
-use super::{Decoded, Refused, elements};
+use super::{CodecError, Decoded, typed_values};
 
 macro_rules! dispatch {
     ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
         /// Decodes a stream by its name.
-        pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+        pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError> {
             match Stream::by_name(name) {
                 $( Some(Stream::$stream) => decoded::<dispatch!(@ $view $( , $owned )?)>(context, bytes), )+
                 _ => Err(unknown(name)),
@@ -26,7 +26,7 @@ macro_rules! dispatch {
         }
 
         /// Encodes fields as a stream by its name.
-        pub(super) fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused> {
+        pub(super) fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, CodecError> {
             match Stream::by_name(name) {
                 $( Some(Stream::$stream) => encoded::<dispatch!(@ $view $( , $owned )?)>(context, fields), )+
                 _ => Err(unknown(name)),
@@ -39,11 +39,11 @@ macro_rules! dispatch {
 
 ads_cnc::streams! { dispatch }
 
-fn unknown(name: &str) -> Refused {
-    Refused::Unsupported(format!("stream {name}"))
+fn unknown(name: &str) -> CodecError {
+    CodecError::Unsupported(format!("stream {name}"))
 }
 
-fn decoded<T>(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused>
+fn decoded<T>(context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError>
 where
     T: for<'a> Decode<'a> + Encode + Serialize,
 {
@@ -51,7 +51,7 @@ where
     Ok(Decoded { fields: to_fields(context, &value)?, bytes: value.encode_to_vec()? })
 }
 
-fn encoded<T>(context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused>
+fn encoded<T>(context: &Context, fields: &Fields) -> Result<Vec<u8>, CodecError>
 where
     T: for<'a> Decode<'a> + Encode + DeserializeOwned,
 {
@@ -59,7 +59,7 @@ where
 }
 
 /// Converts a value to fields, without counters.
-pub(super) fn to_fields<T>(context: &Context, value: &T) -> Result<Fields, Refused>
+pub(super) fn to_fields<T>(context: &Context, value: &T) -> Result<Fields, CodecError>
 where
     T: for<'a> Decode<'a> + Serialize,
 {
@@ -68,14 +68,14 @@ where
     match json.as_array() {
         Some(records) if layout.repeats => {
             let records = records.iter().map(|one| record(layout, context, one).map(Value::Record));
-            let records = records.collect::<Result<_, Refused>>()?;
+            let records = records.collect::<Result<_, CodecError>>()?;
             Ok([(records_of(layout).to_owned(), Value::List(records))].into())
         }
         _ => record(layout, context, &json),
     }
 }
 
-pub(super) fn from_fields<T>(context: &Context, fields: &Fields) -> Result<T, Refused>
+pub(super) fn from_fields<T>(context: &Context, fields: &Fields) -> Result<T, CodecError>
 where
     T: for<'a> Decode<'a> + DeserializeOwned,
 {
@@ -88,7 +88,7 @@ where
             Value::Record(fields) => Ok(Json::Object(json_record(layout, context, fields)?)),
             _ => Err(invalid("a record is expected")),
         };
-        let records = records.iter().map(record).collect::<Result<_, Refused>>()?;
+        let records = records.iter().map(record).collect::<Result<_, CodecError>>()?;
         return from_value(Json::Array(records)).map_err(invalid);
     }
     let record = json_record(layout, context, fields)?;
@@ -109,7 +109,7 @@ fn records_of(layout: &Layout) -> &'static str {
     layout.name.rsplit('-').next().unwrap_or(layout.name)
 }
 
-fn record(layout: &Layout, context: &Context, json: &Json) -> Result<Fields, Refused> {
+fn record(layout: &Layout, context: &Context, json: &Json) -> Result<Fields, CodecError> {
     // The Rust type of a stream with a single field may be serialized as the value of this field.
     let single = match layout.fields {
         [row] if json.get(row.name).is_none() => Some(json),
@@ -130,16 +130,16 @@ fn json_record(
     layout: &Layout,
     context: &Context,
     fields: &Fields,
-) -> Result<Map<String, Json>, Refused> {
+) -> Result<Map<String, Json>, CodecError> {
     let given = layout.fields.iter().filter_map(|row| Some((row, fields.get(row.name)?)));
     given.map(|(row, value)| Ok((row.name.to_owned(), json_field(row, context, value)?))).collect()
 }
 
 /// Converts a field to the notation of the vectors.
-fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refused> {
+fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, CodecError> {
     if let (Json::Array(items), Size::Items { each: 2.., .. }) = (json, row.size) {
         let items = items.iter().map(|item| field(row, context, item));
-        return Ok(Value::List(items.collect::<Result<_, Refused>>()?));
+        return Ok(Value::List(items.collect::<Result<_, CodecError>>()?));
     }
     let tagged = match (row.ty, json) {
         (FieldType::String, _) => {
@@ -157,7 +157,7 @@ fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refus
         }
         (FieldType::Bytes, _) => {
             let bytes: Vec<u8> = from_value(json.clone()).map_err(invalid)?;
-            return elements::decode(row.name, context, &bytes);
+            return typed_values::decode(row.name, context, &bytes);
         }
         (FieldType::NetId, Json::String(id)) => return Ok(one(Type::NetId, id)),
         (FieldType::Unsigned, Json::Object(length)) => match length.iter().next() {
@@ -169,14 +169,14 @@ fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refus
     Ok(Value::One(tagged))
 }
 
-fn kind(name: &str) -> Result<Type, Refused> {
+fn kind(name: &str) -> Result<Type, CodecError> {
     from_value(name.into()).map_err(invalid)
 }
 
 /// Converts a field to the JSON of its Rust type.
-fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json, Refused> {
+fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json, CodecError> {
     if row.ty == FieldType::Bytes {
-        return to_value(elements::encode(row.name, context, value)?).map_err(invalid);
+        return to_value(typed_values::encode(row.name, context, value)?).map_err(invalid);
     }
     let tagged = match value {
         Value::One(tagged) => tagged,

@@ -4,56 +4,56 @@ use ads_cnc::address::{Access, AxisStride, Class, ComGroup, Group, IndexOffset};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{
-    DispatchError, Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service, Task,
+    AdsService, DispatchError, Effect, Function, FunctionSpec, GroupRule, OffsetRule, Task,
 };
 
+use super::explanation::{ExplainedAddress, ExplainedStream, FunctionReport, ServiceAddress};
 use super::group::describe;
-use super::model::{ExplainedAddress, ExplainedStream, FunctionReport, ServiceAddress};
 use super::part;
 use crate::edition::Feature;
 use crate::value_format::ValueFormat;
 
 /// Explains the data of a service at an address.
 pub(super) fn of_place(
-    place: &ServiceAddress,
+    ads_address: &ServiceAddress,
     bytes: &[u8],
     values: &ValueFormat,
 ) -> ExplainedStream {
-    of_data(place, 0, bytes, values)
+    of_data(ads_address, 0, bytes, values)
 }
 
 /// Explains the data of a service at an address; the data begins at offset `at` of the input.
 pub(super) fn of_data(
-    place: &ServiceAddress,
+    ads_address: &ServiceAddress,
     at: usize,
     bytes: &[u8],
     values: &ValueFormat,
 ) -> ExplainedStream {
-    let found = find(place);
+    let found = find(ads_address);
     let mut part = match found {
         Err(_) => ExplainedStream::opaque("Data of no documented function".to_owned(), at, bytes),
         Ok(function) => {
             let spec = function.spec();
-            match if place.reply { spec.reply } else { spec.request } {
+            match if ads_address.reply { spec.reply } else { spec.request } {
                 Some(stream) => part::of_stream(stream, at, bytes, values),
-                None => no_data(place, spec, at, bytes, values),
+                None => no_data(ads_address, spec, at, bytes, values),
             }
         }
     };
-    part.address = Some(report(place, found));
+    part.address = Some(report(ads_address, found));
     part
 }
 
 /// Explains an address without data.
-pub(super) fn alone(place: &ServiceAddress) -> ExplainedStream {
+pub(super) fn alone(ads_address: &ServiceAddress) -> ExplainedStream {
     // A content can be read and written: if the service is unknown, explain the read.
-    let reading = ServiceAddress { reply: true, ..*place };
-    let found = find(if place.service.is_none() { &reading } else { place });
-    ExplainedStream { address: Some(report(place, found)), ..ExplainedStream::default() }
+    let reading = ServiceAddress { reply: true, ..*ads_address };
+    let found = find(if ads_address.service.is_none() { &reading } else { ads_address });
+    ExplainedStream { address: Some(report(ads_address, found)), ..ExplainedStream::default() }
 }
 
 fn no_data(
-    place: &ServiceAddress,
+    ads_address: &ServiceAddress,
     spec: &FunctionSpec,
     at: usize,
     bytes: &[u8],
@@ -62,74 +62,80 @@ fn no_data(
     let mut part = part::of_stream(Stream::NoData, at, bytes, values);
     (part.title, part.stream) = ("No data".to_owned(), None);
     part.rows.clear();
-    if !place.reply {
+    if !ads_address.reply {
         // The requirement of the stream (VAR-17) only specifies the reply.
         (part.clause, part.sources) = (None, Vec::new());
     }
-    let (service, what) = (spec.service, if place.reply { "returns none" } else { "sends none" });
+    let (service, what) =
+        (spec.service, if ads_address.reply { "returns none" } else { "sends none" });
     part.notes.push(format!("a {service} {what}"));
-    if !place.reply && !bytes.is_empty() {
+    if !ads_address.reply && !bytes.is_empty() {
         part.notes.push("for the data of the reply, specify --reply".to_owned());
     }
     part
 }
 
 /// The function at the address.
-fn find(place: &ServiceAddress) -> Result<Function, DispatchError> {
-    if let Some(port) = place.port {
+fn find(ads_address: &ServiceAddress) -> Result<Function, DispatchError> {
+    if let Some(port) = ads_address.port {
         Task::from_port(port).ok_or(DispatchError::Port(port))?;
     }
-    let parts = place.group.parts().ok_or(DispatchError::Group(place.group))?;
-    let mut refusal = DispatchError::Group(place.group);
+    let parts = ads_address.group.parts().ok_or(DispatchError::Group(ads_address.group))?;
+    let mut error = DispatchError::Group(ads_address.group);
     let mut content = None;
     for function in Function::ALL.iter().copied() {
         let spec = function.spec();
-        if !serves(place, spec) || !spec.group.contains(parts) {
+        if !serves(ads_address, spec) || !spec.group.contains(parts) {
             continue;
         }
-        if !spec.offset.contains(place.offset) {
-            refusal = DispatchError::Offset(place.offset);
+        if !spec.offset.contains(ads_address.offset) {
+            error = DispatchError::Offset(ads_address.offset);
             continue;
         }
         let takes = spec.service;
-        match place.service {
-            Some(asked) if asked == takes => return Ok(function),
+        match ads_address.service {
+            Some(service) if service == takes => return Ok(function),
             // A function takes precedence over a content at the same address (SDA-12).
-            Some(asked) if !spec.is_content() => {
-                return Err(DispatchError::Service { expected: takes, found: asked });
+            Some(service) if !spec.is_content() => {
+                return Err(DispatchError::Service { expected: takes, found: service });
             }
-            Some(asked) => refusal = DispatchError::Service { expected: takes, found: asked },
+            Some(service) => error = DispatchError::Service { expected: takes, found: service },
             None if !spec.is_content() => return Ok(function),
             // The direction distinguishes the read and the write of a content.
-            None if place.reply == (takes == Service::Read) => content = content.or(Some(function)),
+            None if ads_address.reply == (takes == AdsService::Read) => {
+                content = content.or(Some(function))
+            }
             None => {}
         }
     }
-    content.ok_or(refusal)
+    content.ok_or(error)
 }
 
 /// Whether the port, if known, belongs to the function's task; SDA and GEO are interchangeable
 /// (ADR-10, assumed).
-fn serves(place: &ServiceAddress, spec: &FunctionSpec) -> bool {
-    let task = place.port.and_then(Task::from_port);
+fn serves(ads_address: &ServiceAddress, spec: &FunctionSpec) -> bool {
+    let task = ads_address.port.and_then(Task::from_port);
     task.is_none_or(|task| (task == Task::Com) == (spec.task == Task::Com))
 }
 
-fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> ExplainedAddress {
+fn report(
+    ads_address: &ServiceAddress,
+    found: Result<Function, DispatchError>,
+) -> ExplainedAddress {
     let function = found.ok();
-    let service = place.service.or(function.map(|function| function.spec().service));
+    let service = ads_address.service.or(function.map(|function| function.spec().service));
     let mut notes = Vec::new();
-    let offset = offset(place, function, &mut notes);
+    let offset = offset(ads_address, function, &mut notes);
     match found {
-        Ok(function) => meanings(place, function, &mut notes),
-        Err(refusal) => notes.push(at_other_port(place).unwrap_or_else(|| refusal.to_string())),
+        Ok(function) => meanings(ads_address, function, &mut notes),
+        Err(error) => notes.push(at_other_port(ads_address).unwrap_or_else(|| error.to_string())),
     }
     ExplainedAddress {
-        port: place.port.map(|port| port.0),
+        port: ads_address.port.map(|port| port.0),
         service: service.map(|service| service.to_string()),
-        index_group: place.group.get(),
-        index_offset: place.offset.get(),
-        group: describe(place.group),
+        index_group: ads_address.group.get(),
+        index_offset: ads_address.offset.get(),
+        group: describe(ads_address.group),
         offset,
         function: function.map(|function| function_report(function.spec())),
         notes,
@@ -137,9 +143,9 @@ fn report(place: &ServiceAddress, found: Result<Function, DispatchError>) -> Exp
 }
 
 /// The function of another task at this address.
-fn at_other_port(place: &ServiceAddress) -> Option<String> {
-    let port = place.port?;
-    let spec = find(&ServiceAddress { port: None, ..*place }).ok()?.spec();
+fn at_other_port(ads_address: &ServiceAddress) -> Option<String> {
+    let port = ads_address.port?;
+    let spec = find(&ServiceAddress { port: None, ..*ads_address }).ok()?.spec();
     Some(format!("{}, at port {port} instead of {}", spec.name, spec.task.port()))
 }
 
@@ -170,9 +176,9 @@ fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
 }
 
 /// Adds notes about the function, and about other functions at the address.
-fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>) {
+fn meanings(ads_address: &ServiceAddress, function: Function, notes: &mut Vec<String>) {
     let spec = function.spec();
-    if place.port.is_some_and(|port| port != spec.task.port()) {
+    if ads_address.port.is_some_and(|port| port != spec.task.port()) {
         let (task, port) = (spec.task, spec.task.port());
         notes.push(format!("documented for {task}, port {port} (ADR-10)"));
     }
@@ -191,13 +197,13 @@ fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>)
         let (since, requirement) = (since.join(" and "), feature.requirement());
         notes.push(format!("from {since} on ({requirement})"));
     }
-    let parts = place.group.parts();
+    let parts = ads_address.group.parts();
     let here = |other: &&FunctionSpec| {
         other.is_content()
             && (other.service != spec.service || !spec.is_content())
-            && serves(place, other)
+            && serves(ads_address, other)
             && parts.is_some_and(|parts| other.group.contains(parts))
-            && other.offset.contains(place.offset)
+            && other.offset.contains(ads_address.offset)
     };
     let mut others = Function::ALL.iter().map(|function| function.spec()).filter(here);
     if spec.is_content() {
@@ -205,7 +211,7 @@ fn meanings(place: &ServiceAddress, function: Function, notes: &mut Vec<String>)
         notes.extend(others);
     } else if spec.group == GroupRule::ChannelOf(Class::Decoder)
         && others.next().is_some()
-        && let Some((axis, element)) = axis_and_element(place.offset, AxisStride::X10000)
+        && let Some((axis, element)) = axis_and_element(ads_address.offset, AxisStride::X10000)
     {
         notes.push(format!(
                 "also the address of {}element {element:#x} of the decoder; the function takes precedence (SDA-12)",
@@ -223,9 +229,13 @@ fn of_axis(axis: u32) -> String {
 }
 
 /// Explains the index offset.
-fn offset(place: &ServiceAddress, function: Option<Function>, notes: &mut Vec<String>) -> String {
-    let (offset, rule) = (place.offset, function.map(|function| function.spec().offset));
-    match (rule, place.group.parts()) {
+fn offset(
+    ads_address: &ServiceAddress,
+    function: Option<Function>,
+    notes: &mut Vec<String>,
+) -> String {
+    let (offset, rule) = (ads_address.offset, function.map(|function| function.spec().offset));
+    match (rule, ads_address.group.parts()) {
         (Some(OffsetRule::OfKind(offsets)), _) => {
             let kinds = DynamicKind::ALL.into_iter().zip(offsets);
             let mut kind = kinds.filter(|(_, at)| *at == offset.get());

@@ -6,16 +6,16 @@ use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
-use ads_cnc::operation::{Call, DispatchError, Service};
+use ads_cnc::operation::{AdsService, Call, DispatchError};
 use ads_cnc::{Decode as _, Error};
 
 use super::address;
 use super::codes;
-use super::model::{ExplainedFault, ExplainedStream, ServiceAddress};
+use super::explanation::{ExplainedFault, ExplainedStream, ServiceAddress};
 use super::part;
+use crate::ads_service::{reply_stream, request_stream, service_of};
 use crate::text::plural;
 use crate::value_format::ValueFormat;
-use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// Command, index group and offset of requests, by source, target and invoke ID.
 type PendingRequests = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
@@ -31,11 +31,12 @@ pub fn looks_like_frame(bytes: &[u8]) -> bool {
 
 /// Explains consecutive frames.
 pub(super) fn of_frames(
-    place: Option<&ServiceAddress>,
+    ads_address: Option<&ServiceAddress>,
     bytes: &[u8],
     values: &ValueFormat,
 ) -> Vec<ExplainedStream> {
-    let mut frames = FrameExplainer { place, values, asked: HashMap::new(), parts: Vec::new() };
+    let mut frames =
+        FrameExplainer { ads_address, values, requests: HashMap::new(), parts: Vec::new() };
     let mut at = 0_usize;
     loop {
         let rest = bytes.get(at..).unwrap_or_default();
@@ -49,9 +50,9 @@ pub(super) fn of_frames(
 }
 
 struct FrameExplainer<'q> {
-    place: Option<&'q ServiceAddress>,
+    ads_address: Option<&'q ServiceAddress>,
     values: &'q ValueFormat,
-    asked: PendingRequests,
+    requests: PendingRequests,
     parts: Vec<ExplainedStream>,
 }
 
@@ -143,22 +144,22 @@ impl FrameExplainer<'_> {
         let failed = reply && number(stream, data, "result").is_some_and(|result| result != 0);
         let faulty = !part.faults.is_empty();
         let length = match service {
-            Service::Read => number(stream, data, "length"),
+            AdsService::Read => number(stream, data, "length"),
             _ => number(stream, data, "read_length"),
         };
-        let place = if reply {
+        let ads_address = if reply {
             self.answered(header, service)
         } else {
             self.asks(header, (stream, service), data)
         };
-        if let (Some(row), Some(_), Some(_)) = (part.rows.last_mut(), inside, place) {
+        if let (Some(row), Some(_), Some(_)) = (part.rows.last_mut(), inside, ads_address) {
             row.below = row.field == "data" && row.length > 0;
             if row.below {
                 row.value = format!("{}, below", plural(row.length, "byte"));
             }
         }
         self.parts.push(part);
-        let Some(place) = place else {
+        let Some(ads_address) = ads_address else {
             if reply && stream != Stream::WriteReply && !failed {
                 self.note(
                     "the request is not in these bytes: specify its index group and offset"
@@ -173,9 +174,9 @@ impl FrameExplainer<'_> {
             return;
         }
         let (after, data) = inside.unwrap_or((data.len(), &[]));
-        let mut part = address::of_data(&place, at.saturating_add(after), data, self.values);
+        let mut part = address::of_data(&ads_address, at.saturating_add(after), data, self.values);
         if !reply && !faulty && part.faults.is_empty() {
-            part.notes.extend(refused(&place, header.target.port, (service, length), data));
+            part.notes.extend(refused(&ads_address, header.target.port, (service, length), data));
         }
         self.parts.push(part);
     }
@@ -184,26 +185,26 @@ impl FrameExplainer<'_> {
     fn asks(
         &mut self,
         header: &AmsHeader,
-        (stream, service): (Stream, Service),
+        (stream, service): (Stream, AdsService),
         data: &[u8],
     ) -> Option<ServiceAddress> {
         let group = IndexGroup::new(number(stream, data, "index_group")?);
         let offset = IndexOffset::new(number(stream, data, "index_offset")?);
         let key = (header.source, header.target, header.invoke_id);
-        self.asked.insert(key, (header.command, group, offset));
+        self.requests.insert(key, (header.command, group, offset));
         let (port, service) = (Some(header.target.port), Some(service));
         Some(ServiceAddress { port, service, group, offset, reply: false })
     }
 
     /// The address of a reply, from its request or from the caller.
-    fn answered(&mut self, header: &AmsHeader, service: Service) -> Option<ServiceAddress> {
+    fn answered(&mut self, header: &AmsHeader, service: AdsService) -> Option<ServiceAddress> {
         let key = (header.target, header.source, header.invoke_id);
-        let asked = self.asked.get(&key).filter(|(command, ..)| *command == header.command);
-        let (group, offset) = match asked {
+        let requests = self.requests.get(&key).filter(|(command, ..)| *command == header.command);
+        let (group, offset) = match requests {
             Some((_, group, offset)) => (*group, *offset),
-            None => self.place.map(|place| (place.group, place.offset))?,
+            None => self.ads_address.map(|ads_address| (ads_address.group, ads_address.offset))?,
         };
-        self.asked.remove(&key);
+        self.requests.remove(&key);
         let (port, service) = (Some(header.source.port), Some(service));
         Some(ServiceAddress { port, service, group, offset, reply: true })
     }
@@ -234,7 +235,7 @@ fn halves(bytes: &[u8], at: usize) -> (&[u8], &[u8]) {
 /// The data in the stream of a service, as far as present, after its offset in the stream.
 fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
     let data = ads_cnc::layout::Field::by_name(stream, "data")?.spec()?;
-    let at = super::model::size(data.offset);
+    let at = super::explanation::size(data.offset);
     bytes.get(at..).map(|data| (at, data))
 }
 
@@ -252,16 +253,16 @@ fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
 
 /// The error with which the codec rejects a request although each of its streams is valid.
 fn refused(
-    place: &ServiceAddress,
+    ads_address: &ServiceAddress,
     port: AmsPort,
-    (service, read_length): (Service, Option<u32>),
+    (service, read_length): (AdsService, Option<u32>),
     data: &[u8],
 ) -> Option<String> {
     let call = Call {
         port,
         service,
-        index_group: place.group,
-        index_offset: place.offset,
+        index_group: ads_address.group,
+        index_offset: ads_address.offset,
         read_length: read_length.unwrap_or(0),
         data,
     };

@@ -24,9 +24,9 @@
 
 mod address;
 mod codes;
+mod explanation;
 mod frame;
 mod group;
-mod model;
 mod nc;
 mod part;
 #[allow(clippy::restriction)]
@@ -37,13 +37,13 @@ mod value;
 pub use crate::text::hex::{HexError, parse_hex};
 pub use crate::value_format::{UnknownType, ValueFormat, type_by_name};
 pub(crate) use codes::command as command_name;
-pub use frame::looks_like_frame;
-pub use group::describe;
-pub(crate) use model::sources;
-pub use model::{
+pub(crate) use explanation::sources;
+pub use explanation::{
     ExplainQuery, ExplainSubject, ExplainedAddress, ExplainedFault, ExplainedField,
     ExplainedStream, Explanation, ExplanationOutcome, FunctionReport, ServiceAddress, Unread,
 };
+pub use frame::looks_like_frame;
+pub use group::describe;
 pub use show::{Paint, print};
 
 use ads_cnc::layout::Stream;
@@ -53,9 +53,11 @@ pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     let values = &question.values;
     let parts = match &question.subject {
         ExplainSubject::Stream(stream) => vec![part::of_stream(*stream, 0, bytes, values)],
-        ExplainSubject::Place(place) => vec![address::of_place(place, bytes, values)],
-        ExplainSubject::Address(place) => vec![address::alone(place)],
-        ExplainSubject::Frames(place) => frame::of_frames(place.as_ref(), bytes, values),
+        ExplainSubject::Place(ads_address) => vec![address::of_place(ads_address, bytes, values)],
+        ExplainSubject::Address(ads_address) => vec![address::alone(ads_address)],
+        ExplainSubject::Frames(ads_address) => {
+            frame::of_frames(ads_address.as_ref(), bytes, values)
+        }
     };
     Explanation::new(bytes.len(), parts)
 }

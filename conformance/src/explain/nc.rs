@@ -4,7 +4,7 @@ use ads_cnc::layout::Segment;
 use ads_cnc::streaming::{self, LineError, NcText, check_line_ends};
 
 use super::codes::quoted;
-use super::model::{ExplainedFault, ExplainedField, ExplainedStream};
+use super::explanation::{ExplainedFault, ExplainedField, ExplainedStream};
 use super::value::row;
 
 /// A line: offset, text and line end.

@@ -3,7 +3,7 @@
 use ads_cnc::ErrorKind;
 use ads_cnc::layout::{Segment, Stream};
 
-use super::model::{ExplainedFault, ExplainedStream, size};
+use super::explanation::{ExplainedFault, ExplainedStream, size};
 use super::nc;
 use super::value;
 use crate::value_format::ValueFormat;

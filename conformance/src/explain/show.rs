@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
 
-use super::model::{ExplainedAddress, ExplainedField, ExplainedStream, Explanation};
+use super::explanation::{ExplainedAddress, ExplainedField, ExplainedStream, Explanation};
 use crate::text::plural;
 
 /// Bytes per line.

@@ -20,7 +20,7 @@ pub(super) fn elements(
     bytes: &[u8],
 ) -> Result<Vec<TypedElement>, Error> {
     let elements = Elements::new(ty, U32List::from(dimensions), bytes)?;
-    let len = super::model::size(elements.shape().element_size());
+    let len = super::explanation::size(elements.shape().element_size());
     let placed = (0_u32..).zip(elements);
     Ok(placed
         .map(|(item, one)| TypedElement {

@@ -7,7 +7,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::{Synchronisation, Validity, VariableAccess, VariableType};
 
 use super::codes::{self, number, quoted, text};
-use super::model::{ExplainedFault, ExplainedField, ExplainedStream, size};
+use super::explanation::{ExplainedFault, ExplainedField, ExplainedStream, size};
 use super::typed;
 use crate::text::plural;
 use crate::value_format::ValueFormat;

@@ -5,17 +5,17 @@
 //! that the defect violates must fail; with a valid variant, no requirement may fail.
 //!
 //! ```
-//! use ads_cnc_conformance::faults::{self, SeedKind};
+//! use ads_cnc_conformance::faults::{self, DefectKind};
 //!
 //! let seed = faults::by_id("variable-description.size.flip").unwrap();
-//! assert_eq!((seed.kind, &seed.requirements[..]), (SeedKind::Codec, &["VAR-4", "VAR-8"][..]));
+//! assert_eq!((seed.kind, &seed.requirements[..]), (DefectKind::Codec, &["VAR-4", "VAR-8"][..]));
 //! ```
 
 mod cnc;
 mod codec;
 mod field;
 mod operators;
-mod seed;
+mod seeded_defect;
 mod variants;
 
 #[cfg(test)]
@@ -28,26 +28,26 @@ use ads_cnc_vectors::ids::*;
 
 pub use cnc::Faulty;
 pub use field::{FieldChange, FieldDefect};
-pub use seed::{Seed, SeedKind};
+pub use seeded_defect::{DefectKind, SeededDefect};
 
-pub fn all() -> &'static [Seed] {
-    static ALL: OnceLock<Vec<Seed>> = OnceLock::new();
+pub fn all() -> &'static [SeededDefect] {
+    static ALL: OnceLock<Vec<SeededDefect>> = OnceLock::new();
     ALL.get_or_init(|| {
-        let fields = FieldDefect::all().into_iter().map(Seed::from);
-        let cnc = cnc::rows().map(|row| Seed::of_row(row, SeedKind::Cnc));
-        let variants = variants::rows().map(|row| Seed::of_row(row, SeedKind::Different));
+        let fields = FieldDefect::all().into_iter().map(SeededDefect::from);
+        let cnc = cnc::rows().map(|row| SeededDefect::of_row(row, DefectKind::Cnc));
+        let variants = variants::rows().map(|row| SeededDefect::of_row(row, DefectKind::Different));
         fields.chain(codec::seeds()).chain(operators::seeds()).chain(cnc).chain(variants).collect()
     })
 }
 
-pub fn by_id(id: &str) -> Option<&'static Seed> {
+pub fn by_id(id: &str) -> Option<&'static SeededDefect> {
     all().iter().find(|seed| seed.id == id)
 }
 
 /// The requirements of level *must* that no defect violates, each with the reason.
 ///
 /// Requirements that concern only clients are not in this list:
-/// [defects of a client](crate::clients::defects) violate them.
+/// [defects of a client](crate::client_suite::defects) violate them.
 pub const fn without() -> &'static [(ClauseId, &'static str)] {
     &[
         (

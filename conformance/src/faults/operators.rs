@@ -13,7 +13,7 @@ mod functions;
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Function, FunctionSpec, GroupRule, Service};
+use ads_cnc::operation::{AdsService, Call, Function, FunctionSpec, GroupRule};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
@@ -27,7 +27,7 @@ use super::cnc::{
     CncFault, LOGICAL, ReplyData, Upstream, delay_write, first, group, offset, or_short,
     within_length,
 };
-use super::seed::{How, Seed, SeedKind};
+use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 
 /// A defect that every function for which `applies` returns true can have.
 struct Operator {
@@ -95,7 +95,7 @@ const OF_REQUESTS: &[Operator] = &[
         &[ADR_7, SDA_1, SDA_13],
         |spec| {
             has_axis(spec)
-                && (spec.service != Service::Write || spec.clause != "COM-5")
+                && (spec.service != AdsService::Write || spec.clause != "COM-5")
                 && !is_alike(spec)
         },
         |cnc, call| mistaken(cnc, call, Axis, |_| 1),
@@ -168,7 +168,7 @@ const OF_REQUESTS: &[Operator] = &[
         |cnc, call| {
             let last = cnc.memory().get(&kept());
             let answer =
-                cnc.answer(call).inspect(|right| cnc.memory().store(kept(), right.clone()));
+                cnc.answer(call).inspect(|correct| cnc.memory().store(kept(), correct.clone()));
             within_length(call, answer.or_else(|error| last.ok_or(error)))
         },
     ),
@@ -198,15 +198,15 @@ const OF_ANSWERS: &[Operator] = &[
         &[VAR_16],
         has_reply,
         |cnc, call| {
-            let right = cnc.answer(call)?;
-            let before = cnc.memory().get(&kept()).unwrap_or_else(|| right.clone());
-            cnc.memory().store(kept(), right);
+            let correct = cnc.answer(call)?;
+            let before = cnc.memory().get(&kept()).unwrap_or_else(|| correct.clone());
+            cnc.memory().store(kept(), correct);
             within_length(call, Ok(before))
         },
     ),
     operator("frozen", "every reply repeats the first one", &[VAR_16], has_reply, |cnc, call| {
-        let right = cnc.answer(call)?;
-        let first = cnc.memory().get(&kept()).unwrap_or(right);
+        let correct = cnc.answer(call)?;
+        let first = cnc.memory().get(&kept()).unwrap_or(correct);
         cnc.memory().store(kept(), first.clone());
         within_length(call, Ok(first))
     }),
@@ -241,9 +241,9 @@ const OF_ANSWERS: &[Operator] = &[
                 && !matches!(spec.group, GroupRule::ComContent)
         },
         |cnc, call| {
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             let _ = asked(cnc, call, Channel, |_| 1);
-            Ok(done)
+            Ok(reply)
         },
     ),
     operator(
@@ -252,9 +252,9 @@ const OF_ANSWERS: &[Operator] = &[
         &[],
         |spec| writes(spec) && matches!(spec.clause, "VAR-12" | "VAR-13"),
         |cnc, call| {
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             let _ = asked(cnc, call, Index, |index| index.wrapping_add(1));
-            Ok(done)
+            Ok(reply)
         },
     ),
     operator(
@@ -263,9 +263,9 @@ const OF_ANSWERS: &[Operator] = &[
         &[ADR_7],
         |spec| writes(spec) && has_axis(spec) && !matches!(spec.group, GroupRule::ComContent),
         |cnc, call| {
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             let _ = asked(cnc, call, Axis, |axis| axis.wrapping_add(1));
-            Ok(done)
+            Ok(reply)
         },
     ),
     operator(
@@ -296,12 +296,12 @@ const OF_ANSWERS: &[Operator] = &[
         if cnc.memory().get(&kept()).is_some() {
             return Err(AdsError::INVALID_DATA);
         }
-        cnc.answer(call).inspect(|done| cnc.memory().store(kept(), done.clone()))
+        cnc.answer(call).inspect(|reply| cnc.memory().store(kept(), reply.clone()))
     }),
 ];
 
 /// The generated defects of all functions, except those of data streaming.
-pub(super) fn seeds() -> impl Iterator<Item = Seed> {
+pub(super) fn seeds() -> impl Iterator<Item = SeededDefect> {
     // The defects of streaming are written by hand: a CNC may reject a packet temporarily, and the
     // suite cannot read a packet back.
     let functions = Function::ALL.iter().filter(|one| **one != Function::WriteProgramStream);
@@ -313,7 +313,7 @@ pub(super) fn seeds() -> impl Iterator<Item = Seed> {
     })
 }
 
-fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream>) -> Seed {
+fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream>) -> SeededDefect {
     let Operator { name, what, breaks, answer, .. } = operator;
     let spec = function.spec();
     let streams = spec.reply.filter(|_| !spec.is_content()).into_iter().chain(misread);
@@ -326,14 +326,14 @@ fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream
     }
     requirements.sort_unstable();
     requirements.dedup();
-    Seed {
+    SeededDefect {
         id: format!("{}.{name}", kebab(*function)),
         requirements,
         what: format!("{}: {what}", spec.name),
-        kind: SeedKind::Cnc,
+        kind: DefectKind::Cnc,
         edition: None,
         printed: true,
-        how: How::Cnc(CncFault::Function(std::slice::from_ref(function), *answer)),
+        how: Mechanism::Cnc(CncFault::Function(std::slice::from_ref(function), *answer)),
     }
 }
 
@@ -349,7 +349,7 @@ fn concerns(clause: ClauseId, spec: &FunctionSpec) -> bool {
         SDA_8 | SDA_13 => spec.clause == SDA_4.as_str(),
         VAR_20 => first(spec.request) == b"name",
         VAR_16 => spec.clause == "VAR-15",
-        ADS_1 | ADS_3 => clause == crate::wire_service::clause(spec.service),
+        ADS_1 | ADS_3 => clause == crate::ads_service::clause(spec.service),
         ADR_1 | ADR_6 | ADR_11 | ADR_12 | ADS_4 | ADS_7 => true,
         of_area => area(of_area.as_str()) == area(spec.clause),
     }

@@ -12,7 +12,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    CncFault, CncSeed, ELEMENT_TEXTS, INDEXED, ReplyData, Upstream, dimensions, fault, first,
+    CncDefect, CncFault, ELEMENT_TEXTS, INDEXED, ReplyData, Upstream, dimensions, fault, first,
     function, group, is, measured, number, offset, on, or_short, records_mut, row, set_u32, text,
     u32_at, within_length,
 };
@@ -41,14 +41,14 @@ fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     bytes
 }
 
-pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
+pub(super) fn rows() -> impl Iterator<Item = &'static CncDefect> {
     let areas =
         [ROWS, elements::ROWS, unspecified::ROWS, replies::ROWS, models::ROWS, requests::ROWS];
     areas.into_iter().flatten()
 }
 
 #[rustfmt::skip]
-const ROWS: &[CncSeed] = &[
+const ROWS: &[CncDefect] = &[
     unprinted(row("different.names-padded", &[], "names are padded with NULs as far as the field goes",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex) => {

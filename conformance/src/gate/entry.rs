@@ -76,13 +76,15 @@ impl Entry {
         &self,
         of: Channel,
         at: Option<ChannelAxis>,
-        asked: CncStr<'_>,
+        requested_name: CncStr<'_>,
     ) -> bool {
         match self {
             Self::Variable { channel, axis, name } => {
-                (*channel, *axis) == (of, at) && is_or_is_in(asked, name)
+                (*channel, *axis) == (of, at) && is_or_is_in(requested_name, name)
             }
-            Self::Service(channel) => *channel == of && at.is_none() && is_of_service(asked),
+            Self::Service(channel) => {
+                *channel == of && at.is_none() && is_of_service(requested_name)
+            }
             _ => false,
         }
     }
@@ -97,9 +99,9 @@ fn is_of_service(name: CncStr<'_>) -> bool {
 }
 
 /// Whether `asked` is `name`, optionally followed by indices.
-fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {
-    let asked: Vec<u8> = asked.bytes().collect();
-    let Some(rest) = asked.strip_prefix(name.as_bytes()) else { return false };
+fn is_or_is_in(requested_name: CncStr<'_>, name: &CncString) -> bool {
+    let requested_name: Vec<u8> = requested_name.bytes().collect();
+    let Some(rest) = requested_name.strip_prefix(name.as_bytes()) else { return false };
     let is_index = |part: &[u8]| match part {
         [b'[', digits @ ..] => !digits.is_empty() && digits.iter().all(u8::is_ascii_digit),
         _ => false,

@@ -187,8 +187,8 @@ impl TryFrom<RawObject> for AllowedObject {
                 if offset == streaming::INDEX_OFFSET {
                     return Err("use a table [[stream]] to allow the program stream".into());
                 }
-                let odd = |_| format!("no content of a COM object is at {group}, {offset}");
-                WriteObject::new(group, offset, &[][..]).map_err(odd)?;
+                let invalid = |_| format!("no content of a COM object is at {group}, {offset}");
+                WriteObject::new(group, offset, &[][..]).map_err(invalid)?;
                 Ok(Self(Entry::Content { group, offset }))
             }
             _ => Err("expected either group and offset, or channel and name".into()),
@@ -212,13 +212,13 @@ impl TryFrom<RawElement> for AllowedElement {
 
     fn try_from(raw: RawElement) -> Result<Self, String> {
         let (group, offset) = (IndexGroup::new(raw.group), IndexOffset::new(raw.offset));
-        let odd = || format!("no content of an element is at {group}, {offset}");
+        let invalid = || format!("no content of an element is at {group}, {offset}");
         let Some(Group::Class(class @ ClassGroup { attribute: Attribute::Content, .. })) =
             group.parts()
         else {
-            return Err(odd());
+            return Err(invalid());
         };
-        WriteElement::new(ElementAddress::new(class, offset), &[][..]).map_err(|_| odd())?;
+        WriteElement::new(ElementAddress::new(class, offset), &[][..]).map_err(|_| invalid())?;
         Ok(Self(Entry::Content { group, offset }))
     }
 }

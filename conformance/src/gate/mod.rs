@@ -29,13 +29,13 @@ mod allowed;
 mod entry;
 mod file;
 mod observed;
-mod refusal;
+mod rejection;
 
 pub use crate::text::Moment;
 pub use allowed::{Allowed, NET_ID};
 pub use entry::{AllowedList, Entry};
 pub use file::AllowFileError;
-pub use refusal::{Ambiguity, Reason, Refusal};
+pub use rejection::{Ambiguity, GateRejection, Reason};
 
 use std::net::{IpAddr, SocketAddr};
 use std::ops::RangeInclusive;
@@ -43,7 +43,7 @@ use std::ops::RangeInclusive;
 use ads_cnc::Handle;
 use ads_cnc::address::{Access, Channel, ComTable, Group};
 use ads_cnc::ads::{AmsNetId, AmsPort, Command, FrameRef, StateFlags};
-use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
+use ads_cnc::operation::{AdsService, Call, Effect, Function, Request, Task};
 use ads_cnc::streaming;
 
 use observed::Observed;
@@ -83,7 +83,7 @@ impl<'f> Permit<'f> {
 ///
 /// # Errors
 /// The reason why the frame must not be sent, and the entry that would allow it.
-pub fn check(frame: &[u8]) -> Result<Permit<'_>, Refusal> {
+pub fn check(frame: &[u8]) -> Result<Permit<'_>, GateRejection> {
     Gate::queries().check(frame, Moment::EPOCH)
 }
 
@@ -144,13 +144,13 @@ impl Gate {
     ///
     /// # Errors
     /// The reason why the file does not apply. Without a file, no error is returned.
-    pub fn check_target(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
+    pub fn check_target(&self, target: AmsNetId, now: Moment) -> Result<(), GateRejection> {
         let Some(allowed) = &self.allowed else { return Ok(()) };
-        allowed.check_target(target, self.peer, now).map_err(Refusal::from)
+        allowed.check_target(target, self.peer, now).map_err(GateRejection::from)
     }
 
     /// Checks whether the file permits malformed requests to this target now.
-    pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
+    pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), GateRejection> {
         match &self.allowed {
             _ if self.simulated.is_some() => Ok(()),
             Some(allowed) if allowed.malformed => self.check_target(target, now),
@@ -163,7 +163,7 @@ impl Gate {
     ///
     /// # Errors
     /// The reason why the frame must not be sent, and the entry that would allow it.
-    pub fn check<'f>(&self, frame: &'f [u8], now: Moment) -> Result<Permit<'f>, Refusal> {
+    pub fn check<'f>(&self, frame: &'f [u8], now: Moment) -> Result<Permit<'f>, GateRejection> {
         let permit = |repeatable| Ok(Permit { frame, repeatable });
         let whole = match whole(frame) {
             Ok(whole) => whole,
@@ -228,13 +228,18 @@ impl Gate {
     }
 
     /// Checks a call; returns whether executing the call twice has the same effect as once.
-    fn check_call(&self, call: &Call<'_>, to: AmsNetId, now: Moment) -> Result<bool, Refusal> {
+    fn check_call(
+        &self,
+        call: &Call<'_>,
+        to: AmsNetId,
+        now: Moment,
+    ) -> Result<bool, GateRejection> {
         never(call)?;
         let lets_malformed_pass = self.lets_malformed_pass();
         let request = match call.dispatch() {
             Ok(request) => request,
             Err(_) if lets_malformed_pass => return self.check_malformed(to, now).map(|()| false),
-            Err(refusal) => return Err(Reason::Unknown(refusal).into()),
+            Err(rejection) => return Err(Reason::Unknown(rejection).into()),
         };
         let spec = request.function().spec();
         let at_home = call.port == spec.task.port()
@@ -258,11 +263,11 @@ impl Gate {
         request: &Request<'_>,
         to: AmsNetId,
         now: Moment,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), GateRejection> {
         let function = request.function();
         let needed = Entry::needed(request);
         let Some(allowed) = &self.allowed else {
-            return Err(Refusal::needing(Reason::NoFile(function, to), needed));
+            return Err(GateRejection::needing(Reason::NoFile(function, to), needed));
         };
         let mut ambiguity = None;
         let mut named = false;
@@ -275,7 +280,7 @@ impl Gate {
         match (named, ambiguity) {
             (true, _) => self.check_target(to, now),
             (false, Some(ambiguity)) => Err(Reason::Ambiguous(function, ambiguity).into()),
-            (false, None) => Err(Refusal::needing(Reason::NoEntry(function), needed)),
+            (false, None) => Err(GateRejection::needing(Reason::NoEntry(function), needed)),
         }
     }
 }
@@ -294,7 +299,7 @@ const OF_CLASSES: [Function; 8] = [
 ];
 
 /// Rejects calls that no option and no entry can allow.
-fn never(call: &Call<'_>) -> Result<(), Refusal> {
+fn never(call: &Call<'_>) -> Result<(), GateRejection> {
     // A sum command contains several requests, some of which may be writes.
     if SUMS.contains(&call.index_group.get()) {
         return Err(Reason::Sum(call.index_group).into());
@@ -306,7 +311,7 @@ fn never(call: &Call<'_>) -> Result<(), Refusal> {
     // The only documented access to a program stream is a write to a channel at the port of COM. A
     // write to instance 0, the platform, may reach the stream of channel 1.
     let documented =
-        call.service == Service::Write && com.instance != 0 && call.port == AmsPort::COM;
+        call.service == AdsService::Write && com.instance != 0 && call.port == AmsPort::COM;
     if stream && !documented { Err(Reason::Stream.into()) } else { Ok(()) }
 }
 

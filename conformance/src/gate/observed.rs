@@ -6,7 +6,7 @@ use ads_cnc::address::{Addressing, Channel, ChannelAxis, Group, IndexGroup, Inde
 use ads_cnc::operation::{Call, ObjectList, Operation as _, Reply, Request};
 use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 
-use super::refusal::OBSERVATIONS_MAX;
+use super::rejection::OBSERVATIONS_MAX;
 use super::{Allowed, Ambiguity, Entry};
 
 /// What the replies say about handles and object addresses; it allows or forbids writes.

@@ -5,7 +5,7 @@ use std::fmt;
 use ads_cnc_vectors::{Sequence, Vector};
 use serde::{Deserialize, Serialize};
 
-use crate::text::named;
+use crate::text::{Pattern, named};
 
 /// A case of the suite.
 #[derive(Clone, Debug)]
@@ -32,11 +32,21 @@ impl Case {
         }
     }
 
-    /// Whether `word` is the ID of the case, the ID of its vector, or the name of its stream.
+    /// Whether a word or pattern is the ID of the case, the ID of its vector, or the name of its
+    /// stream.
     pub(crate) fn is_called(&self, word: &str) -> bool {
         let vector = self.stream().and_then(|_| Some(self.id.split_once('-')?.1));
         let names = [Some(self.id.as_str()), vector, self.stream()];
-        names.into_iter().flatten().any(|name| word.eq_ignore_ascii_case(name))
+        names.into_iter().flatten().any(|name| matches(word, name))
+    }
+}
+
+/// Whether a word is this name, or a pattern that matches it because it has a `*` or a `?`.
+pub(crate) fn matches(word: &str, name: &str) -> bool {
+    if word.contains(['*', '?']) {
+        Pattern::whole(word).matches(name)
+    } else {
+        word.eq_ignore_ascii_case(name)
     }
 }
 

@@ -8,12 +8,12 @@
 
 use std::collections::HashSet;
 
-use ads_cnc::operation::{Function, Service};
+use ads_cnc::operation::{AdsService, Function};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::chain::{before, can_explain, defines, follows, is_of_functions, origin};
-use super::root::{Check, Root, checks, is_broken, is_deviation, is_of_device, roots};
+use super::root::{FailedCheck, Root, checks, is_broken, is_deviation, is_of_device, roots};
 use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
 
 /// Clauses whose checks detect one specific error, such as reversed bytes. A violation of another clause
@@ -40,9 +40,9 @@ struct Causes<'a> {
 }
 
 impl<'a> Causes<'a> {
-    fn of(broken: &[Check<'a>]) -> Self {
-        let roots = roots(broken);
-        let (service, request) = (service_of(&roots, broken), request_of(&roots));
+    fn of(failed_checks: &[FailedCheck<'a>]) -> Self {
+        let roots = roots(failed_checks);
+        let (service, request) = (service_of(&roots, failed_checks), request_of(&roots));
         let chains: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
         Self { roots, service, is_one_chain: chains.len() == 1, request }
     }
@@ -54,16 +54,16 @@ const CHAINS_OF_SERVICE: usize = 3;
 
 /// The clause of the service, if functions of `CHAINS_OF_SERVICE` chains fail, all failing functions use
 /// this service, and a check of the clause fails too.
-fn service_of(roots: &[Root<'_>], broken: &[Check<'_>]) -> Option<&'static str> {
+fn service_of(roots: &[Root<'_>], failed_checks: &[FailedCheck<'_>]) -> Option<&'static str> {
     let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
     let service = roots.first()?.function.spec().service;
     let clause = match service {
-        Service::Read => ADS_1.as_str(),
-        Service::ReadWrite => ADS_3.as_str(),
+        AdsService::Read => ADS_1.as_str(),
+        AdsService::ReadWrite => ADS_3.as_str(),
         _ => return None,
     };
     let is_alone = roots.iter().all(|root| root.function.spec().service == service);
-    let fails = broken.iter().any(|one| one.clause() == clause);
+    let fails = failed_checks.iter().any(|one| one.clause() == clause);
     (origins.len() >= CHAINS_OF_SERVICE && is_alone && fails).then_some(clause)
 }
 
@@ -85,7 +85,7 @@ fn request_of(roots: &[Root<'_>]) -> Option<(&'static str, Vec<Function>)> {
 
 /// The clause whose failure explains the failure of `check`; `None` if no other failure explains it.
 fn cause(
-    check: Check<'_>,
+    check: FailedCheck<'_>,
     Causes { roots, service, is_one_chain, request }: &Causes<'_>,
 ) -> Option<&'static str> {
     let (clause, function) = (check.clause(), check.function());
@@ -151,7 +151,7 @@ fn cause(
 /// Finds the violated clause if `check` judges several clauses at once: the one for which a check of
 /// a single clause, with the same functions and subject, fails too. `None` if a check of a single
 /// clause fails for the clause of `check` itself. `alone`: the failed checks of a single clause.
-fn single_out(check: Check<'_>, alone: &[Check<'_>]) -> Option<&'static str> {
+fn single_out(check: FailedCheck<'_>, alone: &[FailedCheck<'_>]) -> Option<&'static str> {
     let clause = check.clause();
     if alone.iter().any(|one| one.clause() == clause) || is_one_of(clause, &GENERAL) {
         return None;
@@ -181,15 +181,15 @@ fn settle(
     clauses: &[&'static str],
     causes: &[Option<&'static str>],
 ) -> Option<&'static str> {
-    let mut seen = vec![cause];
-    let mut open = vec![cause];
-    while let Some(clause) = open.pop() {
+    let mut visited = vec![cause];
+    let mut pending = vec![cause];
+    while let Some(clause) = pending.pop() {
         for (_, cause) in clauses.iter().zip(causes).filter(|(one, _)| **one == clause) {
             match cause {
                 None => return Some(clause),
-                Some(next) if !seen.contains(next) => {
-                    seen.push(next);
-                    open.push(next);
+                Some(next) if !visited.contains(next) => {
+                    visited.push(next);
+                    pending.push(next);
                 }
                 Some(_) => {}
             }
@@ -202,30 +202,31 @@ fn settle(
 /// of a service, of a shared request, or of another clause that the same check judges. A warning or a
 /// difference that follows from a failure keeps its verdict.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
-    let broken: Vec<Check<'_>> = checks(outcomes, is_broken).collect();
-    let causes = Causes::of(&broken);
+    let failed_checks: Vec<FailedCheck<'_>> = checks(outcomes, is_broken).collect();
+    let causes = Causes::of(&failed_checks);
     let mut found: Vec<Option<&'static str>> =
-        broken.iter().map(|check| cause(*check, &causes)).collect();
-    let is_alone = |check: &Check<'_>| {
+        failed_checks.iter().map(|check| cause(*check, &causes)).collect();
+    let is_alone = |check: &FailedCheck<'_>| {
         check.judgement.verdict == Verdict::Fail && check.judgement.together.is_empty()
     };
-    let unexplained = broken.iter().zip(&found).filter(|(_, cause)| cause.is_none());
-    let alone: Vec<Check<'_>> =
+    let unexplained = failed_checks.iter().zip(&found).filter(|(_, cause)| cause.is_none());
+    let alone: Vec<FailedCheck<'_>> =
         unexplained.map(|(check, _)| *check).filter(|check| is_alone(check)).collect();
-    for (check, cause) in broken.iter().zip(&mut found) {
+    for (check, cause) in failed_checks.iter().zip(&mut found) {
         *cause = cause.or_else(|| single_out(*check, &alone));
     }
-    let clauses: Vec<&'static str> = broken.iter().map(|check| check.clause()).collect();
+    let clauses: Vec<&'static str> = failed_checks.iter().map(|check| check.clause()).collect();
     let settled = |cause: Option<&'static str>| settle(cause?, &clauses, &found);
     let deviations = checks(outcomes, is_deviation).map(|check| settled(cause(check, &causes)));
     let deviations: Vec<Option<&'static str>> = deviations.collect();
-    let broken: Vec<Option<&'static str>> = found.iter().map(|cause| settled(*cause)).collect();
-    let (mut broken, mut deviations) = (broken.into_iter(), deviations.into_iter());
+    let failed_checks: Vec<Option<&'static str>> =
+        found.iter().map(|cause| settled(*cause)).collect();
+    let (mut failed_checks, mut deviations) = (failed_checks.into_iter(), deviations.into_iter());
     for outcome in outcomes.iter_mut().filter(|outcome| is_of_device(&outcome.case)) {
         for verdict in &mut outcome.verdicts {
             follow(verdict, |one| {
                 if is_broken(one) {
-                    broken.next()?
+                    failed_checks.next()?
                 } else if is_deviation(one) {
                     deviations.next()?
                 } else {

@@ -31,9 +31,9 @@ const fn sources(function: Function) -> &'static [Function] {
 /// All functions before `function` in a chain.
 pub(super) fn before(function: Function) -> HashSet<Function> {
     let mut all = HashSet::new();
-    let mut open = vec![function];
-    while let Some(next) = open.pop() {
-        open.extend(sources(next).iter().filter(|source| all.insert(**source)));
+    let mut pending = vec![function];
+    while let Some(next) = pending.pop() {
+        pending.extend(sources(next).iter().filter(|source| all.insert(**source)));
     }
     all
 }

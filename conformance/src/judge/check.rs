@@ -20,7 +20,7 @@ pub enum Stop {
     NotApplicable(String),
     /// The replies do not decide the case.
     Inconclusive(String),
-    Refused(String),
+    NotPermitted(String),
     /// The run is interrupted.
     Interrupted,
     /// An error of the suite itself.

@@ -65,7 +65,7 @@ impl CaseOutcome {
             None | Some(Stop::Judged) => (Verdict::NotObserved, None),
             Some(Stop::NotApplicable(why)) => (Verdict::NotApplicable, Some(why.clone())),
             Some(Stop::Inconclusive(why)) => (Verdict::Inconclusive, Some(why.clone())),
-            Some(Stop::Refused(why)) => (Verdict::NotRun, Some(why.clone())),
+            Some(Stop::NotPermitted(why)) => (Verdict::NotRun, Some(why.clone())),
             Some(Stop::Interrupted) => (Verdict::Interrupted, Some(INTERRUPTED.to_owned())),
             Some(Stop::Harness(why)) => (Verdict::HarnessError, Some(why.clone())),
         };
@@ -82,7 +82,7 @@ impl CaseOutcome {
             let verdict = Verdict::HarnessError;
             verdicts.push(RequirementVerdict { requirement, verdict, judgements: Vec::new() });
         }
-        let refused = matches!(stop, Some(Stop::Refused(_)));
+        let refused = matches!(stop, Some(Stop::NotPermitted(_)));
         Self { case, verdicts, checks, note, refused, time: None }
     }
 

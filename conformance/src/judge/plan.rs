@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasher as _, RandomState};
 
-use ads_cnc_vectors::{Source, requirement};
+use ads_cnc_vectors::{Source, requirement, requirements};
 
+use super::case::matches;
 use super::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
 use crate::text::did_you_mean;
@@ -23,7 +24,7 @@ use crate::text::did_you_mean;
 ///
 /// let only = vec!["VRA".to_owned()];
 /// let nothing = Selection { edition: None, only }.plan(suite::cases(), 1).unwrap_err();
-/// let why = "no requirement, stream or case is called VRA - did you mean VAR?";
+/// let why = "no requirement, section, stream or case is called VRA - did you mean VAR?";
 /// assert_eq!(nothing.to_string(), why);
 /// # Ok::<(), Unmatched>(())
 /// ```
@@ -32,14 +33,14 @@ pub struct Selection {
     /// The edition of the manual to judge by; `None` for both.
     pub edition: Option<Edition>,
     /// The words that select cases: areas such as VAR, requirements such as VAR-11 or parts of them,
-    /// streams such as variable-description, and IDs of cases. Case-insensitive; no word selects
-    /// all cases.
+    /// sections such as ads:4.3.2, streams such as variable-description, and IDs of cases, or
+    /// patterns of these with `*` and `?`. Case-insensitive; no word selects all cases.
     pub only: Vec<String>,
 }
 
 /// A word that selects no case.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no requirement, stream or case is called {word}{near}")]
+#[error("no requirement, section, stream or case is called {word}{near}")]
 pub struct Unmatched {
     word: String,
     /// The most similar names.
@@ -61,7 +62,7 @@ pub struct Plan {
 
 /// The number of cases of a subject that were not selected, and their requirements.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LeftOut {
+pub struct SkippedCase {
     pub id: String,
     /// The subject of the cases.
     pub subject: CaseSubject,
@@ -90,7 +91,8 @@ impl Selection {
             let requirements = || cases.iter().flat_map(|case| case.requirements.iter().copied());
             let areas = requirements().filter_map(|id| Some(id.split_once('-')?.0));
             let names = cases.iter().flat_map(|case| [Some(case.id.as_str()), case.stream()]);
-            let names = names.flatten();
+            let sections = sections();
+            let names = names.flatten().chain(sections.iter().map(String::as_str));
             let near = did_you_mean(word, areas.chain(requirements()).chain(names));
             return Err(Unmatched { word: word.clone(), near });
         }
@@ -162,9 +164,9 @@ impl Plan {
     }
 
     /// Limits the outcomes to the selected requirements, and adds the cases that were not run.
-    pub fn finish(self, outcomes: Vec<CaseOutcome>) -> (Vec<CaseOutcome>, Vec<LeftOut>) {
+    pub fn finish(self, outcomes: Vec<CaseOutcome>) -> (Vec<CaseOutcome>, Vec<SkippedCase>) {
         let Self { foreign, left_out, judged, .. } = self;
-        let mut left_out: Vec<LeftOut> = left_out.iter().map(|case| left(case, &[])).collect();
+        let mut left_out: Vec<SkippedCase> = left_out.iter().map(|case| left(case, &[])).collect();
         let mut kept = Vec::new();
         for mut outcome in outcomes {
             match judged.get(&outcome.case.id) {
@@ -189,17 +191,35 @@ impl Plan {
     }
 }
 
-fn left(case: &Case, judged: &[&str]) -> LeftOut {
+fn left(case: &Case, judged: &[&str]) -> SkippedCase {
     let requirements = case.requirements.iter().copied().filter(|id| !judged.contains(id));
-    LeftOut { id: case.id.clone(), subject: case.subject, requirements: requirements.collect() }
+    SkippedCase { id: case.id.clone(), subject: case.subject, requirements: requirements.collect() }
 }
 
-/// Whether a word is the area of a requirement, its ID, or the ID of one of its parts, such as
-/// VAR-4.1.
-pub(crate) fn names(word: &str, requirement: &str) -> bool {
-    let area = requirement.split_once('-').map_or("", |(area, _)| area);
-    let word = word.split('.').next().unwrap_or(word);
-    word.eq_ignore_ascii_case(requirement) || word.eq_ignore_ascii_case(area)
+/// Whether a word or pattern names a requirement: by its ID, its area, the ID of one of its parts
+/// (VAR-4.1), or a section that it is in, or a section above that (ads:4.3).
+pub(crate) fn names(word: &str, id: &str) -> bool {
+    let area = id.split('-').next().unwrap_or(id);
+    let is_in =
+        |section: String| matches(word, &section) || matches(&format!("{word}.*"), &section);
+    matches(word, id)
+        || matches(word, area)
+        || requirement(id).is_some_and(|one| {
+            one.parts.iter().any(|part| matches(word, &part.id))
+                || word.contains(':') && one.sources.iter().map(section).any(is_in)
+        })
+}
+
+/// The word that selects the section of a source in all editions of the manual: ads:4.3.2 for ads-en
+/// and ads-de.
+fn section(source: &Source) -> String {
+    let manual = source.document.split('-').next().unwrap_or_default();
+    format!("{manual}:{}", source.section)
+}
+
+/// The words that select a section.
+pub(crate) fn sections() -> Vec<String> {
+    requirements().iter().flat_map(|one| &one.sources).map(section).collect()
 }
 
 /// Whether any of the sources belongs to the edition, or none belongs to an edition.
@@ -291,6 +311,50 @@ mod tests {
         let vector = plan(None, &["description-one-dimension"], 1);
         assert_eq!(ids(&vector), ["vec-description-one-dimension"]);
         assert_eq!(ids(&plan(None, &["VAR-4.1"], 1)), ids(&plan(None, &["VAR-4"], 1)));
+    }
+
+    #[test]
+    fn patterns_select_all_matching_names() {
+        let writes = plan(None, &["WRITE-*"], 1);
+        assert!(writes.cases.len() > 5);
+        // A name may also be that of a vector, without the prefix of its ID.
+        assert!(writes.cases.iter().all(|case| case.id.contains("write-")));
+        let pattern = plan(None, &["var-1?"], 1);
+        let all: Vec<String> = (10..20).map(|number| format!("VAR-{number}")).collect();
+        let all: Vec<&str> = all.iter().map(String::as_str).collect();
+        assert_eq!(ids(&pattern), ids(&plan(None, &all, 1)));
+        assert_eq!(ids(&plan(None, &["*"], 1)), ids(&plan(None, &[], 1)));
+    }
+
+    #[test]
+    fn a_section_selects_its_requirements_and_those_of_sections_below() {
+        assert!(
+            names("ads:4.3.2", "VAR-8") && names("ADS:4.3", "VAR-8") && names("ads:4", "VAR-8")
+        );
+        assert!(
+            !names("ads:4.3.1", "VAR-8") && !names("ads:4.", "VAR-8") && !names("ads:", "VAR-8")
+        );
+        // Section 4.3.1 is not above section 4.3.10, nor one of another manual.
+        let section = |word| requirements().iter().filter(|one| names(word, &one.id)).count();
+        assert_eq!([section("ads:4.3.1"), section("ads:4.3.10"), section("stream:3.1")], [3, 1, 6]);
+        assert!(plan(None, &["stream:3"], 1).cases.len() > 5);
+    }
+
+    #[test]
+    fn unknown_parts_and_sections_are_rejected() {
+        for (word, near) in [
+            ("VAR.nonsense", ""),
+            ("VAR-4.999", ""),
+            ("ads-4.3.2", " - did you mean ads:4.3.2"),
+            ("ads:9.9", ""),
+            ("write-zz*", ""),
+            ("", ""),
+        ] {
+            let only = vec![word.to_owned()];
+            let error = Selection { edition: None, only }.plan(cases(), 1).unwrap_err();
+            let why = format!("no requirement, section, stream or case is called {word}{near}");
+            assert!(error.to_string().starts_with(&why), "{error}");
+        }
     }
 
     #[test]

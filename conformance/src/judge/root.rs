@@ -26,22 +26,22 @@ pub(super) fn is_of_device(case: &Case) -> bool {
 pub(super) fn checks(
     outcomes: &[CaseOutcome],
     wanted: fn(Verdict) -> bool,
-) -> impl Iterator<Item = Check<'_>> {
+) -> impl Iterator<Item = FailedCheck<'_>> {
     outcomes.iter().filter(|outcome| is_of_device(&outcome.case)).flat_map(move |outcome| {
         let judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
         let wanted = judged.filter(move |one| wanted(one.verdict));
-        wanted.map(|judgement| Check { case: &outcome.case, judgement })
+        wanted.map(|judgement| FailedCheck { case: &outcome.case, judgement })
     })
 }
 
 /// A check that did not pass.
 #[derive(Clone, Copy)]
-pub(super) struct Check<'a> {
+pub(super) struct FailedCheck<'a> {
     pub(super) case: &'a Case,
     pub(super) judgement: &'a Judgement,
 }
 
-impl<'a> Check<'a> {
+impl<'a> FailedCheck<'a> {
     pub(super) const fn clause(self) -> &'static str {
         self.judgement.requirement
     }
@@ -95,11 +95,11 @@ impl<'a> Check<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct Root<'a> {
     pub(super) function: Function,
-    pub(super) check: Check<'a>,
+    pub(super) check: FailedCheck<'a>,
 }
 
 impl<'a> Root<'a> {
-    fn of(check: Check<'a>) -> Option<Self> {
+    fn of(check: FailedCheck<'a>) -> Option<Self> {
         let (clause, function) = (check.clause(), check.function()?);
         let is_root = is_of_functions(clause) && defines(clause, function);
         is_root.then_some(Self { function, check })
@@ -114,7 +114,7 @@ impl<'a> Root<'a> {
 
     /// Whether this root can explain the failed `check` of a later function. It cannot if the target
     /// accepted a request that it must reject, or if the root compares more replies than `check`.
-    pub(super) fn explains_later(&self, check: Check<'_>) -> bool {
+    pub(super) fn explains_later(&self, check: FailedCheck<'_>) -> bool {
         let evidence = self.check.judgement.evidence.as_ref();
         !evidence.is_some_and(|evidence| evidence.is_rejection)
             && self.check.compared().len() <= check.compared().len().max(1)
@@ -122,20 +122,20 @@ impl<'a> Root<'a> {
 
     /// Whether this root explains the failure of `check`, which compares the replies of several
     /// functions: the root shows with fewer of these replies that one of these functions is wrong.
-    pub(super) fn explains_comparison(&self, check: Check<'_>) -> bool {
-        let (mine, compared) = (self.check.compared(), check.compared());
-        let mut homes = before(self.function);
-        homes.insert(self.function);
-        mine.len() < compared.len()
+    pub(super) fn explains_comparison(&self, check: FailedCheck<'_>) -> bool {
+        let (own_functions, compared) = (self.check.compared(), check.compared());
+        let mut functions = before(self.function);
+        functions.insert(self.function);
+        own_functions.len() < compared.len()
             && compared.contains(&self.function)
-            && mine.iter().all(|function| compared.contains(function))
+            && own_functions.iter().all(|function| compared.contains(function))
             && is_of_functions(check.clause())
-            && !homes.into_iter().any(|home| defines(check.clause(), home))
+            && !functions.into_iter().any(|home| defines(check.clause(), home))
     }
 }
 
 /// The roots that no other root explains.
-pub(super) fn roots<'a>(broken: &[Check<'a>]) -> Vec<Root<'a>> {
+pub(super) fn roots<'a>(broken: &[FailedCheck<'a>]) -> Vec<Root<'a>> {
     let mut all: Vec<Root<'_>> = broken.iter().filter_map(|check| Root::of(*check)).collect();
     // A root that compares fewer replies comes first, because only such a root explains a comparison.
     all.sort_by_key(|root| root.check.compared().len());

@@ -8,8 +8,8 @@ use crate::exit::Exit;
 pub struct VerdictTally {
     judged: bool,
     failed: bool,
-    open: bool,
-    broken: bool,
+    is_undecided: bool,
+    has_harness_error: bool,
     /// Whether the gate rejected a request.
     pub refused: bool,
     /// Whether a waiver is stale.
@@ -36,22 +36,23 @@ impl VerdictTally {
         }
         match verdict {
             Verdict::Fail | Verdict::Vacuous => self.failed = true,
-            Verdict::Inconclusive | Verdict::Interrupted => self.open = true,
-            Verdict::HarnessError => self.broken = true,
+            Verdict::Inconclusive | Verdict::Interrupted => self.is_undecided = true,
+            Verdict::HarnessError => self.has_harness_error = true,
             _ => {}
         }
     }
 
     /// The exit code with the highest precedence.
     pub const fn exit(self) -> Exit {
-        let Self { judged, failed, open, broken, refused, stale, left_changed } = self;
-        match (broken, left_changed, refused, failed, stale) {
+        let Self { judged, failed, is_undecided, has_harness_error, refused, stale, left_changed } =
+            self;
+        match (has_harness_error, left_changed, refused, failed, stale) {
             (true, ..) => Exit::Internal,
-            (_, true, ..) => Exit::LeftChanged,
-            (_, _, true, ..) => Exit::Refused,
+            (_, true, ..) => Exit::UnrestoredValue,
+            (_, _, true, ..) => Exit::NotPermitted,
             (_, _, _, true, _) => Exit::Failure,
             (.., true) => Exit::Stale,
-            _ if open || !judged => Exit::Nothing,
+            _ if is_undecided || !judged => Exit::Nothing,
             _ => Exit::Success,
         }
     }

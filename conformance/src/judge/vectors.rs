@@ -2,7 +2,9 @@
 
 use std::collections::HashSet;
 
-use ads_cnc_vectors::{Context, Given, Sequence, Vector, sequence, sequences, vector, vectors};
+use ads_cnc_vectors::{
+    Context, Sequence, SequenceInput, Vector, sequence, sequences, vector, vectors,
+};
 
 use super::{Body, Case, CaseSubject, Needs};
 use crate::value_format::{ValueFormat, type_by_name};
@@ -15,7 +17,7 @@ pub(crate) fn codec_cases() -> Vec<Case> {
 }
 
 fn is_text(sequence: &Sequence) -> bool {
-    matches!(sequence.given, Given::NcText(_) | Given::NcCheck(_))
+    matches!(sequence.given, SequenceInput::NcText(_) | SequenceInput::NcCheck(_))
 }
 
 fn of_text(sequence: &'static Sequence) -> Case {

@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 use toml::value::{Date, Datetime};
 use toml::{Spanned, Value};
 
-use super::{CaseOutcome, LeftOut, Verdict};
+use super::{CaseOutcome, SkippedCase, Verdict};
 use crate::text::{Moment, found, toml_error};
 
 /// Known failures.
@@ -161,7 +161,7 @@ impl Waivers {
     pub(crate) fn apply(
         &self,
         outcomes: &[CaseOutcome],
-        left_out: &[LeftOut],
+        left_out: &[SkippedCase],
         now: Moment,
     ) -> Vec<WaiverReport> {
         self.0.iter().map(|waiver| waiver.apply(outcomes, left_out, now)).collect()
@@ -169,7 +169,12 @@ impl Waivers {
 }
 
 impl Waiver {
-    fn apply(&self, outcomes: &[CaseOutcome], left_out: &[LeftOut], now: Moment) -> WaiverReport {
+    fn apply(
+        &self,
+        outcomes: &[CaseOutcome],
+        left_out: &[SkippedCase],
+        now: Moment,
+    ) -> WaiverReport {
         let Self { test, requirement, verdict, reason, expires } = self;
         let left = left_out
             .iter()

@@ -6,7 +6,7 @@ mod variable;
 
 pub use lookup::Lookup;
 
-use crate::objects::Object;
+use crate::objects::ListedValue;
 use crate::session::{Session, ToolError};
 
 /// Finds an object by its name.
@@ -36,7 +36,7 @@ use crate::session::{Session, ToolError};
 ///
 /// # Errors
 /// If no object, or more than one object, has this name; the error contains advice.
-pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
+pub fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)
     } else {
@@ -49,7 +49,7 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError>
 ///
 /// # Errors
 /// If the name cannot be encoded.
-pub fn by_name_alone(lookup: &Lookup) -> Result<Option<Object>, ToolError> {
+pub fn by_name_alone(lookup: &Lookup) -> Result<Option<ListedValue>, ToolError> {
     let is_variable = variable::is_named(&lookup.name) || lookup.axis.is_some();
     is_variable.then(|| variable::unasked(lookup)).transpose()
 }

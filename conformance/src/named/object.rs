@@ -3,7 +3,7 @@
 use ads_cnc::CncString;
 
 use super::Lookup;
-use crate::objects::{Object, Options, Pattern, walk};
+use crate::objects::{ListedValue, Options, Pattern, walk};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
 
@@ -11,7 +11,7 @@ use crate::values::Type;
 const SHOWN: usize = 12;
 
 /// Searches all lists that may contain the name; more than one match is an error.
-pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
+pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let Lookup { name, channel, lists, offset, ty, .. } = lookup;
     let wanted: CncString = name.parse().map_err(ToolError::Unsendable)?;
     let options = Options {
@@ -36,22 +36,22 @@ pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, Too
                 let size = object.ty.size;
                 let taken = Type::hinted(*ty);
                 let taken = size.map_or(taken.clone(), |size| taken.fitted(size));
-                Object { ty: taken, ..object }
+                ListedValue { ty: taken, ..object }
             }
             None => object,
         }),
         (Some(last), others) => {
-            let all: Vec<&Object> = others.iter().chain([&last]).collect();
+            let all: Vec<&ListedValue> = others.iter().chain([&last]).collect();
             Err(ToolError::Usage(several(name, &all)))
         }
         (None, _) => Err(ToolError::Absent(absent(lookup))),
     }
 }
 
-fn several(name: &str, all: &[&Object]) -> String {
+fn several(name: &str, all: &[&ListedValue]) -> String {
     let mut why = format!("{} objects have the name {name}; select one:", all.len());
     for object in all.iter().take(SHOWN) {
-        let Object { list, address, .. } = object;
+        let ListedValue { list, address, .. } = object;
         let offset = address.content().map(|(_, offset)| offset.to_string()).unwrap_or_default();
         let alone = all.iter().filter(|other| other.list == *list).count() == 1;
         let offset = if alone { String::new() } else { format!(" --offset {offset}") };

@@ -7,7 +7,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncStr, CncString, DescriptionRef, Handle, Kind, VariablePath};
 
 use super::Lookup;
-use crate::objects::{List, Object, ReportedAccess, ValueAddress};
+use crate::objects::{ListedValue, ReportedAccess, ValueAddress, ValueList};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
 
@@ -30,7 +30,7 @@ fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
 }
 
 /// Describes the error in a name, and quotes the part of the name before the error.
-fn told(name: &str, error: &ads_cnc::Error) -> String {
+fn reason(name: &str, error: &ads_cnc::Error) -> String {
     let error_text = error.to_string();
     let what = match error.kind() {
         ads_cnc::ErrorKind::Truncated if name.matches('[').count() > name.matches(']').count() => {
@@ -50,12 +50,12 @@ fn told(name: &str, error: &ads_cnc::Error) -> String {
 }
 
 /// The object with the address that its name determines; sends no request.
-pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
+pub(super) fn unasked(lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let Lookup { name, channel, axis, ty, .. } = lookup;
     let text: CncString = name.parse().map_err(ToolError::Unsendable)?;
     let hint = |ty: &Option<DataType>| ty.map_or(Type::UNKNOWN, Type::hinted);
     match (kind_of_parameter(name), axis) {
-        (Some(kind), None) => Ok(Object::of_parameter(*channel, kind, text)),
+        (Some(kind), None) => Ok(ListedValue::of_parameter(*channel, kind, text)),
         _ => {
             let path = VariablePath::new(name).map_err(|error| {
                 let indices = name.replace(',', "][");
@@ -64,8 +64,8 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
                 } else {
                     String::new()
                 };
-                let told = told(name, &error);
-                ToolError::Usage(format!("{name} is not the name of a variable: {told}{hint}"))
+                let reason = reason(name, &error);
+                ToolError::Usage(format!("{name} is not the name of a variable: {reason}{hint}"))
             })?;
             let kind = path.kind().text().to_string();
             if axis.is_some() && kind != "V.A" {
@@ -73,7 +73,7 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
                 return Err(ToolError::Usage(why));
             }
             let kind = KINDS.into_iter().find(|known| *known == kind).unwrap_or("V");
-            let list = List::Variables {
+            let list = ValueList::Variables {
                 kind,
                 channel: channel.number(),
                 axis: axis.map(ChannelAxis::index),
@@ -83,7 +83,7 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
                 Some(axis) => ValueAddress::Axis { channel, axis, name },
                 None => ValueAddress::Name { channel, name },
             };
-            Ok(Object {
+            Ok(ListedValue {
                 list,
                 address,
                 name: text,
@@ -98,34 +98,34 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<Object, ToolError> {
 
 /// The variable with its type, from the description by name, or from the descriptions by index if
 /// the CNC does not have that function.
-pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<Object, ToolError> {
+pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let object = unasked(lookup)?;
     if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {
         return Ok(object);
     }
     let (channel, axis) = (lookup.channel, lookup.axis);
     let path = VariablePath::from_text(object.name.as_cnc_str()).map_err(ToolError::Unsendable)?;
-    let told = match axis {
+    let reason = match axis {
         None => described(session, channel, &path)?,
         Some(_) => None,
     };
-    let told = match told {
-        Some(told) => Some(told),
+    let reason = match reason {
+        Some(reason) => Some(reason),
         None => {
             // Fail early if the variable does not exist.
             session.read(&object.address)?;
             listed(session, channel, &path, axis.is_some())?
         }
     };
-    let Some(DescribedVariable { ty, access, handle }) = told else { return Ok(object) };
+    let Some(DescribedVariable { ty, access, handle }) = reason else { return Ok(object) };
     let indices = path.elements();
     let ty = if indices.is_empty() {
         ty
     } else {
-        let odd = |why| ToolError::Usage(format!("{}: {why}", path.text()));
-        ty.element(indices).map_err(odd)?
+        let invalid = |why| ToolError::Usage(format!("{}: {why}", path.text()));
+        ty.element(indices).map_err(invalid)?
     };
-    Ok(Object { ty, access, handle, ..object })
+    Ok(ListedValue { ty, access, handle, ..object })
 }
 
 /// The fields of a description that [`find`] uses.

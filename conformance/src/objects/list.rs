@@ -10,13 +10,13 @@ use ads_cnc::operation::ObjectList;
 ///
 /// ```
 /// use ads_cnc::address::Class;
-/// use ads_cnc_conformance::objects::List;
+/// use ads_cnc_conformance::objects::ValueList;
 ///
-/// let decoder = List::Class { class: Class::Decoder, channel: Some(1), axis: Some(2) };
+/// let decoder = ValueList::Class { class: Class::Decoder, channel: Some(1), axis: Some(2) };
 /// assert_eq!(decoder.to_string(), "decoder channel 1 axis 2");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum List {
+pub enum ValueList {
     /// COM: the platform.
     Platform,
     /// COM: a channel.
@@ -42,7 +42,7 @@ pub enum List {
     Parameters { kind: DynamicKind, channel: u8 },
 }
 
-impl List {
+impl ValueList {
     /// The number of the channel to which the list, or its axis, belongs.
     pub(crate) fn channel(&self) -> Option<u8> {
         match *self {
@@ -65,7 +65,7 @@ impl List {
     }
 }
 
-impl From<ObjectList> for List {
+impl From<ObjectList> for ValueList {
     fn from(list: ObjectList) -> Self {
         let parts = list.parts();
         match (parts.table, parts.instance) {
@@ -76,7 +76,7 @@ impl From<ObjectList> for List {
     }
 }
 
-impl fmt::Display for List {
+impl fmt::Display for ValueList {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Platform => f.write_str("COM platform"),

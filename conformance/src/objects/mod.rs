@@ -32,15 +32,14 @@
 
 mod list;
 mod object;
-mod pattern;
 mod report;
 mod table;
 mod value_address;
 mod walk;
 
-pub use list::List;
-pub use object::{Object, ReportedAccess};
-pub use pattern::Pattern;
+pub use crate::text::Pattern;
+pub use list::ValueList;
+pub use object::{ListedValue, ReportedAccess};
 pub use report::{ObjectReport, ObjectsReport};
 pub use table::{Column, VALUE, columns, csv, table};
 pub use value_address::ValueAddress;

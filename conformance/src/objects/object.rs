@@ -7,14 +7,14 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::value::DataType;
 use ads_cnc::{CncString, Description, DescriptorRef, Handle, VariableAccess};
 
-use super::{List, ValueAddress};
+use super::{ValueAddress, ValueList};
 use crate::gate::Entry;
 use crate::values::Type;
 
 /// An entry of a list, with the address of its value.
 #[derive(Clone, Debug)]
-pub struct Object {
-    pub list: List,
+pub struct ListedValue {
+    pub list: ValueList,
     pub name: CncString,
     pub address: ValueAddress,
     pub ty: Type,
@@ -25,9 +25,9 @@ pub struct Object {
     pub handle: Option<Handle>,
 }
 
-impl Object {
+impl ListedValue {
     /// The object of the COM task with this descriptor.
-    pub(crate) fn of_descriptor(list: List, descriptor: DescriptorRef<'_>) -> Self {
+    pub(crate) fn of_descriptor(list: ValueList, descriptor: DescriptorRef<'_>) -> Self {
         let (group, offset) = (descriptor.index_group(), descriptor.index_offset());
         Self {
             list,
@@ -41,7 +41,7 @@ impl Object {
     }
 
     /// The variable with this description.
-    pub(crate) fn of_description(list: List, channel: Channel, variable: Description) -> Self {
+    pub(crate) fn of_description(list: ValueList, channel: Channel, variable: Description) -> Self {
         let Description { var_type, dimensions, size, access, handle, name, .. } = variable;
         let name = name.text;
         Self {
@@ -59,7 +59,7 @@ impl Object {
     /// but on some CNCs V.L, V.P and V.S are also variables (VAR-18).
     pub(crate) fn of_parameter(channel: Channel, kind: DynamicKind, name: CncString) -> Self {
         Self {
-            list: List::Parameters { kind, channel: channel.number() },
+            list: ValueList::Parameters { kind, channel: channel.number() },
             address: ValueAddress::Parameter { channel, kind, name: name.clone() },
             name,
             ty: Type::known(DataType::Real64, Vec::new()),

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Object;
+use super::ListedValue;
 use crate::session::Session;
 use crate::text::hex;
 use crate::values::value_of;
@@ -65,8 +65,8 @@ pub struct ObjectReport {
     pub error: Option<String>,
 }
 
-impl From<&Object> for ObjectReport {
-    fn from(object: &Object) -> Self {
+impl From<&ListedValue> for ObjectReport {
+    fn from(object: &ListedValue) -> Self {
         let text = |text: String| Some(text).filter(|text| !text.is_empty());
         let address = object.address.content();
         Self {
@@ -90,7 +90,7 @@ impl From<&Object> for ObjectReport {
 
 impl ObjectReport {
     /// The entry of an object with its value, or the reason why it could not be read.
-    pub fn read(object: &Object, content: &Result<Vec<u8>, String>) -> Self {
+    pub fn read(object: &ListedValue, content: &Result<Vec<u8>, String>) -> Self {
         let report = Self::from(object);
         match content {
             Ok(bytes) => {

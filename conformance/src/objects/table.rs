@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::Object;
+use super::ListedValue;
 use crate::text::shorten;
 use crate::values::printable;
 
@@ -11,7 +11,7 @@ use crate::values::printable;
 pub struct Column {
     /// The heading of the column.
     pub head: &'static str,
-    pub cell: fn(&Object) -> String,
+    pub cell: fn(&ListedValue) -> String,
 }
 
 /// The columns for variables, or for objects and elements.

@@ -86,7 +86,7 @@ impl Interrupt {
         on_first: impl Fn() + Send + 'static,
         on_second: impl Fn() -> Option<Exit> + Send + 'static,
     ) -> io::Result<Self> {
-        let (tell, told) = mpsc::channel();
+        let (sender, receiver) = mpsc::channel();
         let begun = OnceLock::new();
         let handler = move || {
             let begun: &Instant = begun.get_or_init(Instant::now);
@@ -101,11 +101,11 @@ impl Interrupt {
                 process::exit(code);
             }
             // Fails if nothing waits for the channel: some waits poll `is_requested` instead.
-            let _waiting = tell.send(());
+            let _waiting = sender.send(());
             on_first();
         };
         on_signals(handler)?;
-        Ok(Self(told))
+        Ok(Self(receiver))
     }
 
     /// Waits for a signal.

@@ -221,8 +221,8 @@ fn ports<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u16>>, D::Err
 }
 
 fn is_channel(number: u32) -> Result<(), String> {
-    let odd = |_| format!("{number} is not a channel; channels are numbered from 1 to 255");
-    Channel::new(number).map(drop).map_err(odd)
+    let invalid = |_| format!("{number} is not a channel; channels are numbered from 1 to 255");
+    Channel::new(number).map(drop).map_err(invalid)
 }
 
 fn channels<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u32>>, D::Error> {
@@ -254,8 +254,9 @@ fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>
     checked(value, |places: Vec<(u32, u32)>| {
         each(places, "place", |&(channel, place)| {
             is_channel(channel)?;
-            let odd = |_| format!("{place} is not an axis place; axis places are counted from 1");
-            ChannelAxis::new(place).map(drop).map_err(odd)
+            let invalid =
+                |_| format!("{place} is not an axis place; axis places are counted from 1");
+            ChannelAxis::new(place).map(drop).map_err(invalid)
         })
     })
 }

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::model::Report;
+use super::document::Report;
 use crate::exit::Exit;
-use crate::judge::{LeftChanged, Verdict};
+use crate::judge::{UnrestoredValue, Verdict};
 use crate::text::{json, plural, shorten};
 
 /// The JSON that shields.io reads from an endpoint; it rejects other keys.
@@ -29,8 +29,8 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         Exit::Failure => ("failed", "red"),
         Exit::Stale => ("stale waiver", "orange"),
         Exit::Nothing => ("inconclusive", "lightgrey"),
-        Exit::Refused => ("rejected for safety", "orange"),
-        Exit::LeftChanged => ("left changed", "red"),
+        Exit::NotPermitted => ("rejected for safety", "orange"),
+        Exit::UnrestoredValue => ("left changed", "red"),
         Exit::Usage | Exit::Internal => ("error", "red"),
     };
     let of = |verdict: Verdict| -> usize {
@@ -61,7 +61,7 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Name and values, truncated to fit a badge.
-fn describe(left: &LeftChanged) -> String {
+fn describe(left: &UnrestoredValue) -> String {
     let cut = |text: &str| shorten(text, 40);
     let is = left.is.as_deref().map_or_else(|| "unknown".to_owned(), cut);
     format!("{}, was {}, is {is}", cut(&left.name), cut(&left.was))

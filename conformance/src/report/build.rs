@@ -6,11 +6,11 @@ use std::time::Duration;
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
 use super::display::NAMES_MAX;
-use super::failures::{differing_field, list};
-use super::model::{
+use super::document::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals,
 };
+use super::failures::{differing_field, list};
 use super::{BytesReport, FoundReport};
 
 use crate::edition::Edition;
@@ -18,7 +18,7 @@ use crate::evidence::Evidence;
 use crate::exit::Exit;
 use crate::explain;
 use crate::judge::{
-    CLIENT, CaseOutcome, CaseSubject, Judgement, LeftChanged, LeftOut, TESTEE, Verdict,
+    CLIENT, CaseOutcome, CaseSubject, Judgement, SkippedCase, TESTEE, UnrestoredValue, Verdict,
     VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
 };
 use crate::profile::Profile;
@@ -51,14 +51,14 @@ pub struct RunInfo {
     /// The duration of the cases of each subject.
     pub times: Vec<(CaseSubject, Duration)>,
     /// Values that were changed and not restored.
-    pub left_changed: Vec<LeftChanged>,
+    pub left_changed: Vec<UnrestoredValue>,
     /// Why the run ended before all its cases were run.
     pub ended: Option<String>,
 }
 
 impl Report {
     /// Builds the report of a run.
-    pub fn new(about: RunInfo, outcomes: &[CaseOutcome], left_out: &[LeftOut]) -> Self {
+    pub fn new(about: RunInfo, outcomes: &[CaseOutcome], left_out: &[SkippedCase]) -> Self {
         let RunInfo {
             time,
             edition,
@@ -95,7 +95,7 @@ impl Report {
         }
         tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
-        let is_whole = |left: &&LeftOut| !outcomes.iter().any(|one| one.case.id == left.id);
+        let is_whole = |left: &&SkippedCase| !outcomes.iter().any(|one| one.case.id == left.id);
         let subjects: Vec<SubjectReport> = CaseSubject::ALL
             .into_iter()
             .filter_map(|subject| {
@@ -140,9 +140,9 @@ impl Report {
     /// rejected entry prevents success, because a requested write was not tried.
     #[must_use]
     pub fn with_writes(mut self, rejected: Vec<String>, written: Vec<String>) -> Self {
-        let decided = [Exit::Internal, Exit::LeftChanged, Exit::Usage].contains(&self.exit());
+        let decided = [Exit::Internal, Exit::UnrestoredValue, Exit::Usage].contains(&self.exit());
         if !rejected.is_empty() && !decided {
-            self.exit_code = Exit::Refused.code();
+            self.exit_code = Exit::NotPermitted.code();
         }
         self.rejected.splice(0..0, rejected);
         self.written = written;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use super::display::Detail;
+use super::document::{Report, RequirementReport};
 use super::failures::list;
-use super::model::{Report, RequirementReport};
 use crate::exit::Exit;
 use crate::judge::{CaseSubject, Verdict};
 use crate::text::plural;
@@ -71,7 +71,8 @@ fn judged(report: &Report) -> Judged<'_> {
     of_case.collect()
 }
 
-/// The differences that make two reports hard to compare: target, profile and selection.
+/// The differences that make two reports hard to compare: suite, vectors, editions, target, profile
+/// and selection.
 fn differences(now: &Report, before: &Report) -> Vec<String> {
     let differ = |what: &str, before: String, now: String| {
         (before != now).then(|| format!("different {what}: {before} before, {now} now"))
@@ -99,6 +100,9 @@ fn differences(now: &Report, before: &Report) -> Vec<String> {
         _ => None,
     };
     let all = [
+        differ("suite", before.suite.clone(), now.suite.clone()),
+        differ("vectors", before.vectors.clone(), now.vectors.clone()),
+        differ("editions", before.editions.join(", "), now.editions.join(", ")),
         differ("target", target(before), target(now)),
         differ("profile", name(before), name(now)),
         claims.map(|names| format!("different claims of the profile: {names}")),

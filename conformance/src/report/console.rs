@@ -7,10 +7,10 @@ use ads_cnc_vectors::requirement;
 use anstyle::AnsiColor;
 
 use super::display::{Detail, DisplayOptions, NAMES_MAX, RESULT_MAX, worded};
-use super::failures::{blocks, list};
-use super::model::{
+use super::document::{
     CaseReport, FailureReport, Report, RequirementReport, SubjectReport, TargetReport, Totals,
 };
+use super::failures::{blocks, list};
 use crate::exit::Exit;
 use crate::judge::{CLIENT, CaseSubject, HELLO, NOT_CLAIMED, TESTEE, Verdict, WaiverReport};
 use crate::text::{plural, shorten};
@@ -160,10 +160,10 @@ pub(super) const fn heading(subject: CaseSubject) -> &'static str {
 }
 
 /// The cases of a subject; vectors are grouped by stream.
-fn cases(report: &Report, who: CaseSubject, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "{}", heading(who))?;
+fn cases(report: &Report, judged_subject: CaseSubject, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "{}", heading(judged_subject))?;
     let sorted = report.sorted();
-    let mine = || sorted.iter().copied().filter(|case| case.subject == who);
+    let mine = || sorted.iter().copied().filter(|case| case.subject == judged_subject);
     let mut streams: BTreeMap<&str, Vec<&CaseReport>> = BTreeMap::new();
     for case in mine() {
         if let Some(stream) = &case.stream {

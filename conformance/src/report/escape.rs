@@ -3,12 +3,12 @@
 
 use serde_json::Value;
 
-use super::model::{
+use super::document::{
     AreaReport, CaseReport, EvidenceReport, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport,
 };
 use super::{BytesReport, DeviceReport, FieldReport, FoundReport};
-use crate::judge::{LeftChanged, WaiverReport};
+use crate::judge::{UnrestoredValue, WaiverReport};
 use crate::text::{escape, escape_lines, is_escaped};
 
 impl Report {
@@ -71,7 +71,7 @@ impl Report {
         {
             all([test, requirement, reason, expires]);
         }
-        for LeftChanged { name, was, is, refused } in left_changed {
+        for UnrestoredValue { name, was, is, refused } in left_changed {
             all([name, was]);
             all(is.iter_mut().chain(refused));
         }

@@ -9,9 +9,9 @@ use anstyle::AnsiColor;
 
 use super::BytesReport;
 use super::display::{Detail, DisplayOptions, NAMES_MAX, RESULT_MAX, WIDTH};
+use super::document::{EvidenceReport, FailureReport, Report};
 use super::groups::{Group, groups};
 use super::lines::{is_fault, lines, marked};
-use super::model::{EvidenceReport, FailureReport, Report};
 use crate::judge::{CLIENT, CaseSubject, TESTEE};
 use crate::text::{plural, shorten, wrap};
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{sequence, vector};
 
-use super::model::{CaseReport, FailureReport, Report};
+use super::document::{CaseReport, FailureReport, Report};
 use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict, clauses_of};
 
 /// Checks that failed for the same clause, or in the same field of vectors of one stream.
@@ -24,29 +24,29 @@ pub(super) struct Group<'r> {
 impl Report {
     /// The cases by subject, stream, requirement and ID: the same order for every seed.
     pub(super) fn sorted(&self) -> Vec<&CaseReport> {
-        let place = self.places();
+        let position = self.positions();
         let mut all: Vec<&CaseReport> = self.cases.iter().collect();
         all.sort_by_cached_key(|case| {
             let first = case.requirements.first().map(|one| one.requirement.as_str());
-            let place = first.and_then(|id| place.get(id).copied()).unwrap_or(usize::MAX);
-            (case.subject, case.stream.clone(), place, case.id.clone())
+            let position = first.and_then(|id| position.get(id).copied()).unwrap_or(usize::MAX);
+            (case.subject, case.stream.clone(), position, case.id.clone())
         });
         all
     }
 
     /// The position of each requirement in the catalogue.
-    fn places(&self) -> BTreeMap<&str, usize> {
+    fn positions(&self) -> BTreeMap<&str, usize> {
         let all = self.subjects.iter().flat_map(|one| &one.areas);
         let all = all.flat_map(|area| &area.requirements).enumerate();
-        all.map(|(place, one)| (one.requirement.as_str(), place)).collect()
+        all.map(|(position, one)| (one.requirement.as_str(), position)).collect()
     }
 }
 
 /// The groups in the order of their verdicts, the gravest last, and then in the order of their
 /// requirements.
 pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
-    let places = report.places();
-    let place = |id: &str| places.get(id).copied().unwrap_or(usize::MAX);
+    let positions = report.positions();
+    let position = |id: &str| positions.get(id).copied().unwrap_or(usize::MAX);
     let mut all: BTreeMap<GroupKey<'_>, Group<'_>> = BTreeMap::new();
     let (mut followers, mut vacuous) = (Vec::new(), Vec::new());
     let failed = failed(report);
@@ -75,10 +75,10 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 gravity: first.verdict.gravity(),
                 waived: !first.waived,
                 subject: case.subject,
-                place: match (lost, stream) {
+                position: match (lost, stream) {
                     (Some(_), _) => usize::MAX,
                     (None, Some(_)) => 0,
-                    (None, None) => place(&first.requirement),
+                    (None, None) => position(&first.requirement),
                 },
                 stream,
                 field: lost.or_else(|| stream.map(|_| field(first))),
@@ -101,7 +101,7 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
             *numbers.entry(clause).or_default() += 1;
         }
         let mut sorted: Vec<(&str, usize)> = numbers.into_iter().collect();
-        sorted.sort_by_key(|(clause, number)| (std::cmp::Reverse(*number), place(clause)));
+        sorted.sort_by_key(|(clause, number)| (std::cmp::Reverse(*number), position(clause)));
         group.requirements = sorted.into_iter().map(|(clause, _)| clause).collect();
     }
     for (cause, failure, case) in followers {
@@ -148,7 +148,7 @@ struct GroupKey<'r> {
     gravity: u8,
     waived: bool,
     subject: CaseSubject,
-    place: usize,
+    position: usize,
     stream: Option<&'r str>,
     field: Option<&'r str>,
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::FoundReport;
 use super::console::describe;
-use super::model::{ProfileReport, Report};
+use super::document::{ProfileReport, Report};
 use crate::exit::Exit;
 use crate::judge::{Verdict, about};
 use cause::{CauseView, causes};
@@ -61,8 +61,8 @@ fn meaning(report: &Report) -> (String, Vec<FailedView>) {
         Exit::Nothing => {
             "Nothing was judged, a result is inconclusive, or the run was interrupted."
         }
-        Exit::LeftChanged => "A value was changed and could not be restored.",
-        Exit::Refused => {
+        Exit::UnrestoredValue => "A value was changed and could not be restored.",
+        Exit::NotPermitted => {
             "Requests were rejected for safety, so the target was not judged completely."
         }
         Exit::Stale => "Nothing fails, but a waiver is no longer valid.",

@@ -9,8 +9,8 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use super::FoundReport;
 use super::console::describe;
 use super::display::RESULT_MAX;
+use super::document::{CaseReport, Report};
 use super::failures::{finding, sentence};
-use super::model::{CaseReport, Report};
 use crate::judge::{Verdict, WaiverReport};
 
 /// Writes the report as JUnit XML.

@@ -6,16 +6,16 @@ mod bytes;
 mod compare;
 mod console;
 mod device;
+mod discovery;
 mod display;
+mod document;
 mod escape;
 mod failures;
-mod found;
 mod groups;
 mod html;
 mod junit;
 pub(crate) mod lines;
 mod markdown;
-mod model;
 mod statement;
 
 use std::io::{self, Write};
@@ -28,15 +28,15 @@ pub use bytes::{BytesReport, FieldReport};
 pub use compare::compare;
 pub use console::print;
 pub use device::DeviceReport;
+pub use discovery::{FoundChannel, FoundList, FoundReport};
 pub use display::{Detail, DisplayOptions};
-pub use found::{FoundChannel, FoundList, FoundReport};
-pub use html::to_html;
-pub use junit::to_junit;
-pub use markdown::to_markdown;
-pub use model::{
+pub use document::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals,
 };
+pub use html::to_html;
+pub use junit::to_junit;
+pub use markdown::to_markdown;
 
 pub use statement::{to_statement, to_statement_html};
 

@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use super::FoundReport;
 use super::console::describe;
+use super::document::{AreaReport, Report, RequirementReport, SubjectReport};
 use super::failures::list;
 use super::html::claims;
 use super::markdown::plain;
-use super::model::{AreaReport, Report, RequirementReport, SubjectReport};
 use crate::exit::Exit;
 use crate::judge::{Verdict, about};
 

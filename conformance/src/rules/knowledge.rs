@@ -67,14 +67,18 @@ pub(super) struct Knowledge {
     pub(super) elements: ObservedElements,
     pub(super) parameters: ObservedParameters,
     pub(super) variables: Variables,
-    pub(super) streams: Streams,
+    pub(super) streams: ObservedProgramStreams,
     pub(super) services: Services,
 }
 
 impl Knowledge {
     /// `is_lost`: whether the CNC may have received requests before the first one observed.
     pub(super) fn new(is_lost: bool) -> Self {
-        Self { streams: Streams::new(is_lost), services: Services::new(is_lost), ..Self::default() }
+        Self {
+            streams: ObservedProgramStreams::new(is_lost),
+            services: Services::new(is_lost),
+            ..Self::default()
+        }
     }
 }
 
@@ -153,27 +157,27 @@ pub(super) struct ChannelVariables {
 
 /// The program streams of a CNC as far as observed, by index group of the channel.
 #[derive(Debug, Default)]
-pub(super) struct Streams {
-    pub(super) known: BTreeMap<u32, ObservedStream>,
+pub(super) struct ObservedProgramStreams {
+    pub(super) known: BTreeMap<u32, ObservedProgramStream>,
     /// Whether earlier writes may exist that were not observed.
     pub(super) is_lost: bool,
 }
 
-impl Streams {
+impl ObservedProgramStreams {
     pub(super) const fn new(is_lost: bool) -> Self {
         Self { known: BTreeMap::new(), is_lost }
     }
 }
 
 #[derive(Default)]
-pub(super) struct ObservedStream {
+pub(super) struct ObservedProgramStream {
     /// The last packet that was rejected, and when.
     pub(super) refused: Option<(Vec<u8>, Option<Duration>)>,
     /// Checks the program so far; `None` while its beginning is unknown.
     pub(super) checker: Option<Checker>,
 }
 
-impl fmt::Debug for ObservedStream {
+impl fmt::Debug for ObservedProgramStream {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("ObservedStream").field("refused", &self.refused).finish_non_exhaustive()
     }
@@ -211,7 +215,7 @@ pub(super) struct ObservedInterface {
     pub(super) wrote_request: bool,
     /// Whether a client that acts as the NC program has written REQUEST_STATE != 0, and no
     /// RESPONSE_STATE was written since.
-    pub(super) asked: bool,
+    pub(super) has_request: bool,
 }
 
 /// The variable that a request is about.

@@ -32,9 +32,9 @@ pub(crate) use self::observation::Observation;
 pub(crate) use self::requests::function_at;
 pub(crate) use self::topic::{Topic, captured_cases, reply_cases};
 pub(crate) use self::variables::{check_description, check_extended, element_count};
-use crate::wire_service;
+use crate::ads_service;
 
 /// The requirement of the service with this command.
 pub(crate) fn service_clause(command: Command) -> ClauseId {
-    wire_service::service_of(command).map_or(ADS_5, wire_service::clause)
+    ads_service::service_of(command).map_or(ADS_5, ads_service::clause)
 }

@@ -3,17 +3,17 @@
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::AmsHeader;
 use ads_cnc::limits::DESCRIPTOR_LEN;
-use ads_cnc::operation::{Call, DispatchError, Reply, Request, Service};
+use ads_cnc::operation::{AdsService, Call, DispatchError, Reply, Request};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
 use super::knowledge::ExchangeJudge;
 use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
+use crate::ads_service;
 use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::text::plural;
-use crate::wire_service;
 
 /// Checks the headers of a reply.
 pub(super) fn headers(
@@ -37,7 +37,7 @@ pub(super) fn service<'e>(
     observation: &dyn Observation,
     exchange: &'e Exchange,
 ) -> Option<&'e AdsReply> {
-    let clause = wire_service::clause(exchange.service);
+    let clause = ads_service::clause(exchange.service);
     let mut record = records.on(Topic::CncServices, observation);
     match &exchange.outcome {
         Ok((answer, header)) => {
@@ -96,7 +96,8 @@ pub(super) fn judge(
                 Some("STM") => Topic::CncStream,
                 _ => Topic::CncVar,
             };
-            let given = data.is_some_and(|data| !data.is_empty() || call.service == Service::Write);
+            let given =
+                data.is_some_and(|data| !data.is_empty() || call.service == AdsService::Write);
             let mut record = context.records.on(case, observation);
             if given && record.knows(clause) {
                 record.check(rule, false, || format!("an error number for {error}"), "a success");

@@ -2,17 +2,17 @@
 
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, DispatchError, Function, Request, Service};
+use ads_cnc::operation::{AdsService, Call, DispatchError, Function, Request};
 use ads_cnc::{CncStr, ErrorKind, VariablePath};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
 use super::observation::Observation;
 use super::topic::{Topic, TopicRecords};
+use crate::ads_service;
 use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::text::plural;
 use crate::values::until_nul;
-use crate::wire_service;
 
 /// Checks the headers of a request.
 pub(super) fn headers(
@@ -120,7 +120,7 @@ fn wrong_service(
 ) -> Option<String> {
     let function = function_at(call)?;
     let spec = function.spec();
-    let content = call.service == Service::Read || function == Function::WriteProgramStream;
+    let content = call.service == AdsService::Read || function == Function::WriteProgramStream;
     if content {
         let Call { port, service, index_group, index_offset, .. } = call;
         return Some(format!("{service} {index_group}, {index_offset} at {port}"));
@@ -160,7 +160,7 @@ fn documented(
         record.pass(VAR_24);
     }
     if let Some(least) = spec.reply.filter(|reply| reply.layout().is_fixed()).map(least) {
-        let rule = assumed(wire_service::clause(call.service));
+        let rule = assumed(ads_service::clause(call.service));
         let asked = call.read_length;
         let mut record = records.on(Topic::ClientServices, observation);
         let expected = || {

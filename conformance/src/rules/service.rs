@@ -87,7 +87,7 @@ impl ObservedInterface {
             }
             ServiceVariable::Uuid => self.read_id = true,
             // The service may have answered already, so a value other than 0 proves nothing.
-            ServiceVariable::ResponseState if self.asked && !is_set(value) => {
+            ServiceVariable::ResponseState if self.has_request && !is_set(value) => {
                 record.pass(assumed(SVC_3));
             }
             _ => {}
@@ -103,7 +103,7 @@ impl ObservedInterface {
                 let found = "REQUEST_STATE before UUID and REQUEST";
                 let passed = self.is_lost || self.wrote_id && self.wrote_request;
                 record.check(SVC_12, passed, "UUID and REQUEST before REQUEST_STATE", found);
-                *self = Self { asked: true, ..Self::default() };
+                *self = Self { has_request: true, ..Self::default() };
             }
             ServiceVariable::RequestState => {
                 let found = "REQUEST_STATE after RESPONSE_STATE, which it resets";
@@ -117,7 +117,7 @@ impl ObservedInterface {
             }
             ServiceVariable::Response => self.response = true,
             ServiceVariable::ResponseState => {
-                self.asked = false;
+                self.has_request = false;
                 let found = "RESPONSE_STATE = 0, for which the program waits forever";
                 record.check(SVC_5, is_set(value), "a number other than 0", found);
                 if !is_set(value) {

@@ -2,8 +2,8 @@
 
 use std::net::SocketAddr;
 
-use super::tried::{Candidate, SelfTestGroup};
-use crate::clients::{ClientDefect, TestServer, defects, trial, variants};
+use super::trial::{Candidate, SelfTestGroup};
+use crate::client_suite::{ClientDefect, TestServer, defects, trial, variants};
 use crate::judge::CaseOutcome;
 use crate::session::ToolError;
 

@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use ads_cnc::layout::Stream;
 
-use super::tried::{Candidate, SelfTestGroup};
-use crate::faults::{self, Seed};
+use super::trial::{Candidate, SelfTestGroup};
+use crate::faults::{self, SeededDefect};
 use crate::judge::{Body, Case, CaseOutcome, CaseSubject, Needs, TESTEE};
 use crate::session::ToolError;
 use crate::suite;
-use crate::testee::{CodecTestee, Miniature, Terms, TesteeProcess, judge};
+use crate::testee::{CodecTestee, JudgementOptions, Miniature, TesteeProcess, judge};
 
 /// Time limit for an answer of a miniature; with a miniature that hangs, each case lasts this long.
 const TIMEOUT: Duration = Duration::from_millis(1000);
@@ -18,15 +18,15 @@ const TIMEOUT: Duration = Duration::from_millis(1000);
 /// A miniature behaves in the same way in every case, so only every `SHARE`-th case is run.
 const SHARE: usize = 25;
 
-const TERMS: Terms<'static> =
-    Terms { seed: 1, subject: CaseSubject::Testee, edition: None, strict: false };
+const TERMS: JudgementOptions<'static> =
+    JudgementOptions { seed: 1, subject: CaseSubject::Testee, edition: None, strict: false };
 
 pub(super) fn candidates() -> Vec<Candidate> {
     let seeds = faults::all().iter().filter(|seed| seed.is_for_codec()).map(of_seed);
     seeds.chain(Miniature::ALL.map(of_miniature)).collect()
 }
 
-fn of_seed(seed: &'static Seed) -> Candidate {
+fn of_seed(seed: &'static SeededDefect) -> Candidate {
     Candidate {
         id: seed.id.clone(),
         group: SelfTestGroup::Codec,

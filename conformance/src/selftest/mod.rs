@@ -6,30 +6,30 @@
 //! the self-test fails.
 
 mod clients;
+mod cncs;
 mod codecs;
 pub mod detection;
 mod parallel;
 mod reasons;
 mod show;
-mod targets;
 #[cfg(test)]
 mod tests;
-mod tried;
-mod unseen;
+mod trial;
+mod undetectable;
 
 use serde::Serialize;
 
 use crate::exit::Exit;
-use crate::faults::{self, SeedKind};
+use crate::faults::{self, DefectKind};
 use crate::judge::{CaseOutcome, Verdict};
 use detection::{CheckedTable, PairFigures, Scope};
 
 pub use parallel::SelfTestProgress;
 use parallel::parallel;
 pub use show::print;
-use tried::{Candidate, judge, whole};
-pub use tried::{SelfTestGroup, Trial, TrialResult};
-pub use unseen::UNSEEN;
+use trial::{Candidate, judge, whole};
+pub use trial::{SelfTestGroup, Trial, TrialResult};
+pub use undetectable::UNSEEN;
 
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
@@ -77,7 +77,11 @@ impl SelfTest {
 /// Runs the trials that a word in `only` selects by the start of their ID, by their group or by a
 /// requirement; all trials if `only` is empty. `scope` selects the defects that are measured again for
 /// the detection table; with words in `only`, all selected defects are. Calls `tell` after each trial.
-pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync) -> SelfTest {
+pub fn run(
+    only: &[String],
+    scope: Scope,
+    report_progress: impl Fn(SelfTestProgress) + Sync,
+) -> SelfTest {
     let wanted = |id: &str, group: SelfTestGroup, targets: &[&str]| {
         only.is_empty()
             || only.iter().any(|word| {
@@ -87,15 +91,21 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync
             })
     };
     let mut candidates = codecs::candidates();
-    candidates.extend(targets::candidates());
+    candidates.extend(cncs::candidates());
     candidates.extend(clients::candidates());
     candidates.retain(|one| wanted(&one.id, one.group, &one.targets));
     // Uses more threads than processors, because most trials wait for a connection.
-    let tried = parallel(("defects tried once", &candidates), 3, attempt, Trial::is_failure, &tell);
+    let tried = parallel(
+        ("defects tried once", &candidates),
+        3,
+        attempt,
+        Trial::is_failure,
+        &report_progress,
+    );
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
     let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
     let seeds = seeds.filter(|seed| {
-        let group = if seed.kind == SeedKind::Different {
+        let group = if seed.kind == DefectKind::Different {
             SelfTestGroup::Different
         } else {
             SelfTestGroup::Cnc
@@ -103,9 +113,9 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(SelfTestProgress) + Sync
         wanted(&seed.id, group, &seed.requirements)
     });
     let scope = if only.is_empty() { scope } else { Scope::All };
-    let detection = CheckedTable::new(seeds.collect(), scope, only.is_empty(), &tell);
+    let detection = CheckedTable::new(seeds.collect(), scope, only.is_empty(), &report_progress);
     let pairs = if only.is_empty() {
-        detection::pairs(&detection.table, &tell)
+        detection::pairs(&detection.table, &report_progress)
     } else {
         PairFigures::default()
     };

@@ -14,7 +14,7 @@ pub struct SelfTestProgress {
 }
 
 /// The function that is called after each item.
-pub(super) type Tell<'a> = &'a (dyn Fn(SelfTestProgress) + Sync);
+pub(super) type ProgressCallback<'a> = &'a (dyn Fn(SelfTestProgress) + Sync);
 
 /// Processes the items in `threads` threads per processor; returns the results in the order of the
 /// items.
@@ -23,27 +23,33 @@ pub(super) fn parallel<T: Sync, R: Send>(
     threads: usize,
     work: impl Fn(&T) -> R + Sync,
     is_failure: impl Fn(&R) -> bool + Sync,
-    tell: Tell<'_>,
+    report_progress: ProgressCallback<'_>,
 ) -> Vec<R> {
     let all = items.len();
-    let left = Mutex::new((items.iter().enumerate(), Vec::with_capacity(all), 0));
+    let progress = Mutex::new((items.iter().enumerate(), Vec::with_capacity(all), 0));
     let workers = thread::available_parallelism().map_or(1, usize::from) * threads;
     thread::scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|| {
                 loop {
-                    let next = lock(&left).0.next();
+                    let next = lock(&progress).0.next();
                     let Some((place, item)) = next else { return };
                     let result = work(item);
-                    let mut left = lock(&left);
-                    left.2 += usize::from(is_failure(&result));
-                    left.1.push((place, result));
-                    tell(SelfTestProgress { part, all, done: left.1.len(), failed: left.2 });
+                    let mut progress = lock(&progress);
+                    progress.2 += usize::from(is_failure(&result));
+                    progress.1.push((place, result));
+                    report_progress(SelfTestProgress {
+                        part,
+                        all,
+                        done: progress.1.len(),
+                        failed: progress.2,
+                    });
                 }
             });
         }
     });
-    let (_, mut results, _) = left.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let (_, mut results, _) =
+        progress.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     results.sort_by_key(|(place, _)| *place);
     results.into_iter().map(|(_, result)| result).collect()
 }

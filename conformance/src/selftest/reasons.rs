@@ -1,7 +1,7 @@
 //! The reasons why some defects may survive.
 
-use super::tried::{SelfTestGroup, Trial, TrialResult};
-use super::unseen::UNSEEN;
+use super::trial::{SelfTestGroup, Trial, TrialResult};
+use super::undetectable::UNSEEN;
 
 /// The group and the prefix of the IDs of defects, and the reason why no case need detect them.
 #[rustfmt::skip]

@@ -114,7 +114,7 @@ fn a_defect_without_effect_does_not_count() {
 #[test]
 fn every_reason_belongs_to_a_trial() {
     let mut candidates = codecs::candidates();
-    candidates.extend(targets::candidates());
+    candidates.extend(cncs::candidates());
     candidates.extend(clients::candidates());
     for (group, start) in reasons::names() {
         let any = candidates.iter().any(|one| one.group == group && one.id.starts_with(start));

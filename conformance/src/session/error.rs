@@ -10,7 +10,7 @@ use ads_cnc::operation::Function;
 use crate::client::{Client, Target};
 use crate::exchange::{ExchangeError, meaning};
 use crate::exit::Exit;
-use crate::gate::Refusal;
+use crate::gate::GateRejection;
 
 /// The error that ends a command. The text includes advice.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub enum ToolError {
     /// An unexpected error of the system.
     Internal(String),
     /// The gate rejected the request.
-    Refused(Box<Refusal>),
+    NotPermitted(Box<GateRejection>),
     /// The gate allows requests that must not be sent to this target.
     Unsafe(String),
     /// A dry run cannot continue without a reply.
@@ -73,7 +73,7 @@ impl ToolError {
             | Self::Absent(_) => Exit::Failure,
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
             Self::NoReply(_) | Self::Ams { .. } | Self::Enough(_) => Exit::Nothing,
-            Self::Refused(_) | Self::Unsafe(_) => Exit::Refused,
+            Self::NotPermitted(_) | Self::Unsafe(_) => Exit::NotPermitted,
             Self::Internal(_) => Exit::Internal,
         }
     }
@@ -121,7 +121,7 @@ impl ToolError {
              this machine, by TCP/IP"
         );
         Self::NoReply(match fault {
-            ExchangeError::Refused(refusal) => return Self::Refused(refusal),
+            ExchangeError::NotPermitted(rejection) => return Self::NotPermitted(rejection),
             ExchangeError::NotSent | ExchangeError::Unseen => return Self::NotSent,
             ExchangeError::Unsendable(error) => return Self::Unsendable(error),
             ExchangeError::Malformed(error) if answered => return Self::Reply(error),
@@ -180,9 +180,9 @@ impl fmt::Display for ToolError {
             | Self::Internal(why)
             | Self::Enough(why)
             | Self::NoReply(why) => f.write_str(why),
-            Self::Refused(refusal) => {
-                write!(f, "not sent, rejected for safety: {refusal}")?;
-                match refusal.advice() {
+            Self::NotPermitted(rejection) => {
+                write!(f, "not sent, rejected for safety: {rejection}")?;
+                match rejection.advice() {
                     advice if advice.is_empty() => Ok(()),
                     advice => write!(f, "\n{advice}"),
                 }

@@ -38,7 +38,7 @@ pub use error::ToolError;
 /// assert_eq!(value.bytes[..4], [123, 0, 0, 0]);
 ///
 /// let write = WriteByName::new(channel, "V.E.Testvar[0]", 1_i32)?;
-/// assert!(matches!(session.call(&write), Err(ToolError::Refused(_))));
+/// assert!(matches!(session.call(&write), Err(ToolError::NotPermitted(_))));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -346,7 +346,7 @@ impl Session {
     /// complete. Nothing is sent.
     ///
     /// # Errors
-    /// [`ToolError::Refused`], [`ToolError::Unsendable`].
+    /// [`ToolError::NotPermitted`], [`ToolError::Unsendable`].
     pub fn check<'r>(&self, task: Task, request: impl Into<Request<'r>>) -> Result<(), ToolError> {
         let request = request.into();
         let mut data = vec![0; request.encoded_len()];

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 
-use super::model::{Item, Meaning, Model};
+use super::model::{ContentSource, Item, Model};
 use super::owner::Owner;
 use super::state::CncState;
 
@@ -37,12 +37,12 @@ pub(super) fn read<'s>(
     let item = items(model, owner).get(index).ok_or(AdsError::INVALID_OFFSET)?;
     let size = item.initial.size;
     match item.meaning {
-        Meaning::AxisNumber => {
+        ContentSource::AxisNumber => {
             let number = axis(state, owner).and_then(|axis| model.axes.get(axis));
             let number = number.map_or(0, |axis| axis.number);
             Ok(u64::from(number).to_le_bytes().into_iter().take(size).collect())
         }
-        Meaning::Value => {
+        ContentSource::Value => {
             let content = state.values(owner).and_then(|values| values.get(index));
             Ok(content.map_or_else(|| Cow::Owned(vec![0; size]), Cow::from))
         }
@@ -65,7 +65,7 @@ pub(super) fn write(
     check_size(bytes, item.initial.size, item.is_text())?;
     match (item.meaning, owner) {
         (
-            Meaning::AxisNumber,
+            ContentSource::AxisNumber,
             Owner::Place { channel, place } | Owner::ClassPlace { channel, place, .. },
         ) => {
             let mut number = [0; 8];
@@ -73,8 +73,8 @@ pub(super) fn write(
             let number = u32::try_from(u64::from_le_bytes(number));
             state.exchange(model, channel, place, number.map_err(|_| AdsError::INVALID_DATA)?)
         }
-        (Meaning::AxisNumber, _) => Err(AdsError::INVALID_ACCESS),
-        (Meaning::Value, _) => {
+        (ContentSource::AxisNumber, _) => Err(AdsError::INVALID_ACCESS),
+        (ContentSource::Value, _) => {
             let content = state.values_mut(owner).and_then(|values| values.get_mut(index));
             // A place without an axis is not writable.
             copy_padded(content.ok_or(AdsError::INVALID_DATA)?, bytes);

@@ -196,7 +196,7 @@ impl Cnc {
 mod tests {
     use ads_cnc::address::{IndexGroup, IndexOffset};
     use ads_cnc::ads::{AdsError, AmsPort};
-    use ads_cnc::operation::{Call, Service};
+    use ads_cnc::operation::{AdsService, Call};
     use ads_cnc::service::ServiceVariable;
 
     use super::*;
@@ -208,7 +208,7 @@ mod tests {
     fn ask(cnc: &Cnc, group: u32, offset: u32, data: &[u8]) -> Result<Vec<u8>, AdsError> {
         cnc.answer(&Call {
             port: AmsPort::SDA,
-            service: Service::ReadWrite,
+            service: AdsService::ReadWrite,
             index_group: IndexGroup::new(group),
             index_offset: IndexOffset::new(offset),
             read_length: 2048,

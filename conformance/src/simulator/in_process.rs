@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use ads_cnc::ads::AmsNetId;
 
-use super::{Received, Responder};
+use super::{ReceiveBuffer, Responder};
 use crate::net::{LocalPeers, Peer};
 
 /// A CNC to which clients in this process connect without sockets.
@@ -42,7 +42,7 @@ impl LocalPeers for LocalCnc {
 struct InProcess {
     cnc: Arc<dyn Responder>,
     net_id: AmsNetId,
-    received: Received,
+    received: ReceiveBuffer,
     /// Bytes for the client, in the pieces in which the CNC sent them.
     answers: VecDeque<Vec<u8>>,
     closed: bool,
@@ -50,7 +50,13 @@ struct InProcess {
 
 impl InProcess {
     fn new(cnc: Arc<dyn Responder>, net_id: AmsNetId) -> Self {
-        Self { cnc, net_id, received: Received::new(), answers: VecDeque::new(), closed: false }
+        Self {
+            cnc,
+            net_id,
+            received: ReceiveBuffer::new(),
+            answers: VecDeque::new(),
+            closed: false,
+        }
     }
 }
 

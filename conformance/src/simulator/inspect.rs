@@ -6,7 +6,7 @@ use ads_cnc::{CncString, VariablePath, VariableType};
 
 use super::Cnc;
 use super::content;
-use super::model::{Meaning, Model};
+use super::model::{ContentSource, Model};
 use super::owner::Owner;
 
 /// The owner of a content. Channels are identified by their logical numbers; axes and places are
@@ -75,7 +75,7 @@ impl Cnc {
             let values = state.values(owner).into_iter().flatten();
             let items = content::items(self.model(), owner).iter().zip(elements).zip(values);
             for (index, ((item, element), value)) in items.enumerate() {
-                if item.meaning == Meaning::Value {
+                if item.meaning == ContentSource::Value {
                     all.push(StoredContent {
                         holder,
                         element,
@@ -94,9 +94,9 @@ impl Cnc {
     }
 
     /// Sets the value of a content; it must have the size of the previous value.
-    pub fn set_content(&self, held: &StoredContent, value: &[u8]) {
+    pub fn set_content(&self, stored: &StoredContent, value: &[u8]) {
         let mut state = self.state();
-        let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
+        let content = state.values_mut(stored.owner).and_then(|all| all.get_mut(stored.index));
         if let Some(content) = content.filter(|content| content.len() == value.len()) {
             content.copy_from_slice(value);
         }
@@ -156,7 +156,7 @@ impl Cnc {
                 all.extend(state.parameters(at, kind).map(|parameter| CurrentParameter {
                     channel: one.number,
                     kind,
-                    name: parameter.is.name.clone(),
+                    name: parameter.parameter.name.clone(),
                     value: parameter.value.get(),
                 }));
             }

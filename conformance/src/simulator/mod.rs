@@ -7,13 +7,13 @@
 //! ```
 //! use ads_cnc::address::{IndexGroup, IndexOffset};
 //! use ads_cnc::ads::AmsPort;
-//! use ads_cnc::operation::{Call, Service};
+//! use ads_cnc::operation::{AdsService, Call};
 //! use ads_cnc_conformance::simulator::Cnc;
 //!
 //! let cnc = Cnc::with_default_model()?;
 //! let count = Call {
 //!     port: AmsPort::SDA,
-//!     service: Service::ReadWrite,
+//!     service: AdsService::ReadWrite,
 //!     index_group: IndexGroup::new(0x12_2301),
 //!     index_offset: IndexOffset::new(0x44),
 //!     read_length: 4,
@@ -50,6 +50,6 @@ pub use model::{ConfiguredVariable, DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::{DATA_MAX, ReplyData};
 pub(crate) use respond::{FRAME_MAX, respond};
 pub use responder::Responder;
-pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
+pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, ReceiveBuffer, Server, ServerOptions};
 
 use number::{to_len, to_u32};

@@ -9,7 +9,7 @@ use super::model::Parameter;
 
 #[derive(Clone, Debug)]
 pub(super) struct ParameterState {
-    pub(super) is: Parameter,
+    pub(super) parameter: Parameter,
     pub(super) value: DynamicValue,
     /// The number of times that the parameter was created before; `None` while it does not exist.
     life: Option<u128>,
@@ -24,12 +24,12 @@ pub(super) struct ParameterStates {
 }
 
 impl ParameterState {
-    fn new(is: Parameter) -> Self {
-        Self { value: is.value, life: is.times.life(Duration::ZERO), is }
+    fn new(parameter: Parameter) -> Self {
+        Self { value: parameter.value, life: parameter.times.life(Duration::ZERO), parameter }
     }
 
     pub(super) fn name(&self) -> CncStr<'_> {
-        self.is.name.as_cnc_str()
+        self.parameter.name.as_cnc_str()
     }
 }
 
@@ -40,7 +40,7 @@ impl ParameterStates {
     }
 
     fn of(all: Vec<ParameterState>) -> Self {
-        let are_always = all.iter().all(|one| one.is.times.is_always());
+        let are_always = all.iter().all(|one| one.parameter.times.is_always());
         Self { all, are_always }
     }
 
@@ -52,9 +52,9 @@ impl ParameterStates {
             return;
         }
         for one in &mut self.all {
-            let life = one.is.times.life(now);
+            let life = one.parameter.times.life(now);
             if life.is_some() && life != one.life {
-                one.value = one.is.value;
+                one.value = one.parameter.value;
             }
             one.life = life;
         }
@@ -63,7 +63,7 @@ impl ParameterStates {
     /// Replaces the parameters of a kind.
     pub(super) fn replace(&mut self, kind: DynamicKind, new: Vec<Parameter>) {
         let mut all = std::mem::take(&mut self.all);
-        all.retain(|one| one.is.kind != kind);
+        all.retain(|one| one.parameter.kind != kind);
         all.extend(new.into_iter().map(ParameterState::new));
         *self = Self::of(all);
     }
@@ -75,6 +75,6 @@ impl ParameterStates {
 
     /// The value of the parameter with this name, even if it currently does not exist.
     pub(super) fn value_mut(&mut self, name: &CncString) -> Option<&mut DynamicValue> {
-        self.all.iter_mut().find(|one| one.is.name == *name).map(|one| &mut one.value)
+        self.all.iter_mut().find(|one| one.parameter.name == *name).map(|one| &mut one.value)
     }
 }

@@ -5,11 +5,11 @@ use ads_cnc::ads::{
     DeviceStateReply, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply,
 };
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
-use ads_cnc::operation::{Call, Service, Task};
+use ads_cnc::operation::{AdsService, Call, Task};
 use ads_cnc::{Encode, Error};
 
 use super::{to_len, to_u32};
-use crate::wire_service::service_of;
+use crate::ads_service::service_of;
 
 /// Maximum number of bytes after the AMS header. A longer received frame ends the connection; a
 /// request with a longer reply is rejected.
@@ -86,9 +86,9 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
             Err(result) => (*result, Some(&[][..])),
         };
         return match service {
-            Service::Read => append(&ReadReplyRef { result, data }, answers),
-            Service::Write => append(&WriteReply { result }, answers),
-            Service::ReadWrite => append(&ReadWriteReplyRef { result, data }, answers),
+            AdsService::Read => append(&ReadReplyRef { result, data }, answers),
+            AdsService::Write => append(&WriteReply { result }, answers),
+            AdsService::ReadWrite => append(&ReadWriteReplyRef { result, data }, answers),
         };
     }
     match command {

@@ -16,7 +16,7 @@ use super::Responder;
 use crate::gate::Gate;
 use crate::net;
 
-pub use connection::Received;
+pub use connection::ReceiveBuffer;
 pub use options::ServerOptions;
 
 /// Maximum number of simultaneous connections; further connections are closed at once.

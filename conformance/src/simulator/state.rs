@@ -223,7 +223,7 @@ impl CncState {
     ) -> impl Iterator<Item = &ParameterState> {
         let channel = self.channels.get(channel);
         let parameters = channel.into_iter().flat_map(ChannelState::present);
-        parameters.filter(move |parameter| parameter.is.kind == kind)
+        parameters.filter(move |parameter| parameter.parameter.kind == kind)
     }
 
     /// Assigns the axis with this logical number to a place of a channel. The axis leaves its
@@ -274,6 +274,6 @@ impl ChannelState {
             content.is_none_or(|content| content.iter().all(|&byte| byte == 0))
         };
         let parameters = self.parameters.at_their_time();
-        parameters.filter(move |parameter| !parameter.is.needs.is_some_and(is_zero))
+        parameters.filter(move |parameter| !parameter.parameter.needs.is_some_and(is_zero))
     }
 }

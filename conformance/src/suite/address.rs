@@ -3,7 +3,7 @@
 use ads_cnc::address::{Addressing, Channel, ComGroup, Group};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{
-    CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request, Service,
+    AdsService, CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request,
 };
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::ids::*;
@@ -131,7 +131,7 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     same_by_rank(probe, ADR_11, rank, number)?;
     let ranks = u32::try_from(ranks.len()).unwrap_or(u32::MAX);
     let beyond = Channel::by_index(ranks.saturating_add(1))?;
-    probe.refuses(
+    probe.rejects(
         ADR_11,
         "a rank after the last channel",
         CountVariables::new(beyond, Kind::V_E),
@@ -157,21 +157,21 @@ fn absent_channel(probe: &mut Probe<'_>) -> Step {
     let present = probe.channel()?;
     let what = format!("channel {number}, which is not configured");
     let count = |channel| CountVariables::new(channel, Kind::V_E);
-    probe.refuses(ADS_4, &what, count(absent), count(present))?;
-    probe.refuses(ADS_4, &what, CountObjects::new(absent), CountObjects::new(present))?;
+    probe.rejects(ADS_4, &what, count(absent), count(present))?;
+    probe.rejects(ADS_4, &what, CountObjects::new(absent), CountObjects::new(present))?;
     let items = ChannelItems::read(probe, present)?;
     let queries = [known_by(present)?, items.requests(present)?].concat();
     let mut calls = queries.into_iter().map(RawCall::new).collect::<Step<Vec<_>>>()?;
     calls.extend(content_reads(probe, present)?);
-    for good in calls {
-        let Some(bad) = in_channel(&good, present, absent) else { continue };
-        let function = good.call().dispatch().ok().map(|request| request.function());
+    for valid in calls {
+        let Some(invalid) = in_channel(&valid, present, absent) else { continue };
+        let function = valid.call().dispatch().ok().map(|request| request.function());
         let is_claimed = function.is_some_and(|function| probe.claims(function) != Claim::No);
         if is_claimed
-            && probe.target.client.check(&bad.call()).is_ok()
-            && probe.call(&good)?.success().is_some_and(|data| !data.is_empty())
+            && probe.target.client.check(&invalid.call()).is_ok()
+            && probe.call(&valid)?.success().is_some_and(|data| !data.is_empty())
         {
-            probe.refuses(ADS_4, &what, bad, good)?;
+            probe.rejects(ADS_4, &what, invalid, valid)?;
         }
     }
     Ok(())
@@ -190,11 +190,11 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     }
     let mut judged = Record::default();
     for (requirement, services) in [
-        (ADS_1, &[Service::Read][..]),
-        (ADS_2, &[Service::Write]),
-        (ADS_3, &[Service::ReadWrite]),
-        (ADS_4, &[Service::Read, Service::Write, Service::ReadWrite]),
-        (ADS_5, &[Service::Read, Service::Write, Service::ReadWrite]),
+        (ADS_1, &[AdsService::Read][..]),
+        (ADS_2, &[AdsService::Write]),
+        (ADS_3, &[AdsService::ReadWrite]),
+        (ADS_4, &[AdsService::Read, AdsService::Write, AdsService::ReadWrite]),
+        (ADS_5, &[AdsService::Read, AdsService::Write, AdsService::ReadWrite]),
     ] {
         let id = Rule::from(requirement).id;
         let is_broken = broken.judgements.iter().any(|one| one.requirement == id);
@@ -217,8 +217,8 @@ fn only_errors_with_data(probe: &mut Probe<'_>) -> Option<Evidence> {
 /// Checks that all rejections in the run returned an error number other than 0; the manuals do not
 /// require a particular number.
 fn every_refusal(probe: &mut Probe<'_>) -> Step {
-    let by_nothing = std::mem::take(&mut probe.target.refusals.by_nothing);
-    if probe.target.refusals.by_number > 0 {
+    let by_nothing = std::mem::take(&mut probe.target.rejections.by_nothing);
+    if probe.target.rejections.by_number > 0 {
         // Error replies with and without data were decoded as errors.
         probe.pass([ADS_6, ADS_7]);
     }

@@ -9,7 +9,7 @@ use ads_cnc::{CncString, VariableAccess};
 use super::kit::{Probe, TargetState};
 use crate::gate::{AllowedList, Entry};
 use crate::judge::{IfPresent as _, Step};
-use crate::objects::{List, ReportedAccess, ValueAddress};
+use crate::objects::{ReportedAccess, ValueAddress, ValueList};
 
 /// The names in the file that cannot be written.
 #[derive(Clone, Debug, Default)]
@@ -41,7 +41,7 @@ pub fn unwritable(target: &mut TargetState) -> Unwritable {
             false => look_up(&mut probe, &entry),
         };
         let Ok(named) = named else { break };
-        if probe.target.gone.is_some() {
+        if probe.target.disconnect_reason.is_some() {
             break;
         }
         match named {
@@ -68,9 +68,13 @@ fn look_up(probe: &mut Probe<'_>, entry: &Entry) -> Step<Named> {
         }
         Entry::Object { list, name } => {
             let list = match list {
-                AllowedList::Platform => List::Platform,
-                AllowedList::Axis(axis) => List::from(ads_cnc::operation::ObjectList::from(*axis)),
-                AllowedList::Channel(channel) => List::Channel(numbered(probe, *channel).number()),
+                AllowedList::Platform => ValueList::Platform,
+                AllowedList::Axis(axis) => {
+                    ValueList::from(ads_cnc::operation::ObjectList::from(*axis))
+                }
+                AllowedList::Channel(channel) => {
+                    ValueList::Channel(numbered(probe, *channel).number())
+                }
             };
             let objects = probe.objects().if_applicable()?.unwrap_or_default();
             match objects.iter().find(|one| one.list == list && one.name == *name) {

@@ -20,10 +20,10 @@ pub(super) const CASES: &[CaseRow] = &[
 ];
 
 /// Returns the indices `place` with the index of the dimension `axis` replaced.
-fn with(place: &[u32], axis: usize, index: u32) -> Vec<u32> {
-    let mut place = place.to_vec();
-    place.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
-    place
+fn with(indices: &[u32], axis: usize, index: u32) -> Vec<u32> {
+    let mut indices = indices.to_vec();
+    indices.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
+    indices
 }
 
 /// Checks that a variable with dimensions has elements. How several dimensions are indexed is assumed, so
@@ -32,8 +32,8 @@ fn array_has_elements(probe: &mut Probe<'_>) -> Step {
     each_array(probe, |probe, channel, variable, _| {
         let Description { handle, dimensions, name, .. } = variable;
         let first = vec![0; dimensions.len()];
-        let ask = |probe: &mut Probe<'_>, place: &[u32]| {
-            probe.try_ask(ReadByHandle::new(channel, *handle, place))
+        let ask = |probe: &mut Probe<'_>, indices: &[u32]| {
+            probe.try_ask(ReadByHandle::new(channel, *handle, indices))
         };
         let whole_is_there = ask(probe, &[])?.is_some();
         let has_first = ask(probe, &first)?.is_some();
@@ -59,27 +59,28 @@ fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
         let first = vec![0; variable.dimensions.len()];
         for (axis, &dimension) in variable.dimensions.iter().enumerate() {
             for beyond in probe.beyond(dimension) {
-                let place = with(&first, axis, beyond);
-                let what = format!("{place:?} of {:?}", variable.dimensions);
-                let (bad, good) = (&place, &first);
-                probe.refuses(
+                let indices = with(&first, axis, beyond);
+                let what = format!("{indices:?} of {:?}", variable.dimensions);
+                let (invalid, valid) = (&indices, &first);
+                probe.rejects(
                     VAR_11,
                     &what,
-                    ReadByHandle::new(channel, variable.handle, bad),
-                    ReadByHandle::new(channel, variable.handle, good),
+                    ReadByHandle::new(channel, variable.handle, invalid),
+                    ReadByHandle::new(channel, variable.handle, valid),
                 )?;
             }
             for beyond in probe.beyond(dimension) {
-                let place = with(&first, axis, beyond);
-                let bad = element_name(variable, &place)?;
-                let (Some(bad), Some(good)) = (bad, element_name(variable, &first)?) else {
+                let indices = with(&first, axis, beyond);
+                let invalid = element_name(variable, &indices)?;
+                let (Some(invalid), Some(valid)) = (invalid, element_name(variable, &first)?)
+                else {
                     continue;
                 };
-                probe.refuses(
+                probe.rejects(
                     brackets(variable),
-                    &format!("the name {bad}"),
-                    ReadByName { channel, name: bad.as_cnc_str().into() },
-                    ReadByName { channel, name: good.as_cnc_str().into() },
+                    &format!("the name {invalid}"),
+                    ReadByName { channel, name: invalid.as_cnc_str().into() },
+                    ReadByName { channel, name: valid.as_cnc_str().into() },
                 )?;
             }
         }
@@ -96,12 +97,12 @@ fn number_of_indices(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
             let few = zeros.get(..n).unwrap_or_default();
-            let good = zeros.get(..m).unwrap_or_default();
-            probe.refuses(
+            let valid = zeros.get(..m).unwrap_or_default();
+            probe.rejects(
                 assumed(VAR_11),
                 &format!("{} for {}", plural(n, "index"), plural(m, "dimension")),
                 ReadByHandle::new(channel, variable.handle, few),
-                ReadByHandle::new(channel, variable.handle, good),
+                ReadByHandle::new(channel, variable.handle, valid),
             )?;
         }
         Ok(())

@@ -162,29 +162,29 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         Ok(())
     })?;
     let Some((channel, axis, name, variable)) = first else { return Ok(()) };
-    let good = TextRef::from(name.as_cnc_str());
+    let valid = TextRef::from(name.as_cnc_str());
     let handle = |axis, name| AxisHandleByName { channel, axis, name };
     let read = |axis, name| AxisReadByName { channel, axis, name };
     for unknown in ["V.A.no such variable", "V.A.", ""] {
-        let (what, bad) = (format!("the name {unknown:?}"), TextRef::new(unknown)?);
-        probe.refuses(ADS_4, &what, handle(axis, bad), handle(axis, good))?;
-        probe.refuses(ADS_4, &what, read(axis, bad), read(axis, good))?;
+        let (what, invalid) = (format!("the name {unknown:?}"), TextRef::new(unknown)?);
+        probe.rejects(ADS_4, &what, handle(axis, invalid), handle(axis, valid))?;
+        probe.rejects(ADS_4, &what, read(axis, invalid), read(axis, valid))?;
     }
     // A name on the axis interface must not contain an axis.
     let with_axis = name_of(&variable);
     let what = format!("{} on the axis interface", variable.name.text);
-    probe.refuses(VAR_26, &what, handle(axis, with_axis), handle(axis, good))?;
-    probe.refuses(VAR_26, &what, read(axis, with_axis), read(axis, good))?;
+    probe.rejects(VAR_26, &what, handle(axis, with_axis), handle(axis, valid))?;
+    probe.rejects(VAR_26, &what, read(axis, with_axis), read(axis, valid))?;
     // A name on the channel interface must contain an axis.
-    let what = format!("{} on the channel interface", good.text());
+    let what = format!("{} on the channel interface", valid.text());
     let of_channel = |name| HandleByName { channel, name };
-    probe.refuses(VAR_26, &what, of_channel(good), of_channel(with_axis))?;
+    probe.rejects(VAR_26, &what, of_channel(valid), of_channel(with_axis))?;
     let of_channel = |name| ReadByName { channel, name };
-    probe.refuses(VAR_26, &what, of_channel(good), of_channel(with_axis))?;
+    probe.rejects(VAR_26, &what, of_channel(valid), of_channel(with_axis))?;
     let far = ChannelAxis::new(0xFFFF)?;
     let what = "a place that no channel has";
-    probe.refuses(VAR_26, what, handle(far, good), handle(axis, good))?;
-    probe.refuses(VAR_26, what, read(far, good), read(axis, good))
+    probe.rejects(VAR_26, what, handle(far, valid), handle(axis, valid))?;
+    probe.rejects(VAR_26, what, read(far, valid), read(axis, valid))
 }
 
 fn zero(probe: &mut Probe<'_>) -> Step {
@@ -196,12 +196,12 @@ fn zero(probe: &mut Probe<'_>) -> Step {
             AxisReadByName { channel, axis, name }.into(),
         ];
         for request in requests {
-            let good = RawCall::new(request)?;
-            let offset = good.index_offset.get() & 0xFFFF;
-            let bad =
-                good.with(|call| call.index_offset = ads_cnc::address::IndexOffset::new(offset));
+            let valid = RawCall::new(request)?;
+            let offset = valid.index_offset.get() & 0xFFFF;
+            let invalid =
+                valid.with(|call| call.index_offset = ads_cnc::address::IndexOffset::new(offset));
             let what = format!("a name at offset {offset:#x}, without an axis");
-            probe.refuses(VAR_26, &what, &bad, &good)?;
+            probe.rejects(VAR_26, &what, &invalid, &valid)?;
         }
         Ok(())
     })

@@ -121,13 +121,13 @@ fn reserved(probe: &mut Probe<'_>) -> Step {
     let (channel, AxisHandle { axis, .. }, name) = one(probe)?;
     let name = TextRef::from(name.as_cnc_str());
     let request = Request::from(AxisReadByName { channel, axis, name });
-    let good = RawCall::new(request)?;
-    let of_place = good.index_offset.get() & 0xFFFF_0000;
+    let valid = RawCall::new(request)?;
+    let of_place = valid.index_offset.get() & 0xFFFF_0000;
     for function in 7..=9 {
         let offset = IndexOffset::new(of_place | function);
         let what = format!("a name at offset {:#x}", offset.get());
-        let bad = good.with(|call| call.index_offset = offset);
-        probe.refuses(VAR_26, &what, &bad, &good)?;
+        let invalid = valid.with(|call| call.index_offset = offset);
+        probe.rejects(VAR_26, &what, &invalid, &valid)?;
     }
     Ok(())
 }

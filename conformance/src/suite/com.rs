@@ -60,7 +60,7 @@ fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let asked = number.min(OBJECTS_MAX);
     if asked == 0 {
         let first = ReadDescriptors::new(list, 1, 1)?;
-        return probe.refuses_alone(rules, "the first of no object", first);
+        return probe.rejects_alone(rules, "the first of no object", first);
     }
     let last = ReadDescriptors::new(list, asked, 1)?;
     let there = probe.try_ask(last)?;
@@ -74,7 +74,7 @@ fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         // An index of more than 16 bits cannot be encoded.
         let Ok(beyond) = ReadDescriptors::new(list, beyond, 1) else { continue };
         let what = format!("object {}, after the last of {number}", beyond.first());
-        probe.refuses(rules, &what, beyond, last)?;
+        probe.rejects(rules, &what, beyond, last)?;
     }
     Ok(())
 }
@@ -171,7 +171,7 @@ fn end_of_list(probe: &mut Probe<'_>) -> Step {
     let given = data.and_then(|data| DescriptorsRef::decode(data).ok()).map(|list| list.len());
     let expected = "only the last descriptor";
     probe.check(assumed(COM_3), given == Some(1), expected, &exchange);
-    probe.refuses(
+    probe.rejects(
         COM_2,
         "an object after the last",
         ReadDescriptors::new(list, number.saturating_add(1), 2)?,

@@ -12,7 +12,7 @@ use super::kit::{OBJECTS_MAX, Probe, RawCall, Steady};
 use super::platform::PRINTED;
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Step, applicable, assumed};
-use crate::objects::Object;
+use crate::objects::ListedValue;
 use crate::text::plural;
 
 #[rustfmt::skip]
@@ -106,12 +106,12 @@ fn room(probe: &mut Probe<'_>) -> Step {
 }
 
 /// The address in an object's descriptor.
-pub(super) fn at(object: &Object) -> String {
+pub(super) fn at(object: &ListedValue) -> String {
     let content = object.address.content();
     content.map(|(group, offset)| format!("{group}, {offset}")).unwrap_or_default()
 }
 
-fn is_of_channel(object: &Object) -> bool {
+fn is_of_channel(object: &ListedValue) -> bool {
     let com = object.address.content().and_then(|(group, _)| group.parts());
     matches!(com, Some(Group::Com(ComGroup { table: ComTable::Channel, instance: 1.., .. })))
 }
@@ -142,12 +142,12 @@ fn places(probe: &mut Probe<'_>) -> Step {
 fn read_lengths(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let read = all.iter().filter(|one| one.size() > 1).find_map(|one| one.address.read().ok());
-    let good = RawCall::new(read.or_not_applicable("no object has two bytes")?)?;
-    for read_length in [0, good.read_length.saturating_sub(1)] {
+    let valid = RawCall::new(read.or_not_applicable("no object has two bytes")?)?;
+    for read_length in [0, valid.read_length.saturating_sub(1)] {
         let what =
-            format!("a read length of {read_length} for {}", plural(good.read_length, "byte"));
-        let bad = good.with(|call| call.read_length = read_length);
-        probe.refuses(assumed(ADS_1), &what, bad, &good)?;
+            format!("a read length of {read_length} for {}", plural(valid.read_length, "byte"));
+        let invalid = valid.with(|call| call.read_length = read_length);
+        probe.rejects(assumed(ADS_1), &what, invalid, &valid)?;
     }
     Ok(())
 }

@@ -76,7 +76,7 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                 let what = format!("index {beyond} of {count} {name}");
                 let describe = |index| DescribeExtended::new(channel, index, kind);
                 if kind == Kind::V_E {
-                    probe.refuses(VAR_3, &what, describe(beyond), describe(last))?;
+                    probe.rejects(VAR_3, &what, describe(beyond), describe(last))?;
                     continue;
                 }
                 // An index after the last must have no data either.
@@ -143,9 +143,9 @@ fn unknown_described(probe: &mut Probe<'_>) -> Step {
     is_there(probe)?;
     for name in ["V.E.no such variable", "V.E.", ""] {
         let unknown = TextRef::new(name)?;
-        let good = DescribeByName { channel, name: name_of(known) };
-        let bad = DescribeByName { name: unknown, ..good };
-        probe.refuses(VAR_28, &format!("the name {name:?}"), bad, good)?;
+        let valid = DescribeByName { channel, name: name_of(known) };
+        let invalid = DescribeByName { name: unknown, ..valid };
+        probe.rejects(VAR_28, &format!("the name {name:?}"), invalid, valid)?;
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ use super::kit::{
 use crate::client::InquiryReply;
 use crate::edition::Edition;
 use crate::judge::{IfPresent as _, Step, Stop};
-use crate::objects::{List, Walker, active_channels, decoder_of, has_variables};
+use crate::objects::{ValueList, Walker, active_channels, decoder_of, has_variables};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
 /// The source of the claims, which determine the judged parts of the target.
@@ -52,7 +52,7 @@ pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let mut found = FoundReport::default();
     let ended = find(&mut probe, by, &mut found).err().map(|stop| match stop {
         Stop::NotApplicable(why) | Stop::Inconclusive(why) => why,
-        Stop::Refused(why) | Stop::Harness(why) => why,
+        Stop::NotPermitted(why) | Stop::Harness(why) => why,
         Stop::Interrupted => "the run is being interrupted".to_owned(),
         Stop::Judged => "a reply is wrong".to_owned(),
     });
@@ -74,8 +74,8 @@ fn go_on<T>(found: &mut FoundReport, step: Step<T>) -> Step<Option<T>> {
 
 fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     if by == ClaimsBy::Queries {
-        let there = ports(probe);
-        found.ports = go_on(found, there)?.unwrap_or_default();
+        let found_ports = ports(probe);
+        found.ports = go_on(found, found_ports)?.unwrap_or_default();
         let claimed = claim_channels(probe);
         go_on(found, claimed)?;
         let claimed = claim_axes(probe);
@@ -112,8 +112,9 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let lists = Counted::all(probe)?;
     if by == ClaimsBy::Profile {
         let answers = |number: u32| {
-            let placed =
-                instances.iter().map(|one| List::of_instance(one.class, one.channel, one.axis));
+            let placed = instances
+                .iter()
+                .map(|one| ValueList::of_instance(one.class, one.channel, one.axis));
             let mut all = placed.chain(lists.iter().map(|(list, _)| list.list()));
             all.any(|list| list.channel().is_some_and(|channel| u32::from(channel) == number))
         };
@@ -158,7 +159,7 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
 /// missing port.
 fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     let channel = Channel::new(1)?;
-    let mut there = Vec::new();
+    let mut found_ports = Vec::new();
     for task in [Task::Geo, Task::Sda, Task::Com] {
         let request: Request<'_> = match task {
             Task::Com => CountObjects::new(ObjectList::PLATFORM).into(),
@@ -173,10 +174,10 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
             matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Rejected(_)))
         };
         if answered {
-            there.push(task.port().0);
+            found_ports.push(task.port().0);
         }
     }
-    Ok(there)
+    Ok(found_ports)
 }
 
 /// Sends the requests of a walk whose functions are claimed; the others count as rejected.

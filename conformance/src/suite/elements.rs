@@ -128,7 +128,7 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
         // The first element need not have all attributes.
         if count > 0 || probe.try_ask(last)?.is_some() {
-            probe.refuses(rule, &what, beyond, last)?;
+            probe.rejects(rule, &what, beyond, last)?;
         }
     }
     // Contents of the decoder are not judged: some of its offsets are functions, and not all of these
@@ -142,7 +142,7 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     };
     match count {
         0 => Ok(()),
-        _ => probe.refuses(rule, &what, beyond, last),
+        _ => probe.rejects(rule, &what, beyond, last),
     }
 }
 
@@ -340,10 +340,10 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
         [ReadElementLength::new(element).into(), ReadElementWriteFlag::new(element).into()];
     let content = ReadElement::new(element, length).ok().map(Request::from);
     for request in requests.into_iter().chain(content) {
-        let good = RawCall::new(request)?;
-        let bad = good.with(|call| call.read_length = 0);
+        let valid = RawCall::new(request)?;
+        let invalid = valid.with(|call| call.read_length = 0);
         let what = format!("a read length of 0 for {}", request.function().spec().name);
-        probe.refuses(assumed(ADS_1), &what, bad, &good)?;
+        probe.rejects(assumed(ADS_1), &what, invalid, &valid)?;
     }
     Ok(())
 }

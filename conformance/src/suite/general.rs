@@ -62,10 +62,10 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
         if !probe.may(request)? {
             continue;
         }
-        let good = RawCall::new(request)?;
+        let valid = RawCall::new(request)?;
         for &port in ports {
             let what = format!("{} at port {}", request.function().spec().name, port.0);
-            probe.refuses(GEN_4, &what, good.with(|call| call.port = port), &good)?;
+            probe.rejects(GEN_4, &what, valid.with(|call| call.port = port), &valid)?;
         }
     }
     probe.finish("neither COM nor SDA is claimed")
@@ -127,20 +127,20 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
 fn no_channel_0(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let request: Request<'_> = CountVariables::new(channel, Kind::V_E).into();
-    let good = RawCall::new(request)?;
+    let valid = RawCall::new(request)?;
     for group in [0x12_2300, 0x02_2300] {
-        let bad = good.with(|call| call.index_group = IndexGroup::new(group));
+        let invalid = valid.with(|call| call.index_group = IndexGroup::new(group));
         let what = format!("the variables of channel 0 in group {group:#x}");
-        probe.refuses(GEN_6, &what, &bad, &good)?;
+        probe.rejects(GEN_6, &what, &invalid, &valid)?;
     }
     let Some(variables) = probe.variables(channel).if_known()? else { return Ok(()) };
     let Some(name) = name_on_axes(&variables) else { return Ok(()) };
     let axis = ChannelAxis::new(1)?;
     let request: Request<'_> =
         AxisHandleByName { channel, axis, name: name.as_cnc_str().into() }.into();
-    let good = RawCall::new(request)?;
-    let offset = ads_cnc::address::IndexOffset::new(good.index_offset.get() & 0xFFFF);
-    probe.refuses(GEN_6, "a name at place 0", good.with(|call| call.index_offset = offset), &good)
+    let valid = RawCall::new(request)?;
+    let offset = ads_cnc::address::IndexOffset::new(valid.index_offset.get() & 0xFFFF);
+    probe.rejects(GEN_6, "a name at place 0", valid.with(|call| call.index_offset = offset), &valid)
 }
 
 /// Whether a name has characters that a wrong code page or 7-bit text would change.

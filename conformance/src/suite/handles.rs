@@ -167,7 +167,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     for number in numbers.filter(|number| !taken.contains(number)) {
         let what = format!("the handle {number:#x}");
         let unknown = whole(channel, Handle(number));
-        probe.refuses([ADS_4, VAR_11], &what, unknown, whole(channel, known.handle))?;
+        probe.rejects([ADS_4, VAR_11], &what, unknown, whole(channel, known.handle))?;
     }
     Ok(())
 }

@@ -1,13 +1,14 @@
-//! Malformed requests: each must be answered with an error.
+//! Malformed requests: the CNC must reply to each, and no reply may return data. A success without data
+//! counts as a rejection.
 //!
-//! That a CNC rejects requests that the manuals do not permit is assumed. Stated are that it replies,
-//! and that a success means that the request was executed (ADS-4).
+//! No manual states that a CNC rejects these requests, so the checks marked `assumed` fail no device.
+//! The other checks use clauses: a result of 0 means success (ADS-4).
 
 use ads_cnc::address::{Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{
-    CountObjects, CountVariables, DescribeByIndex, Function, GroupRule, HandleByName, ObjectList,
-    ReadByHandle, ReadByName, ReadDescriptors, Request, Service,
+    AdsService, CountObjects, CountVariables, DescribeByIndex, Function, GroupRule, HandleByName,
+    ObjectList, ReadByHandle, ReadByName, ReadDescriptors, Request,
 };
 use ads_cnc::{Kind, TextRef, U32List};
 use ads_cnc_vectors::ids::*;
@@ -38,12 +39,12 @@ pub(super) const CASES: &[CaseRow] = &[
 /// A valid request, and its variants with a fault.
 struct MalformedRequest<'p, 's> {
     probe: &'p mut Probe<'s>,
-    good: RawCall,
+    valid: RawCall,
 }
 
 impl<'p, 's> MalformedRequest<'p, 's> {
     fn new<'a>(probe: &'p mut Probe<'s>, request: impl Into<Request<'a>>) -> Step<Self> {
-        Ok(Self { probe, good: RawCall::new(request)? })
+        Ok(Self { probe, valid: RawCall::new(request)? })
     }
 
     /// Sends the request with other data.
@@ -58,7 +59,7 @@ impl<'p, 's> MalformedRequest<'p, 's> {
 
     /// Sends the request with another address, service or length.
     fn call(&mut self, rules: impl Rules, what: &str, spoil: impl FnOnce(&mut RawCall)) -> Step {
-        self.probe.refuses(rules, what, self.good.with(spoil), &self.good)
+        self.probe.rejects(rules, what, self.valid.with(spoil), &self.valid)
     }
 }
 
@@ -82,12 +83,12 @@ fn bad_kind(probe: &mut Probe<'_>) -> Step {
 fn bad_index_kind(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let mut malformed = MalformedRequest::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
-    let good = malformed.good.data.clone();
-    for len in 0..good.len() {
+    let valid = malformed.valid.data.clone();
+    for len in 0..valid.len() {
         let what = format!("the request cut to {}", plural(len, "byte"));
-        malformed.data(assumed(VAR_3), &what, good.get(..len).unwrap_or_default())?;
+        malformed.data(assumed(VAR_3), &what, valid.get(..len).unwrap_or_default())?;
     }
-    let with_dot = [good.get(..7).unwrap_or_default(), &b".\0"[..]].concat();
+    let with_dot = [valid.get(..7).unwrap_or_default(), &b".\0"[..]].concat();
     malformed.data(assumed(VAR_3), "a kind with a final dot", &with_dot)?;
     malformed.data(assumed(VAR_3), "an empty kind", b"\0\0\0\0\0")
 }
@@ -102,10 +103,10 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
         [HandleByName { channel, name: field }.into(), ReadByName { channel, name: field }.into()];
     for request in requests {
         let mut malformed = MalformedRequest::new(probe, request)?;
-        let good = malformed.good.data.clone();
-        let open = good.split_last().map(|(_, open)| open.to_vec()).unwrap_or_default();
-        let behind = [&good, &b"x"[..]].concat();
-        let long = [&good[..], &vec![0; 257_usize.saturating_sub(good.len())]].concat();
+        let valid = malformed.valid.data.clone();
+        let open = valid.split_last().map(|(_, open)| open.to_vec()).unwrap_or_default();
+        let behind = [&valid, &b"x"[..]].concat();
+        let long = [&valid[..], &vec![0; 257_usize.saturating_sub(valid.len())]].concat();
         for (what, data) in [
             ("no data", Vec::new()),
             ("a name without NUL", open),
@@ -141,17 +142,17 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
     let array = array.or_not_applicable("no variable is an array")?;
     let request = ReadByHandle::new(channel, array.handle, U32List::from(&[0]));
     let mut malformed = MalformedRequest::new(probe, request)?;
-    let good = malformed.good.data.clone();
-    for len in 0..good.len() {
+    let valid = malformed.valid.data.clone();
+    for len in 0..valid.len() {
         let what = format!("the header cut to {}", plural(len, "byte"));
-        let data = good.get(..len).unwrap_or_default();
+        let data = valid.get(..len).unwrap_or_default();
         if len < 8 {
             malformed.data(assumed(VAR_11), &what, data)?;
         } else {
             malformed.of_other_length(&what, data)?;
         }
     }
-    let handle = good.get(..4).unwrap_or_default();
+    let handle = valid.get(..4).unwrap_or_default();
     for (count, indices) in [
         (2_u32, 1_usize),
         (0, 1),
@@ -174,7 +175,7 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
         )?;
     }
     for more in 1..4 {
-        let mut data = good.clone();
+        let mut data = valid.clone();
         data.extend((0..more).map(|_| 0));
         malformed
             .of_other_length(&format!("{} after the last index", plural(more, "byte")), &data)?;
@@ -218,17 +219,17 @@ fn bad_address(probe: &mut Probe<'_>) -> Step {
 fn bad_service(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let mut malformed = MalformedRequest::new(probe, CountVariables::new(channel, Kind::V_E))?;
-    for service in [Service::Read, Service::Write] {
+    for service in [AdsService::Read, AdsService::Write] {
         malformed.call(ADS_4, &format!("{service} at 0x44"), |call| {
             call.service = service;
             // A Read has no data.
-            if service == Service::Read {
+            if service == AdsService::Read {
                 call.data.clear();
             }
         })?;
     }
     let mut malformed = MalformedRequest::new(probe, CountObjects::new(channel))?;
-    for service in [Service::ReadWrite, Service::Write] {
+    for service in [AdsService::ReadWrite, AdsService::Write] {
         malformed
             .call(ADS_4, &format!("{service} of descriptors"), |call| call.service = service)?;
     }

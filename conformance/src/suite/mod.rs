@@ -28,7 +28,7 @@ mod row;
 mod run;
 mod sda;
 mod service_interface;
-mod stream;
+mod streaming;
 mod texts;
 mod values;
 mod variable;
@@ -36,10 +36,10 @@ mod variable_lookup;
 mod write;
 mod write_after_error;
 mod write_aliases;
+mod write_array_elements;
 mod write_content;
-mod write_elements;
 mod write_isolation;
-mod write_refused;
+mod write_rejected;
 mod write_sizes;
 mod write_texts;
 
@@ -77,8 +77,8 @@ const TABLES: &[&[CaseRow]] = &[
     axis::CASES,
     axis_place::CASES,
     write::CASES,
-    write_elements::CASES,
-    write_refused::CASES,
+    write_array_elements::CASES,
+    write_rejected::CASES,
     write_sizes::CASES,
     write_isolation::CASES,
     write_texts::CASES,
@@ -86,7 +86,7 @@ const TABLES: &[&[CaseRow]] = &[
     write_after_error::CASES,
     write_aliases::CASES,
     texts::CASES,
-    stream::CASES,
+    streaming::CASES,
     service_interface::CASES,
     malformed::CASES,
     address::FRAME_CASES,

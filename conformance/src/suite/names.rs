@@ -66,9 +66,9 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
     for name in names.iter() {
         let name = TextRef::new(name)?;
         probe.ask(VAR_18, ReadByName { channel, name })?;
-        let good = HandleByName { channel, name: known.as_cnc_str().into() };
+        let valid = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
-        probe.refuses(VAR_18, &what, HandleByName { channel, name }, good)?;
+        probe.rejects(VAR_18, &what, HandleByName { channel, name }, valid)?;
     }
     Ok(())
 }
@@ -99,9 +99,9 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
             let is_reversed = before.iter().rev().eq(&read) || [high, low].concat() == read;
             probe.check(GEN_1, !is_reversed, expected, found);
         });
-        let good = HandleByName { channel, name: known.as_cnc_str().into() };
+        let valid = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
-        probe.refuses(VAR_18, &what, HandleByName { channel, name }, good)?;
+        probe.rejects(VAR_18, &what, HandleByName { channel, name }, valid)?;
     }
     steady.finish()
 }

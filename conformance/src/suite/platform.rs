@@ -15,7 +15,7 @@ use super::kit::{
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, Stop, applicable, assumed};
-use crate::objects::{List, Object};
+use crate::objects::{ListedValue, ValueList};
 use crate::text::plural;
 
 #[rustfmt::skip]
@@ -105,7 +105,7 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = platform_channel(probe)?.map(ObjectList::from);
-    let of = |list| all.iter().filter(move |one| one.list == List::from(list));
+    let of = |list| all.iter().filter(move |one| one.list == ValueList::from(list));
     let mut steady = Steady::default();
     let mut any = false;
     for object in of(ObjectList::PLATFORM) {
@@ -114,7 +114,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         };
         any = true;
         let what = object.name.to_string();
-        let same = |one: &&Object| one.name == object.name && one.size() == object.size();
+        let same = |one: &&ListedValue| one.name == object.name && one.size() == object.size();
         let other = first.and_then(|first| of(first).find(same));
         if let Some(other) = other.and_then(|other| other.address.read().ok()) {
             steady.same(probe, COM_4, &what, one, other)?;

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Service, Task};
+use ads_cnc::operation::{AdsService, Task};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
@@ -40,7 +40,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     let group = context.index_group.ok_or_else(|| lacks("index group"))?;
     let offset = context.index_offset.ok_or_else(|| lacks("index offset"))?;
     let expected = reply.bytes();
-    let read = context.service == Some(ads_cnc_vectors::Service::Read);
+    let read = context.service == Some(ads_cnc_vectors::AdsService::Read);
     let data = if read { Vec::new() } else { request.bytes() };
     let length = u32::try_from(expected.len())?;
     let stream = Stream::by_name(&reply.stream).ok_or_else(|| lacks("stream"))?;
@@ -51,7 +51,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     };
     let call = RawCall {
         port: task.port(),
-        service: if read { Service::Read } else { Service::ReadWrite },
+        service: if read { AdsService::Read } else { AdsService::ReadWrite },
         index_group,
         index_offset: IndexOffset::new(offset),
         read_length: if read { length } else { stream.layout().max },

@@ -12,18 +12,18 @@ use std::sync::LazyLock;
 
 use super::kit::{Probe, TargetState};
 
-use super::row::Try;
+use super::row::CaseFunction;
 use super::{printed, rows};
 use crate::deadline::Deadline;
-use crate::faults::Seed;
+use crate::faults::SeededDefect;
 use crate::judge::{
     Body, Case, CaseOutcome, CaseSubject, ENOUGH, Needs, Stop, Verdict, attribute, caught,
 };
 use crate::process::{interrupt, progress};
-use crate::testee::{self, Terms};
+use crate::testee::{self, JudgementOptions};
 
 /// The function of each case that has one.
-static TRIES: LazyLock<HashMap<&str, Try>> =
+static TRIES: LazyLock<HashMap<&str, CaseFunction>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
 /// Runs the cases: those of the codec on the codec, all others on a target.
@@ -32,7 +32,7 @@ static TRIES: LazyLock<HashMap<&str, Try>> =
 pub fn run(
     cases: Vec<Case>,
     mut target: Option<&mut TargetState>,
-    defect: Option<&Seed>,
+    defect: Option<&SeededDefect>,
     seed: u32,
 ) -> Vec<CaseOutcome> {
     let (of_codec, of_target): (Vec<Case>, Vec<Case>) =
@@ -40,7 +40,8 @@ pub fn run(
     let mut outcomes = Vec::new();
     if !of_codec.is_empty() {
         let mut own = testee::CodecTestee { defect: defect.cloned() };
-        let terms = Terms { seed, subject: CaseSubject::Codec, edition: None, strict: true };
+        let terms =
+            JudgementOptions { seed, subject: CaseSubject::Codec, edition: None, strict: true };
         outcomes = testee::judge(&mut own, of_codec, terms).outcomes;
     }
     if !of_target.is_empty() {
@@ -76,7 +77,7 @@ fn broken_frames(target: &mut TargetState) -> Option<CaseOutcome> {
     Some(one(super::case_of(row), Some(row.run), Some(target)))
 }
 
-fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> CaseOutcome {
+fn one(mut case: Case, run: Option<CaseFunction>, target: Option<&mut TargetState>) -> CaseOutcome {
     let Some(target) = target else {
         return CaseOutcome::untried(case, Verdict::NotRun, "no target");
     };
@@ -84,7 +85,7 @@ fn one(mut case: Case, run: Option<Try>, target: Option<&mut TargetState>) -> Ca
         return CaseOutcome::interrupted(case);
     }
     // Cases about frames judge the frames exchanged so far, even if the target no longer answers.
-    if let Some(why) = target.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
+    if let Some(why) = target.disconnect_reason.as_ref().filter(|_| case.needs != Needs::Frames) {
         return CaseOutcome::untried(
             case,
             Verdict::Inconclusive,
@@ -233,7 +234,7 @@ mod tests {
             needs: Needs::Writes,
             body: Body::Probe,
         };
-        let reads: Try = |probe| probe.value_at(&place()).map(drop);
+        let reads: CaseFunction = |probe| probe.value_at(&place()).map(drop);
         let [panicked, next] = [panics, reads].map(|run| one(case(), Some(run), Some(&mut target)));
         assert_eq!(
             [panicked.verdict(), next.verdict()],

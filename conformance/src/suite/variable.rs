@@ -127,11 +127,11 @@ fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             let number = number(probe, channel, kind)?;
             let Some(last) = number.checked_sub(1) else {
                 let first = DescribeByIndex::new(channel, 0, kind);
-                probe.refuses_alone(VAR_2, "index 0 of an empty list", first)?;
+                probe.rejects_alone(VAR_2, "index 0 of an empty list", first)?;
                 continue;
             };
             for index in probe.beyond(number) {
-                probe.refuses(
+                probe.rejects(
                     VAR_2,
                     "the index after the last",
                     DescribeByIndex::new(channel, index, kind),
@@ -153,19 +153,19 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     let what = format!("channel {}", absent.number());
     for (_, kind) in probe.kinds().into_iter().chain([("", Kind::ALL)]) {
         let count = |channel| CountVariables::new(channel, kind);
-        probe.refuses(VAR_2, &what, count(absent), count(channel))?;
+        probe.rejects(VAR_2, &what, count(absent), count(channel))?;
     }
     let variables = probe.variables(channel)?;
     let Some(known) = variables.first() else { return Ok(()) };
     let kind = VariablePath::from_text(known.name.text.as_cnc_str()).map(|path| path.kind());
     if let Some((_, kind)) = probe.kinds().into_iter().find(|(_, one)| Ok(*one) == kind) {
         let first = |channel| DescribeByIndex::new(channel, 0, kind);
-        probe.refuses(VAR_3, &what, first(absent), first(channel))?;
+        probe.rejects(VAR_3, &what, first(absent), first(channel))?;
     }
     let read = |channel| ReadByName { channel, name: name_of(known) };
-    probe.refuses(VAR_14, &what, read(absent), read(channel))?;
+    probe.rejects(VAR_14, &what, read(absent), read(channel))?;
     let read = |channel| ReadByHandle::new(channel, known.handle, U32List::EMPTY);
-    probe.refuses(VAR_14, &what, read(absent), read(channel))
+    probe.rejects(VAR_14, &what, read(absent), read(channel))
 }
 
 /// The structures that contain a leaf: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
@@ -205,11 +205,11 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
                     continue;
                 }
                 let what = format!("the structure {structure}");
-                let (name, good) = (TextRef::new(structure)?, name_of(leaf));
+                let (name, valid) = (TextRef::new(structure)?, name_of(leaf));
                 let handle = |name| HandleByName { channel, name };
-                probe.refuses(VAR_20, &what, handle(name), handle(good))?;
+                probe.rejects(VAR_20, &what, handle(name), handle(valid))?;
                 let read = |name| ReadByName { channel, name };
-                probe.refuses(VAR_20, &what, read(name), read(good))?;
+                probe.rejects(VAR_20, &what, read(name), read(valid))?;
             }
         }
     }

@@ -29,11 +29,11 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
     let known = name_of(known);
     for name in ["V.E.no such variable", "V.E.", "V.X.a", "no kind", ""] {
         let (what, name) = (format!("the name {name:?}"), TextRef::new(name)?);
-        let (handle, good) =
+        let (handle, valid) =
             (HandleByName { channel, name }, HandleByName { channel, name: known });
-        probe.refuses(ADS_4, &what, handle, good)?;
-        let good = ReadByName { channel, name: known };
-        probe.refuses(ADS_4, &what, ReadByName { channel, name }, good)?;
+        probe.rejects(ADS_4, &what, handle, valid)?;
+        let valid = ReadByName { channel, name: known };
+        probe.rejects(ADS_4, &what, ReadByName { channel, name }, valid)?;
         // A success would return a handle, although no variable has this name.
         let given = probe.try_ask(handle)?;
         let none = given.is_none();
@@ -119,10 +119,10 @@ fn apart(
     known: TextRef<'_>,
 ) -> Step {
     let (what, name) = (format!("the name {other}"), TextRef::from(other));
-    let good = HandleByName { channel, name: known };
-    probe.refuses(rule, &what, HandleByName { channel, name }, good)?;
-    let good = ReadByName { channel, name: known };
-    probe.refuses(rule, &what, ReadByName { channel, name }, good)
+    let valid = HandleByName { channel, name: known };
+    probe.rejects(rule, &what, HandleByName { channel, name }, valid)?;
+    let valid = ReadByName { channel, name: known };
+    probe.rejects(rule, &what, ReadByName { channel, name }, valid)
 }
 
 /// Checks the types of the variables of the Service Interface, which are documented.

@@ -11,13 +11,13 @@ use super::kit::{
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable};
-use crate::objects::{List, ValueAddress};
+use crate::objects::{ValueAddress, ValueList};
 use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("write-after-refusal", &[ADS_2, ADS_4, VAR_12, VAR_13],
-        Needs::MalformedWrites, after_refusal,
+        Needs::MalformedWrites, after_rejection,
         "A write after a rejected write is executed and returns its own result"),
     case("write-objects-of-wrong-size", &[COM_5], Needs::MalformedWrites, objects_of_wrong_size,
         "A rejected write with a wrong size does not change the object"),
@@ -25,39 +25,39 @@ pub(super) const CASES: &[CaseRow] = &[
         "An axis place without an axis has blank content, also after a write"),
 ];
 
-fn after_refusal(probe: &mut Probe<'_>) -> Step {
+fn after_rejection(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
         let WritableNumber { channel, variable, value } = &known;
         let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
         let handle = ValueAddress::of_handle(*channel, variable.handle);
         for (id, address) in [(VAR_13, known.address()), (VAR_12, handle)] {
             let other = changed_value(value, false);
-            let (good, back) = (address.write(&other), address.write(value));
-            let (good, back) = (good?, back?);
+            let (valid, back) = (address.write(&other), address.write(value));
+            let (valid, back) = (valid?, back?);
             // Whether the target accepts a write that does not follow a rejected one.
-            let taken = |probe: &mut Probe<'_>, request| -> Step<bool> {
+            let accepted = |probe: &mut Probe<'_>, request| -> Step<bool> {
                 Ok(probe.try_ask(request)?.is_some())
             };
-            if !probe.may(back)? || !taken(probe, back)? || !taken(probe, back)? {
+            if !probe.may(back)? || !accepted(probe, back)? || !accepted(probe, back)? {
                 continue;
             }
             // Continues only if the write to the unknown name is rejected.
             if probe.try_ask(unknown)?.is_some() {
                 continue;
             }
-            let exchange = probe.send(good)?;
+            let exchange = probe.send(valid)?;
             let done = exchange.success().is_some();
             let name = &variable.name.text;
             let expected = || format!("{name} written after a rejected write");
             probe.check([id, ADS_2, ADS_4], done, expected, &exchange);
             let after = probe.value_at(&address)?.unwrap_or_default();
             // Another case judges values that cannot be changed.
-            let (again, read) = (taken(probe, good)?, probe.value_at(&address)?);
+            let (again, read) = (accepted(probe, valid)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));
                 probe.check([id, ADS_2], after == other, expected, || Hex(after.clone()));
             }
-            taken(probe, back)?;
+            accepted(probe, back)?;
         }
     }
     Ok(())
@@ -81,9 +81,9 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
         let longer = [&other[..], &[1]].concat();
         let shorter = (1..other.len()).filter_map(|len| other.get(..len));
         for data in shorter.chain([&longer[..]]) {
-            let Some(bad) = address.write(data).ok().filter(is_sendable) else { continue };
+            let Some(invalid) = address.write(data).ok().filter(is_sendable) else { continue };
             any = true;
-            let exchange = probe.send(bad)?;
+            let exchange = probe.send(invalid)?;
             if exchange.is_error() {
                 let after = probe.value_at(&address)?.unwrap_or_default();
                 let there = data.get(..after.len()).unwrap_or(data);
@@ -131,7 +131,7 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
     }
     for object in probe.objects()? {
         let content = object.address.content();
-        let is_of_channel = !matches!(object.list, List::Axis(_))
+        let is_of_channel = !matches!(object.list, ValueList::Axis(_))
             && content.is_some_and(|(group, _)| group.get() & 0xFF00 == 0x0100);
         let number = may_be_a_number(&object.ty.name);
         if object.is_writable() && is_of_channel && !number && probe.is_blank(&object) {

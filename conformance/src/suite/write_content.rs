@@ -1,7 +1,7 @@
 //! Cases that write COM objects and elements of SDA and GEO and restore them.
 
 use ads_cnc::address::{Class, Group};
-use ads_cnc::operation::{CountElements, Service};
+use ads_cnc::operation::{AdsService, CountElements};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
@@ -11,7 +11,7 @@ use super::kit::{
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, applicable, assumed};
-use crate::objects::{Object, ValueAddress};
+use crate::objects::{ListedValue, ValueAddress};
 use crate::text::plural;
 
 #[rustfmt::skip]
@@ -31,7 +31,7 @@ pub(super) const CASES: &[CaseRow] = &[
 ];
 
 /// The objects that are writable, or not writable, according to their descriptors.
-fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
+fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<ListedValue>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
         if object.is_writable() == is_writable
@@ -69,7 +69,10 @@ fn objects(probe: &mut Probe<'_>) -> Step {
 }
 
 /// The objects of other channels or platform axes with the same offset and name, and their values.
-fn of_other_instances(probe: &mut Probe<'_>, object: &Object) -> Step<Vec<(Object, Vec<u8>)>> {
+fn of_other_instances(
+    probe: &mut Probe<'_>,
+    object: &ListedValue,
+) -> Step<Vec<(ListedValue, Vec<u8>)>> {
     let mut all = Vec::new();
     for other in probe.objects()? {
         if other.name == object.name && is_elsewhere(object, &other) {
@@ -82,8 +85,8 @@ fn of_other_instances(probe: &mut Probe<'_>, object: &Object) -> Step<Vec<(Objec
 
 /// Whether an object has the same offset in the group of another channel or platform axis. Objects in
 /// channel 0 are excluded, because channel 1 addresses the same objects of the platform.
-fn is_elsewhere(object: &Object, other: &Object) -> bool {
-    let parts = |object: &Object| {
+fn is_elsewhere(object: &ListedValue, other: &ListedValue) -> bool {
+    let parts = |object: &ListedValue| {
         let (group, offset) = object.address.content()?;
         let Group::Com(com) = group.parts()? else { return None };
         Some((com, offset))
@@ -194,11 +197,11 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
         for other in [&longer[..], value.get(1..).unwrap_or_default()] {
             let Ok(write) = address.write(other) else { continue };
             let exchange = probe.send(write)?;
-            let refused = exchange.is_error();
+            let rejected = exchange.is_error();
             let expected = || format!("an error for {} of {what}", plural(other.len(), "byte"));
-            probe.check(assumed(SDA_8), refused, expected, &exchange);
+            probe.check(assumed(SDA_8), rejected, expected, &exchange);
             let after = probe.value_at(address)?.unwrap_or_default();
-            let passed = !refused || after == value;
+            let passed = !rejected || after == value;
             let expected = || format!("{} of {what}, unchanged", Hex(value.clone()));
             probe.check(SDA_8, passed, expected, || Hex(after));
             probe.send(address.write(&value)?)?;
@@ -223,13 +226,13 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
 fn number_of_elements(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
         let write = RawCall::new(CountElements::new(instance.first)?)?.with(|call| {
-            (call.service, call.read_length) = (Service::Write, 0);
+            (call.service, call.read_length) = (AdsService::Write, 0);
             call.data = instance.count.to_le_bytes().to_vec();
         });
         let exchange = probe.call(&write)?;
-        let refused = exchange.is_error();
+        let rejected = exchange.is_error();
         let expected = || format!("an error number for a write of the number of {instance}");
-        probe.check(SDA_4, refused, expected, &exchange);
+        probe.check(SDA_4, rejected, expected, &exchange);
     }
     Ok(())
 }

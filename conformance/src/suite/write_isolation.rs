@@ -31,11 +31,11 @@ struct WatchedVariable {
     value: Vec<u8>,
     /// Another address for writing the variable.
     at: Option<ValueAddress>,
-    seen: Vec<Reading>,
+    seen: Vec<ReadValue>,
 }
 
 /// The values of a variable at one time.
-struct Reading {
+struct ReadValue {
     expected: Vec<u8>,
     read: Vec<u8>,
     evidence: Option<Evidence>,
@@ -143,7 +143,7 @@ fn write_and_read_all(
         if read != one.value && probe.moves(&place, false)? {
             continue;
         }
-        one.seen.push(Reading { expected: one.value.clone(), read, evidence });
+        one.seen.push(ReadValue { expected: one.value.clone(), read, evidence });
     }
     Ok(())
 }

@@ -126,15 +126,15 @@ impl WrongSizeWrite<'_> {
     /// text is documented online only.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
         let Self { at, watched, is_text, value, other } = *self;
-        let (bad, good) = (at.address.write(other), at.address.write(value));
-        let (Ok(bad), Ok(good)) = (bad, good) else { return Ok(()) };
-        if !is_sendable(&bad) || !is_sendable(&good) {
+        let (invalid, valid) = (at.address.write(other), at.address.write(value));
+        let (Ok(invalid), Ok(valid)) = (invalid, valid) else { return Ok(()) };
+        if !is_sendable(&invalid) || !is_sendable(&valid) {
             return Ok(());
         }
         let of_size: Rule = if is_text { online(VAR_25) } else { at.id.into() };
-        require_taken(probe, at.id, good)?;
+        require_taken(probe, at.id, valid)?;
         let before = probe.value_at(watched)?;
-        let is_taken = is_taken(probe, at.id, what, bad)?;
+        let is_taken = is_taken(probe, at.id, what, invalid)?;
         let evidence = probe.evidence();
         let (read, after) = (probe.value_at(&at.address)?, probe.value_at(watched)?);
         probe.set_evidence(evidence);
@@ -147,12 +147,12 @@ impl WrongSizeWrite<'_> {
         } else {
             // A value that changes by itself proves nothing.
             if after != before && probe.moves(watched, false)? {
-                return probe.send(good).map(drop);
+                return probe.send(valid).map(drop);
             }
             let expected = || format!("the value before {what}");
             let shown = || Hex(after.clone().unwrap_or_default());
             probe.check(at.id, after == before, expected, shown);
         }
-        probe.send(good).map(drop)
+        probe.send(valid).map(drop)
     }
 }

@@ -69,10 +69,10 @@ fn of_lengths(
         value.push(0);
         // Padded to the described size: that fewer bytes are accepted is assumed.
         value.resize(size.max(1), 0);
-        let taken = probe.write_value(address, &value)?;
+        let accepted = probe.write_value(address, &value)?;
         let expected = || format!("{name} accepts a text of {}", plural(len, "character"));
-        probe.check(online(VAR_25), taken, expected, "an error");
-        if !taken {
+        probe.check(online(VAR_25), accepted, expected, "an error");
+        if !accepted {
             continue;
         }
         let read = probe.value_at(address)?.unwrap_or_default();

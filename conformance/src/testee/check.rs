@@ -10,7 +10,7 @@ use crate::text::{escape, hex::compact};
 
 /// The result of one step of the protocol.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ProtocolFinding {
+pub struct ProtocolStepResult {
     pub what: String,
     pub sent: Option<String>,
     pub received: Option<String>,
@@ -34,7 +34,7 @@ const SAMPLES: [&str; 8] = [
 const EDITION: &str = "en-1.05";
 
 /// Tries every step of the protocol with a testee.
-pub fn check_protocol(process: &mut TesteeProcess) -> Vec<ProtocolFinding> {
+pub fn check_protocol(process: &mut TesteeProcess) -> Vec<ProtocolStepResult> {
     let mut steps = Steps { process, findings: Vec::new() };
     let hello = steps.process.hello();
     let capabilities = match hello {
@@ -77,7 +77,7 @@ pub fn check_protocol(process: &mut TesteeProcess) -> Vec<ProtocolFinding> {
 
 struct Steps<'p> {
     process: &'p mut TesteeProcess,
-    findings: Vec<ProtocolFinding>,
+    findings: Vec<ProtocolStepResult>,
 }
 
 impl Steps<'_> {
@@ -85,7 +85,7 @@ impl Steps<'_> {
         let (sent, received) = self.process.last();
         let [sent, received, fault] =
             [sent, received, fault].map(|text| text.map(|text| escape(&text)));
-        self.findings.push(ProtocolFinding { what: what.into(), sent, received, fault });
+        self.findings.push(ProtocolStepResult { what: what.into(), sent, received, fault });
     }
 
     fn capabilities(&mut self, capabilities: &Capabilities) {

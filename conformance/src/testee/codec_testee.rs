@@ -7,13 +7,13 @@ use ads_cnc_vectors::vectors;
 use crate::codec::message::{
     Answer, Capabilities, Identity, Output, PROTOCOL, Question, Rejection, TesteeHello,
 };
-use crate::codec::{self, Refused};
-use crate::faults::{FieldDefect, Seed};
+use crate::codec::{self, CodecError};
+use crate::faults::{FieldDefect, SeededDefect};
 
 /// Answers questions with this project's codec, optionally with a defect.
 #[derive(Clone, Debug, Default)]
 pub struct CodecTestee {
-    pub defect: Option<Seed>,
+    pub defect: Option<SeededDefect>,
 }
 
 impl CodecTestee {
@@ -42,7 +42,7 @@ impl CodecTestee {
     }
 
     pub fn answer(&self, question: &Question) -> Answer {
-        match self.defect.as_ref().and_then(Seed::of_codec) {
+        match self.defect.as_ref().and_then(SeededDefect::of_codec) {
             Some(fault) => fault.answer(&|question| self.answer_right(question), question),
             None => self.answer_right(question),
         }
@@ -82,7 +82,7 @@ impl CodecTestee {
     fn changed(&self, stream: &str, bytes: &[u8]) -> Vec<u8> {
         let stream = ads_cnc::layout::Stream::by_name(stream);
         let touches = |defect: &&FieldDefect| stream.is_some_and(|stream| defect.touches(stream));
-        match self.defect.as_ref().and_then(Seed::field).filter(touches) {
+        match self.defect.as_ref().and_then(SeededDefect::field).filter(touches) {
             None => bytes.to_vec(),
             Some(defect) => defect.apply(bytes),
         }
@@ -93,18 +93,18 @@ fn unsupported(what: &str) -> Answer {
     Answer::Unsupported { what: what.to_owned() }
 }
 
-fn refusal(refused: Refused) -> Answer {
+fn refusal(refused: CodecError) -> Answer {
     match refused {
-        Refused::Error(error) => Answer::Reject(Rejection {
+        CodecError::Error(error) => Answer::Reject(Rejection {
             class: Some(codec::class(&error).to_owned()),
             at: Some(error.offset().into()),
             message: Some(error.to_string()),
             ..Rejection::default()
         }),
-        Refused::InvalidFields(why) => {
+        CodecError::InvalidFields(why) => {
             Answer::Reject(Rejection { message: Some(why), ..Rejection::default() })
         }
-        Refused::Unsupported(what) => {
+        CodecError::Unsupported(what) => {
             if what.starts_with("stream ") {
                 unsupported("stream")
             } else {

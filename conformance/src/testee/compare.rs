@@ -26,28 +26,28 @@ pub(super) fn compare(reference: &Fields, found: &Json) -> Option<Difference> {
     record("", reference, found)
 }
 
-fn other(place: &str, what: impl std::fmt::Display) -> Option<Difference> {
-    let place = if place.is_empty() { "the value" } else { place };
-    Some(Difference::Other(format!("{place}: {what}")))
+fn other(path: &str, what: impl std::fmt::Display) -> Option<Difference> {
+    let path = if path.is_empty() { "the value" } else { path };
+    Some(Difference::Other(format!("{path}: {what}")))
 }
 
-fn within(place: &str, name: &str) -> String {
-    if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") }
+fn within(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }
 
-fn record(place: &str, reference: &Fields, found: &Json) -> Option<Difference> {
+fn record(path: &str, reference: &Fields, found: &Json) -> Option<Difference> {
     let Some(given) = found.as_object() else {
-        return other(place, format_args!("an object with fields is expected, not {found}"));
+        return other(path, format_args!("an object with fields is expected, not {found}"));
     };
     if let Some(surplus) = given.keys().find(|name| !reference.contains_key(*name)) {
-        return other(&within(place, surplus), "no such field");
+        return other(&within(path, surplus), "no such field");
     }
     let mut slight = None;
     for (name, value) in reference {
-        let place = within(place, name);
+        let path = within(path, name);
         let difference = match given.get(name) {
-            None => other(&place, "is missing"),
-            Some(found) => one(&place, value, found),
+            None => other(&path, "is missing"),
+            Some(found) => one(&path, value, found),
         };
         slight = worse(slight, difference);
         if let Some(Difference::Other(_)) = slight {
@@ -68,56 +68,56 @@ fn worse(one: Option<Difference>, other: Option<Difference>) -> Option<Differenc
     if weight(&other) > weight(&one) { other } else { one }
 }
 
-pub(super) fn one(place: &str, reference: &Value, found: &Json) -> Option<Difference> {
+pub(super) fn one(path: &str, reference: &Value, found: &Json) -> Option<Difference> {
     match reference {
-        Value::One(tagged) => single(place, tagged, found),
-        Value::Record(fields) => record(place, fields, found),
+        Value::One(tagged) => single(path, tagged, found),
+        Value::Record(fields) => record(path, fields, found),
         Value::List(items) => {
             let Some(given) = found.as_array() else {
-                return other(place, format_args!("a list is expected, not {found}"));
+                return other(path, format_args!("a list is expected, not {found}"));
             };
             if given.len() != items.len() {
                 return other(
-                    place,
+                    path,
                     format_args!("{} expected, not {}", plural(items.len(), "item"), given.len()),
                 );
             }
             let pairs = items.iter().zip(given).enumerate();
             let differences = pairs.map(|(index, (reference, found))| {
-                one(&format!("{place}[{index}]"), reference, found)
+                one(&format!("{path}[{index}]"), reference, found)
             });
             differences.fold(None, worse)
         }
     }
 }
 
-fn single(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
+fn single(path: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     let text = |name: &str| found.get(name).and_then(Json::as_str);
     let kind = reference.kind.name();
     match text("type") {
         Some(given) if given == kind => {}
-        Some(given) => return other(place, format_args!("type {kind} is expected, not {given}")),
+        Some(given) => return other(path, format_args!("type {kind} is expected, not {given}")),
         None => {
-            return other(place, format_args!("an object with a type is expected, not {found}"));
+            return other(path, format_args!("an object with a type is expected, not {found}"));
         }
     }
     let mut given =
         ["value", "hex", "bits"].iter().filter_map(|name| Some((name, found.get(name)?)));
     if let Some((name, value)) = given.find(|(_, value)| !value.is_string()) {
-        return other(place, format_args!("{name} must be a string, not the JSON {value}"));
+        return other(path, format_args!("{name} must be a string, not the JSON {value}"));
     }
     match reference.kind {
         Type::String => {
             let expected = reference.hex.as_deref().unwrap_or_default();
-            match hex(place, expected, text("hex")) {
+            match hex(path, expected, text("hex")) {
                 Some(Difference::Other(what)) if has_other_end(reference, text("hex")) => {
                     Some(Difference::End(what))
                 }
-                None => end(place, reference, found),
+                None => end(path, reference, found),
                 characters => characters,
             }
         }
-        Type::Bytes => hex(place, reference.hex.as_deref().unwrap_or_default(), text("hex")),
+        Type::Bytes => hex(path, reference.hex.as_deref().unwrap_or_default(), text("hex")),
         Type::Real32 | Type::Real64 | Type::Real | Type::Lreal => {
             let bits = |text: &str| {
                 u64::from_str_radix(text.strip_prefix("0x").unwrap_or_default(), 16).ok()
@@ -129,7 +129,7 @@ fn single(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
             if same {
                 None
             } else {
-                other(place, format_args!("bits {expected} is expected, not {found}"))
+                other(path, format_args!("bits {expected} is expected, not {found}"))
             }
         }
         Type::NetId | Type::Name => {
@@ -138,7 +138,7 @@ fn single(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
             if expected == given {
                 None
             } else {
-                other(place, format_args!("{expected} is expected, not {given}"))
+                other(path, format_args!("{expected} is expected, not {given}"))
             }
         }
         _ => {
@@ -149,7 +149,7 @@ fn single(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
                 None
             } else {
                 other(
-                    place,
+                    path,
                     format_args!("{expected} is expected, not {}", given.unwrap_or("nothing")),
                 )
             }
@@ -157,10 +157,10 @@ fn single(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     }
 }
 
-fn hex(place: &str, reference: &[u8], given: Option<&str>) -> Option<Difference> {
+fn hex(path: &str, reference: &[u8], given: Option<&str>) -> Option<Difference> {
     let expected = compact::show(reference);
     let Some(given) = given else {
-        return other(place, format_args!("hex {expected} is expected, but hex is missing"));
+        return other(path, format_args!("hex {expected} is expected, but hex is missing"));
     };
     match compact::parse(given) {
         Ok(bytes) if bytes == reference => None,
@@ -171,9 +171,9 @@ fn hex(place: &str, reference: &[u8], given: Option<&str>) -> Option<Difference>
             let hint = if is_utf8 { ", the text in UTF-8," } else { "" };
             let expected = if reference.is_empty() { "no byte" } else { &expected };
             let given = if bytes.is_empty() { "no byte".to_owned() } else { compact::show(&bytes) };
-            other(place, format_args!("hex {given}{hint} where {expected} is expected"))
+            other(path, format_args!("hex {given}{hint} where {expected} is expected"))
         }
-        Err(why) => other(place, why),
+        Err(why) => other(path, why),
     }
 }
 
@@ -188,7 +188,7 @@ fn has_other_end(reference: &Tagged, given: Option<&str>) -> bool {
 
 /// Compares the ends of two texts with equal characters: `open` (no NUL) and `tail` (the bytes after
 /// the NUL), which a testee may omit.
-fn end(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
+fn end(path: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
     let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);
     let is_told = open || tail.is_some();
@@ -196,7 +196,7 @@ fn end(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     let given_tail = match &tail {
         None => &[],
         Some(Ok(bytes)) => bytes.as_slice(),
-        Some(Err(why)) => return other(place, why),
+        Some(Err(why)) => return other(path, why),
     };
     if open == reference.open && given_tail == reference_tail {
         return None;
@@ -207,9 +207,9 @@ fn end(place: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
         (false, tail) => format!("{} after its NUL", compact::show(tail)),
     };
     if is_told {
-        Some(Difference::End(format!("{place}: {expected} is expected")))
+        Some(Difference::End(format!("{path}: {expected} is expected")))
     } else {
-        Some(Difference::Omitted(format!("{place}: {expected} is omitted")))
+        Some(Difference::Omitted(format!("{path}: {expected} is omitted")))
     }
 }
 

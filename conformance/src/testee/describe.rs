@@ -4,8 +4,8 @@ use super::TesteeReaction;
 use crate::codec::message::{Answer, Output, Question};
 use crate::evidence::Evidence;
 use crate::judge::TEXT_MAX;
-use crate::show::show;
 use crate::text::{hex::compact, plural, shorten};
+use crate::vector_format::show;
 
 /// The beginning of the description of a line that is not a valid answer of the protocol.
 pub(super) const NO_ANSWER: &str = "invalid answer: ";

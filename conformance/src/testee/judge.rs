@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::describe::describe;
 use super::plan::{PlannedQuestion, Purpose, plan};
 use super::protocol_rules::ProtocolRules;
-use super::verdicts::{Reactions, Terms, Verdicts};
+use super::verdicts::{JudgementOptions, Reactions, Verdicts};
 use super::{Testee, TesteeReaction};
 use crate::codec::message::{Answer, TesteeHello};
 use crate::judge::{Case, CaseOutcome, CaseSubject, HELLO, Stop, Verdict, caught};
@@ -29,7 +29,11 @@ pub struct JudgedTestee {
 }
 
 /// Asks a testee all questions of these cases and judges the answers.
-pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) -> JudgedTestee {
+pub fn judge(
+    testee: &mut dyn Testee,
+    mut cases: Vec<Case>,
+    terms: JudgementOptions<'_>,
+) -> JudgedTestee {
     cases.iter_mut().for_each(|case| case.subject = terms.subject);
     let hello = match testee.hello() {
         Ok(hello) => hello,
@@ -65,7 +69,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let missing = crate::judge::siblings_of(&cases);
     cases.extend(missing);
     let mut reactions = Reactions::new();
-    let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
+    let (mut lost, mut restarts, mut asked, mut stop) = (0_usize, 0_usize, 0_usize, None);
     let mut kept = 0_usize;
     let mut panicked = HashMap::new();
     let mut times: HashMap<usize, Duration> = HashMap::new();
@@ -73,7 +77,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     progress::begin(planned.len());
     for PlannedQuestion { purpose, question } in planned {
         if let Some(why) = testee.over() {
-            gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
+            stop = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
         let begin = Instant::now();
@@ -87,11 +91,11 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         };
         if interrupt::is_requested() {
             // After an interrupt the suite no longer waits, so a missing answer is not a failure.
-            gone = Some(Stop::Interrupted);
+            stop = Some(Stop::Interrupted);
             break;
         }
         if let (TesteeReaction::Silent(_), Some(why)) = (&reaction, testee.over()) {
-            gone = Some(Stop::Inconclusive(format!("not answered: {why}")));
+            stop = Some(Stop::Inconclusive(format!("not answered: {why}")));
             break;
         }
         asked = asked.saturating_add(1);
@@ -113,7 +117,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         }
         if kept > ANSWERS_MAX {
             let why = format!("the answers take more than {} MiB", ANSWERS_MAX >> 20);
-            gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
+            stop = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
         if is_garbled {
@@ -128,11 +132,11 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         }
         if lost >= UNANSWERED_MAX {
             let why = format!("{UNANSWERED_MAX} consecutive questions without a valid answer");
-            gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
+            stop = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
     }
-    if gone.is_none()
+    if stop.is_none()
         && testee.over().is_none()
         && let Err(why) = testee.bye()
     {
@@ -145,7 +149,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         hello: &hello,
         edition,
         terms,
-        gone,
+        stop,
         broken,
     };
     view.broken =
@@ -215,7 +219,8 @@ mod tests {
     #[test]
     fn a_panic_is_a_harness_error_of_its_case_only() {
         let cases = crate::judge::codec_cases();
-        let terms = Terms { seed: 1, subject: CaseSubject::Codec, edition: None, strict: true };
+        let terms =
+            JudgementOptions { seed: 1, subject: CaseSubject::Codec, edition: None, strict: true };
         let judged = judge(&mut PanickingTestee(CodecTestee::default()), cases, terms);
         let (panicked, others): (Vec<_>, Vec<_>) = judged.outcomes.iter().partition(|outcome| {
             matches!(outcome.case.body, crate::judge::Body::Sequence(one) if one.kind() == "nc-check")

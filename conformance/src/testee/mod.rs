@@ -17,17 +17,17 @@ mod protocol_rules;
 mod verdicts;
 
 pub use crate::codec::message::{
-    Answer, AnswerLine, Capabilities, Identity, Known, Output, PROTOCOL, Question, Rejection,
-    TesteeCommand, TesteeHello,
+    Answer, AnswerLine, Capabilities, Identity, Output, PROTOCOL, Question, QuestionContext,
+    Rejection, TesteeCommand, TesteeHello,
 };
 pub use crate::process::LINE_MAX;
-pub use check::{ProtocolFinding, check_protocol};
+pub use check::{ProtocolStepResult, check_protocol};
 pub use codec_testee::CodecTestee;
 pub use judge::{JudgedTestee, judge};
 pub use miniature::{Miniature, MiniatureAction};
 pub use plan::questions;
 pub use process::{TesteeProcess, answered, greeted};
-pub use verdicts::Terms;
+pub use verdicts::JudgementOptions;
 
 /// A codec that is judged by the golden vectors.
 pub trait Testee {

@@ -1,8 +1,8 @@
 //! The questions for a testee, and their order.
 
-use ads_cnc_vectors::{Accept, Expect, Given, Pieces, Vector};
+use ads_cnc_vectors::{Accept, Expect, Pieces, SequenceInput, Vector};
 
-use crate::codec::message::{Capabilities, Known, Question};
+use crate::codec::message::{Capabilities, Question, QuestionContext};
 use crate::judge::{Body, Case, order};
 
 /// The purpose of a question.
@@ -41,12 +41,13 @@ pub(super) fn plan(
 ) -> Vec<PlannedQuestion> {
     let claimed = cases.iter().enumerate().flat_map(|(place, case)| {
         let questions = questions(case, edition).into_iter();
-        let mine = questions.filter(|one| capabilities.claim(&one.op, &one.stream));
-        mine.map(move |question| PlannedQuestion { purpose: Purpose::Case(place), question })
+        let claimed_questions = questions.filter(|one| capabilities.claim(&one.op, &one.stream));
+        claimed_questions
+            .map(move |question| PlannedQuestion { purpose: Purpose::Case(place), question })
     });
-    let mut asked: Vec<PlannedQuestion> = claimed.collect();
-    let sanity = sanity(cases, &asked);
-    asked.sort_by_cached_key(|one| match one.purpose {
+    let mut planned: Vec<PlannedQuestion> = claimed.collect();
+    let sanity = sanity(cases, &planned);
+    planned.sort_by_cached_key(|one| match one.purpose {
         Purpose::Case(case) => {
             let id = cases.get(case).map_or("", |case| case.id.as_str());
             order(seed, &format!("{id} {}", one.question.op))
@@ -55,8 +56,8 @@ pub(super) fn plan(
     });
     // Inserts a nonexistent op after two thirds of the questions, and another after one third.
     for part in [2, 1] {
-        let place = asked.len().saturating_mul(part).checked_div(3).unwrap_or_default();
-        asked.insert(place, made_up(order(seed, &part.to_string()), edition));
+        let place = planned.len().saturating_mul(part).checked_div(3).unwrap_or_default();
+        planned.insert(place, made_up(order(seed, &part.to_string()), edition));
     }
     let again = |first: bool| {
         sanity.iter().map(move |(case, question)| PlannedQuestion {
@@ -64,14 +65,14 @@ pub(super) fn plan(
             question: question.clone(),
         })
     };
-    again(true).chain(asked).chain(again(false)).collect()
+    again(true).chain(planned).chain(again(false)).collect()
 }
 
 /// The sanity questions, as case and question: for different streams or ops, and one third of them for
 /// rejected vectors.
-fn sanity(cases: &[Case], asked: &[PlannedQuestion]) -> Vec<(usize, Question)> {
+fn sanity(cases: &[Case], planned: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     let mut chosen: Vec<(usize, Question)> = Vec::new();
-    for one in asked {
+    for one in planned {
         let Purpose::Case(case) = one.purpose else { continue };
         let Some(Body::Vector(vector)) = cases.get(case).map(|case| &case.body) else { continue };
         let known = chosen.iter().any(|(_, question)| {
@@ -105,13 +106,13 @@ pub fn questions(case: &Case, edition: &str) -> Vec<Question> {
             let bytes = |pieces: &Vec<Pieces>| pieces.iter().map(Pieces::bytes).collect();
             let blank = |op: &str, stream: &str| Question::new(op, stream, edition);
             match &sequence.given {
-                Given::NcText(text) => {
+                SequenceInput::NcText(text) => {
                     vec![Question { hex: Some(text.bytes()), ..blank("packets", "nc-text") }]
                 }
-                Given::NcCheck(packets) => {
+                SequenceInput::NcCheck(packets) => {
                     vec![Question { packets: Some(bytes(packets)), ..blank("check", "nc-check") }]
                 }
-                Given::Streaming(_) | Given::Service(_) => Vec::new(),
+                SequenceInput::Streaming(_) | SequenceInput::Service(_) => Vec::new(),
             }
         }
         _ => Vec::new(),
@@ -121,7 +122,7 @@ pub fn questions(case: &Case, edition: &str) -> Vec<Question> {
 /// The questions for a vector: `decode` with its bytes and, if it is accepted, `encode` with its value.
 pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     let of = |op: &str| Question {
-        context: Known::from(&vector.context),
+        context: QuestionContext::from(&vector.context),
         ..Question::new(op, vector.stream.as_str(), edition)
     };
     let decode = Question { hex: Some(vector.bytes()), ..of("decode") };

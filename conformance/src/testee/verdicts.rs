@@ -14,13 +14,13 @@ use crate::evidence::Describe;
 use crate::judge::{
     Body, Case, CaseOutcome, CaseSubject, NOT_CLAIMED, Record, Rule, Stop, TESTEE, Verdict,
 };
-use crate::show::show;
 use crate::text::hex::compact;
 use crate::text::plural;
+use crate::vector_format::show;
 
 /// The terms by which a testee is judged.
 #[derive(Clone, Copy, Debug)]
-pub struct Terms<'t> {
+pub struct JudgementOptions<'t> {
     pub seed: u32,
     /// The subject: this project's codec or a testee.
     pub subject: CaseSubject,
@@ -39,9 +39,9 @@ pub(super) struct Verdicts<'v> {
     pub(super) reactions: &'v Reactions,
     pub(super) hello: &'v TesteeHello,
     pub(super) edition: String,
-    pub(super) terms: Terms<'v>,
+    pub(super) terms: JudgementOptions<'v>,
     /// Why not all questions were asked; `None` if all were asked.
-    pub(super) gone: Option<Stop>,
+    pub(super) stop: Option<Stop>,
     /// The clauses of the wrong fields by which at least one vector fails.
     pub(super) broken: BTreeSet<&'static str>,
 }
@@ -84,14 +84,14 @@ impl Verdicts<'_> {
         let mut record = Record::default();
         for question in &claimed {
             let Some(reaction) = self.reactions.get(&(place, question.op.clone())) else {
-                stop.clone_from(&self.gone);
+                stop.clone_from(&self.stop);
                 continue;
             };
             let deviation = self.deviation(case, question, reaction);
             let is_vacuous = |one: &Deviation| one.verdict == Verdict::Vacuous;
-            if deviation.as_ref().is_some_and(is_vacuous) && self.gone.is_some() {
+            if deviation.as_ref().is_some_and(is_vacuous) && self.stop.is_some() {
                 // The question of the sibling may not have been asked, because the run ended early.
-                stop.clone_from(&self.gone);
+                stop.clone_from(&self.stop);
                 continue;
             }
             self.record(&mut record, case, question, reaction, deviation);

@@ -4,15 +4,15 @@ use std::time::Duration;
 
 /// Parses a duration such as `500ms`, `2s` or `1.5min`.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {
-    let odd = || "expected a number with the unit ms, s or min, such as 500ms".to_owned();
-    let end = text.find(|byte: char| !byte.is_ascii_digit() && byte != '.').ok_or_else(odd)?;
-    let (number, unit) = text.split_at_checked(end).ok_or_else(odd)?;
-    let number: f64 = number.parse().map_err(|_| odd())?;
+    let invalid = || "expected a number with the unit ms, s or min, such as 500ms".to_owned();
+    let end = text.find(|byte: char| !byte.is_ascii_digit() && byte != '.').ok_or_else(invalid)?;
+    let (number, unit) = text.split_at_checked(end).ok_or_else(invalid)?;
+    let number: f64 = number.parse().map_err(|_| invalid())?;
     let seconds = match unit {
         "ms" => number / 1000.0,
         "s" => number,
         "min" => number * 60.0,
-        _ => return Err(odd()),
+        _ => return Err(invalid()),
     };
     let too_much = || "the maximum is 24 hours".to_owned();
     Duration::try_from_secs_f64(seconds).ok().filter(|time| *time <= MAX).ok_or_else(too_much)

@@ -1,4 +1,5 @@
-//! Text: hex, escapes, durations, JSON. No I/O, and no imports from other modules of this crate.
+//! Text: hex, escapes, durations, patterns of names, JSON. No I/O, and no imports from other modules of
+//! this crate.
 
 use std::fmt::Display;
 
@@ -9,12 +10,14 @@ pub(crate) mod json;
 mod moment;
 mod nearest;
 mod parse_error;
+mod pattern;
 
 pub(crate) use duration::{duration, shown_time, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use moment::Moment;
 pub(crate) use nearest::{did_you_mean, nearest};
 pub(crate) use parse_error::{found, in_words, json_error, toml_error};
+pub use pattern::Pattern;
 
 /// The text, or its first `most` characters with an ellipsis.
 pub(crate) fn shorten(text: &str, most: usize) -> String {

@@ -54,17 +54,17 @@ fn distance(one: &[char], other: &[char]) -> usize {
         (Vec::new(), (0..=other.len()).collect());
     let mut previous = None;
     for a in one {
-        let at = |line: &[usize], place: usize| line.get(place).copied().unwrap_or(usize::MAX);
+        let at = |line: &[usize], column: usize| line.get(column).copied().unwrap_or(usize::MAX);
         let more = |distance: usize| distance.saturating_add(1);
         let mut next = vec![more(at(&last, 0))];
         let mut left = None;
-        for (place, b) in other.iter().enumerate() {
-            let replaced = at(&last, place).saturating_add(usize::from(a != b));
-            let deleted = more(at(&last, place.saturating_add(1)));
-            let inserted = more(at(&next, place));
+        for (column, b) in other.iter().enumerate() {
+            let replaced = at(&last, column).saturating_add(usize::from(a != b));
+            let deleted = more(at(&last, column.saturating_add(1)));
+            let inserted = more(at(&next, column));
             let is_swapped = left == Some(a) && previous == Some(b);
-            let swapped = match place.checked_sub(1).filter(|_| is_swapped) {
-                Some(place) => more(at(&before, place)),
+            let swapped = match column.checked_sub(1).filter(|_| is_swapped) {
+                Some(column) => more(at(&before, column)),
                 None => usize::MAX,
             };
             next.push(replaced.min(deleted).min(inserted).min(swapped));

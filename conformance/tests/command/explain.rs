@@ -163,9 +163,9 @@ fn wrong_usage_is_rejected() {
         (&["--file", "no/such/file", "--frame"], "no/such/file"),
     ] {
         let output = ads_cnc(args);
-        let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{args:?}: {said}");
-        assert!(said.contains(says), "{args:?}: {said}");
+        let stderr_text = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {stderr_text}");
+        assert!(stderr_text.contains(says), "{args:?}: {stderr_text}");
         assert!(output.stdout.is_empty(), "{args:?}");
     }
     // An unknown address is not explained, but is not an error either: exit code 3.

@@ -13,14 +13,14 @@ use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 
 /// The task that has the position controller.
 #[derive(Clone, Copy, Debug)]
-enum Only {
+enum GeoSupport {
     /// Only GEO has the class; SDA rejects requests for the class.
     Geo,
     /// No task has the class, and the port of GEO does not exist.
     Nobody,
 }
 
-fn cnc(only: Only) -> SocketAddr {
+fn cnc(only: GeoSupport) -> SocketAddr {
     let cnc = Cnc::with_default_model().unwrap();
     reacting(move |frame| {
         let call = Call::from_frame(frame).unwrap().unwrap();
@@ -29,7 +29,7 @@ fn cnc(only: Only) -> SocketAddr {
             _ => false,
         };
         Reaction::Send(match (only, call.port) {
-            (Only::Nobody, AmsPort::GEO) => {
+            (GeoSupport::Nobody, AmsPort::GEO) => {
                 to(frame.header(), AdsError::TARGET_PORT_NOT_FOUND, &[])
             }
             (_, AmsPort::SDA) if of_class => {
@@ -66,7 +66,7 @@ fn text(bytes: &[u8]) -> String {
 
 #[test]
 fn classes_missing_at_sda_are_found_at_geo() {
-    let addr = cnc(Only::Geo);
+    let addr = cnc(GeoSupport::Geo);
     let found = call(addr, &["browse", "--content"]);
     assert_eq!(text(&found.stdout), text(&ads_cnc(&["browse", "--content"]).stdout));
     assert_eq!(text(&found.stderr), "ads-cnc: position controller: served by the GEO task\n");
@@ -87,9 +87,15 @@ fn classes_missing_at_sda_are_found_at_geo() {
 
 #[test]
 fn geo_is_optional() {
-    let found = call(cnc(Only::Nobody), &["browse", "--of", "*controller*"]);
+    let found = call(cnc(GeoSupport::Nobody), &["browse", "--of", "*controller*"]);
     assert_eq!(found.status.code(), Some(3));
-    let said = text(&found.stderr);
-    assert!(said.contains("position controller: the SDA task has no instance\n"), "{said}");
-    assert!(said.contains("the GEO task could not be queried: AMS error 0x6. "), "{said}");
+    let stderr_text = text(&found.stderr);
+    assert!(
+        stderr_text.contains("position controller: the SDA task has no instance\n"),
+        "{stderr_text}"
+    );
+    assert!(
+        stderr_text.contains("the GEO task could not be queried: AMS error 0x6. "),
+        "{stderr_text}"
+    );
 }

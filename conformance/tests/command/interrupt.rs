@@ -11,7 +11,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::common::file::TestFile;
-use crate::common::proxy::{Deed, is_write, proxy};
+use crate::common::proxy::{FrameHandling, is_write, proxy};
 use crate::common::signal;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::ReadByName;
@@ -113,7 +113,7 @@ fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) ->
             // Gives the tool time to handle the signal before the next reply arrives.
             thread::sleep(Duration::from_millis(50));
         }
-        Deed::Pass
+        FrameHandling::Pass
     });
     let tool = bench.tool(addr, cases).spawn().unwrap();
     process.store(tool.id(), Ordering::SeqCst);
@@ -128,10 +128,13 @@ fn a_signal_at_any_write_leaves_nothing_changed() {
             let bench = Bench::of_variables(&NAMES);
             let before = bench.values(&NAMES);
             let output = interrupted(&bench, name, nth, &CASES);
-            let said = text(&output.stderr);
-            assert_eq!(output.status.code(), Some(3), "SIG{name} at write {nth}: {said}");
-            assert_eq!(bench.values(&NAMES), before, "SIG{name} at write {nth}: {said}");
-            assert!(said.contains("interrupted") && !said.contains("LEFT"), "{said}");
+            let stderr_text = text(&output.stderr);
+            assert_eq!(output.status.code(), Some(3), "SIG{name} at write {nth}: {stderr_text}");
+            assert_eq!(bench.values(&NAMES), before, "SIG{name} at write {nth}: {stderr_text}");
+            assert!(
+                stderr_text.contains("interrupted") && !stderr_text.contains("LEFT"),
+                "{stderr_text}"
+            );
             let report = bench.report();
             assert_eq!(report["exit_code"], 3);
             assert!(verdicts(&report).contains(&"interrupted"), "{report}");
@@ -164,20 +167,23 @@ fn ways() -> [(&'static str, String, &'static str); 4] {
 }
 
 /// The data of the writes, and what the proxy did with each. The first write contains the original value.
-type Writes = Arc<Mutex<Vec<(Vec<u8>, Deed)>>>;
+type Writes = Arc<Mutex<Vec<(Vec<u8>, FrameHandling)>>>;
 
 /// Starts a proxy that forwards the first two writes; `deed` decides about the following writes.
-fn hostile(bench: &Bench, deed: impl Fn(usize) -> Deed + Send + 'static) -> (SocketAddr, Writes) {
+fn hostile(
+    bench: &Bench,
+    handling: impl Fn(usize) -> FrameHandling + Send + 'static,
+) -> (SocketAddr, Writes) {
     let writes = Writes::default();
     let keep = Arc::clone(&writes);
     let addr = proxy(bench.server.addr(), move |frame| {
         if !is_write(frame) {
-            return Deed::Pass;
+            return FrameHandling::Pass;
         }
         let mut writes = keep.lock().unwrap();
-        let deed = writes.len().checked_sub(2).map_or(Deed::Pass, &deed);
-        writes.push((frame.data().to_vec(), deed));
-        deed
+        let handling = writes.len().checked_sub(2).map_or(FrameHandling::Pass, &handling);
+        writes.push((frame.data().to_vec(), handling));
+        handling
     });
     (addr, writes)
 }
@@ -186,23 +192,35 @@ fn hostile(bench: &Bench, deed: impl Fn(usize) -> Deed + Send + 'static) -> (Soc
 #[test]
 fn a_lost_or_rejected_restore_is_repeated() {
     for (what, table, case) in ways() {
-        for deed in [Deed::Lose, Deed::LoseAnswer, Deed::Close, Deed::Reject] {
+        for handling in [
+            FrameHandling::Lose,
+            FrameHandling::LoseAnswer,
+            FrameHandling::Close,
+            FrameHandling::Reject,
+        ] {
             let bench = Bench::start(&table);
             let (addr, writes) =
-                hostile(&bench, move |number| if number == 0 { deed } else { Deed::Pass });
+                hostile(
+                    &bench,
+                    move |number| if number == 0 { handling } else { FrameHandling::Pass },
+                );
             let output = bench.tool(addr, &[case]).output().unwrap();
-            let said = text(&output.stderr);
+            let stderr_text = text(&output.stderr);
             // A requirement fails, but no value is left changed.
-            assert_eq!(output.status.code(), Some(1), "{what} {case} {deed:?}: {said}");
-            assert!(!said.contains("LEFT CHANGED"), "{what} {case} {deed:?}: {said}");
+            assert_eq!(output.status.code(), Some(1), "{what} {case} {handling:?}: {stderr_text}");
+            assert!(
+                !stderr_text.contains("LEFT CHANGED"),
+                "{what} {case} {handling:?}: {stderr_text}"
+            );
             let writes = writes.lock().unwrap();
-            let restored = writes.iter().rev().find(|(_, deed)| *deed != Deed::Lose).unwrap();
+            let restored =
+                writes.iter().rev().find(|(_, handling)| *handling != FrameHandling::Lose).unwrap();
             assert_ne!(writes[1].0, writes[0].0, "nothing was changed");
-            assert_eq!(restored.0, writes[0].0, "{what} {case} {deed:?}: {said}");
+            assert_eq!(restored.0, writes[0].0, "{what} {case} {handling:?}: {stderr_text}");
             // If only the reply to the write was lost, the run reads the value and does not repeat the
             // write.
-            let expected = if deed == Deed::LoseAnswer { 3 } else { 4 };
-            assert_eq!(writes.len(), expected, "{what} {case} {deed:?}");
+            let expected = if handling == FrameHandling::LoseAnswer { 3 } else { 4 };
+            assert_eq!(writes.len(), expected, "{what} {case} {handling:?}");
         }
     }
 }
@@ -227,16 +245,16 @@ fn lost_read(bench: &Bench, lost: usize, (what, case): (&str, &str)) {
         writes += usize::from(is_write(frame));
         reads += usize::from(!is_write(frame) && writes > 2);
         match (is_write(frame), writes) {
-            (true, 3..) => Deed::Pretend,
-            (false, 3..) if reads == lost + 1 => Deed::Lose,
-            _ => Deed::Pass,
+            (true, 3..) => FrameHandling::Pretend,
+            (false, 3..) if reads == lost + 1 => FrameHandling::Lose,
+            _ => FrameHandling::Pass,
         }
     });
     let output = bench.tool(addr, &[case]).output().unwrap();
-    let (shown, said) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(6), "{what} {case} {lost}: {shown}{said}");
-    let last = said.lines().last().unwrap();
-    assert!(last.starts_with(&format!("LEFT CHANGED: {what}")), "{case} {lost}: {said}");
+    let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(6), "{what} {case} {lost}: {shown}{stderr_text}");
+    let last = stderr_text.lines().last().unwrap();
+    assert!(last.starts_with(&format!("LEFT CHANGED: {what}")), "{case} {lost}: {stderr_text}");
 }
 
 /// A write that restores a value and always fails is tried a limited number of times. Then every format
@@ -245,7 +263,7 @@ fn lost_read(bench: &Bench, lost: usize, (what, case): (&str, &str)) {
 fn every_report_names_a_value_left_changed() {
     for (what, table, case) in ways() {
         let bench = Bench::start(&table);
-        let (addr, writes) = hostile(&bench, |_| Deed::Reject);
+        let (addr, writes) = hostile(&bench, |_| FrameHandling::Reject);
         let forms = ["html", "markdown", "junit", "badge"];
         let files = forms.map(|form| TestFile::new(form, b""));
         let mut tool = bench.tool(addr, &[case, "write-elements-by-name", "write-read-only"]);
@@ -254,15 +272,15 @@ fn every_report_names_a_value_left_changed() {
         }
         let json = bench.json.path().to_owned();
         let output = tool.output().unwrap();
-        let (shown, said) = (text(&output.stdout), text(&output.stderr));
-        assert_eq!(output.status.code(), Some(6), "{what} {case}: {said}");
+        let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
+        assert_eq!(output.status.code(), Some(6), "{what} {case}: {stderr_text}");
         let writes = writes.lock().unwrap();
         // After two writes that change the value, the case tries once to restore it, and the run two
         // times five times.
         assert_eq!(writes.len(), 2 + 1 + 5 + 5, "{what} {case}");
 
-        let line = said.lines().last().unwrap();
-        assert!(line.starts_with(&format!("LEFT CHANGED: {what}")), "{said}");
+        let line = stderr_text.lines().last().unwrap();
+        assert!(line.starts_with(&format!("LEFT CHANGED: {what}")), "{stderr_text}");
         let (was, is) = line.split_once(", was ").unwrap().1.split_once(", is ").unwrap();
         assert!(was != is && is != "not known", "{line}");
         assert!(shown.lines().any(|shown| shown == line), "{shown}");
@@ -301,7 +319,7 @@ fn old_value(report: &Value) -> Vec<u8> {
 #[test]
 fn no_other_value_is_changed_after_a_failed_restore() {
     let bench = Bench::of_variables(&NAMES);
-    let (addr, writes) = hostile(&bench, |_| Deed::Reject);
+    let (addr, writes) = hostile(&bench, |_| FrameHandling::Reject);
     let output = bench.tool(addr, &CASES).output().unwrap();
     assert_eq!(output.status.code(), Some(6));
     let writes = writes.lock().unwrap();
@@ -317,20 +335,20 @@ fn no_other_value_is_changed_after_a_failed_restore() {
 /// is left changed.
 #[test]
 fn a_lost_device_is_reported() {
-    for deed in [Deed::Close, Deed::Lose] {
+    for handling in [FrameHandling::Close, FrameHandling::Lose] {
         let bench = Bench::of_variables(&["V.E.vartest"]);
         let mut writes = 0;
         let addr = proxy(bench.server.addr(), move |frame| {
             writes += usize::from(is_write(frame));
-            if writes > 2 { deed } else { Deed::Pass }
+            if writes > 2 { handling } else { FrameHandling::Pass }
         });
         let begun = Instant::now();
         let output = bench.tool(addr, &["write-by-name"]).output().unwrap();
-        let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(6), "{said}");
-        let line = said.lines().last().unwrap();
-        assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{said}");
-        assert!(line.ends_with(", is not known"), "{said}");
+        let stderr_text = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(6), "{stderr_text}");
+        let line = stderr_text.lines().last().unwrap();
+        assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{stderr_text}");
+        assert!(line.ends_with(", is not known"), "{stderr_text}");
         assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
     }
 }
@@ -339,7 +357,7 @@ fn a_lost_device_is_reported() {
 /// lost write is a failure; if the following writes are rejected, the value is reported as left changed.
 #[test]
 fn a_signal_does_not_end_the_restoration() {
-    for (deed, code) in [(Deed::Pass, 1), (Deed::Reject, 6)] {
+    for (handling, code) in [(FrameHandling::Pass, 1), (FrameHandling::Reject, 6)] {
         let bench = Bench::of_variables(&["V.E.vartest"]);
         let before = bench.values(&["V.E.vartest"]);
         let process = Arc::new(AtomicU32::new(0));
@@ -348,16 +366,24 @@ fn a_signal_does_not_end_the_restoration() {
             if let id @ 1.. = id.swap(0, Ordering::SeqCst) {
                 signal("TERM", id);
             }
-            if number == 0 { Deed::Lose } else { deed }
+            if number == 0 { FrameHandling::Lose } else { handling }
         });
         let mut tool = bench.tool(addr, &["write-by-name"]);
         let tool = tool.spawn().unwrap();
         process.store(tool.id(), Ordering::SeqCst);
         let output = tool.wait_with_output().unwrap();
-        let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(code), "{deed:?}: {said}");
-        assert_eq!(bench.values(&["V.E.vartest"]) == before, code == 1, "{deed:?}: {said}");
-        assert_eq!(said.contains("LEFT CHANGED: V.E.vartest, was "), code == 6, "{said}");
+        let stderr_text = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{handling:?}: {stderr_text}");
+        assert_eq!(
+            bench.values(&["V.E.vartest"]) == before,
+            code == 1,
+            "{handling:?}: {stderr_text}"
+        );
+        assert_eq!(
+            stderr_text.contains("LEFT CHANGED: V.E.vartest, was "),
+            code == 6,
+            "{stderr_text}"
+        );
         assert_eq!(bench.report()["exit_code"], code);
     }
 }
@@ -369,7 +395,7 @@ fn a_second_signal_ends_at_once() {
     let (tell, told) = std::sync::mpsc::channel();
     let (addr, _writes) = hostile(&bench, move |_| {
         let _gone = tell.send(());
-        Deed::Lose
+        FrameHandling::Lose
     });
     let tool = bench.tool(addr, &["write-by-name"]).spawn().unwrap();
     told.recv().unwrap();
@@ -378,11 +404,11 @@ fn a_second_signal_ends_at_once() {
     signal("INT", tool.id());
     let begun = Instant::now();
     let output = tool.wait_with_output().unwrap();
-    let said = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(6), "{said}");
+    let stderr_text = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(6), "{stderr_text}");
     assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
-    let line = said.lines().last().unwrap();
-    assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{said}");
+    let line = stderr_text.lines().last().unwrap();
+    assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{stderr_text}");
 }
 
 /// After a signal at any write, the contents of elements and objects are restored, too.
@@ -402,11 +428,11 @@ fn objects_and_elements_are_restored_after_a_signal() {
             };
             let before = value();
             let output = interrupted(&bench, "INT", nth, &[case]);
-            let said = text(&output.stderr);
+            let stderr_text = text(&output.stderr);
             // After the third write, the run may end normally before it handles the signal.
             let code = output.status.code();
-            assert!(code == Some(3) || nth == 3 && code == Some(0), "write {nth}: {said}");
-            assert_eq!(value(), before, "{name} at write {nth}: {said}");
+            assert!(code == Some(3) || nth == 3 && code == Some(0), "write {nth}: {stderr_text}");
+            assert_eq!(value(), before, "{name} at write {nth}: {stderr_text}");
         }
     }
 }

@@ -53,9 +53,9 @@ fn interrupted(option: &str, greeting: &str, names: &[&str]) -> (Option<i32>, Te
     let begun = Instant::now();
     let output = tool.wait_with_output().unwrap();
     assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
-    let said = String::from_utf8(output.stderr).unwrap();
+    let stderr_text = String::from_utf8(output.stderr).unwrap();
     wait_until(|| !read().lines().any(runs), "a process is left behind");
-    (output.status.code(), json, said)
+    (output.status.code(), json, stderr_text)
 }
 
 const HELLO: &str = r#"printf '{"protocol":1,"testee":{"name":"deaf"},"capabilities":{"ops":["decode"],"streams":["object-count"],"editions":["en-1.05"]}}\n';"#;
@@ -65,9 +65,9 @@ fn a_signal_ends_a_testee_and_its_processes() {
     for (name, greeting) in
         [("INT", HELLO), ("TERM", HELLO), ("HUP", HELLO), ("QUIT", HELLO), ("TERM", "")]
     {
-        let (code, json, said) = interrupted("--testee", greeting, &[name]);
-        assert_eq!(code, Some(3), "SIG{name}: {said}");
-        assert!(said.contains("interrupted"), "{said}");
+        let (code, json, stderr_text) = interrupted("--testee", greeting, &[name]);
+        assert_eq!(code, Some(3), "SIG{name}: {stderr_text}");
+        assert!(stderr_text.contains("interrupted"), "{stderr_text}");
         let report = std::fs::read_to_string(&json.0).unwrap();
         assert!(report.contains("\"verdict\": \"interrupted\""), "{report}");
         assert!(!report.contains("\"verdict\": \"fail\""), "{report}");
@@ -77,8 +77,8 @@ fn a_signal_ends_a_testee_and_its_processes() {
 #[test]
 fn a_signal_ends_a_client_and_its_processes() {
     for name in ["INT", "TERM", "HUP", "QUIT", "USR1"] {
-        let (code, json, said) = interrupted("--client", "", &[name]);
-        assert_eq!(code, Some(3), "SIG{name}: {said}");
+        let (code, json, stderr_text) = interrupted("--client", "", &[name]);
+        assert_eq!(code, Some(3), "SIG{name}: {stderr_text}");
         let report = std::fs::read_to_string(&json.0).unwrap();
         assert!(report.contains("\"verdict\": \"interrupted\""), "{report}");
     }

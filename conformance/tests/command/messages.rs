@@ -7,7 +7,7 @@ use ads_cnc_conformance::net;
 use crate::common::file::TestFile;
 
 /// The exit code, stdout and stderr of a call.
-fn said(args: &[&str]) -> (Option<i32>, String, String) {
+fn run_tool(args: &[&str]) -> (Option<i32>, String, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     (output.status.code(), text(output.stdout), text(output.stderr))
@@ -24,7 +24,7 @@ fn a_number_out_of_range_is_named_with_its_range() {
         (&["check", "--port", "65536", "x"], "'65536' for '--port <N>'", "from 1 to 65535"),
         (&["serve", "--idle", "-5"], "'-5' for '--idle <SECONDS>'", "from 0 to 4294967295"),
     ] {
-        let (code, _, error) = said(args);
+        let (code, _, error) = run_tool(args);
         let expected = format!("invalid value {option}: expected a whole number {expected}");
         assert!(code == Some(2) && error.contains(&expected), "{args:?}: {error}");
     }
@@ -38,11 +38,11 @@ fn an_address_in_use_is_named_with_its_option() {
         (&["run", "--client-listen", &addr][..], "--client-listen"),
         (&["serve", "--listen", &addr], "--listen"),
     ] {
-        let (code, _, error) = said(args);
+        let (code, _, error) = run_tool(args);
         let start = format!("ads-cnc: {option}: cannot listen on {addr}: ");
         assert!(code == Some(2) && error.starts_with(&start), "{error}");
         assert!(error.contains(&format!("With {option} 127.0.0.1:0 the system chooses a port")));
-        let (code, _, error) = said(&[&args[..args.len() - 1], &["nowhere"]].concat());
+        let (code, _, error) = run_tool(&[&args[..args.len() - 1], &["nowhere"]].concat());
         assert!(code == Some(2) && error.contains("expected an IP address and a port"), "{error}");
     }
 }
@@ -51,7 +51,7 @@ fn an_address_in_use_is_named_with_its_option() {
 fn a_rejected_write_is_explained_once() {
     let target = ["--target", "127.0.0.1:1", "--net-id", "1.2.3.4.1.1"];
     let dry = ["set", "V.E.vartest", "3", "--dry-run"];
-    let (code, shown, error) = said(&[&dry[..], &target].concat());
+    let (code, shown, error) = run_tool(&[&dry[..], &target].concat());
     assert_eq!(code, Some(4), "{error}");
     assert!(shown.starts_with("would be rejected\n"), "{shown}");
     assert_eq!((shown + &error).matches("no file allows writes").count(), 1, "{error}");
@@ -62,7 +62,7 @@ fn a_compressed_file_is_explained() {
     for start in [&b"\x1f\x8b\x08\x00"[..], b"\x28\xb5\x2f\xfd", b"\xfd7zXZ\x00"] {
         let file = TestFile::new(".bin", start);
         for call in [&["explain", "--file"][..], &["explain"], &["check"]] {
-            let (code, _, error) = said(&[call, &[file.path()]].concat());
+            let (code, _, error) = run_tool(&[call, &[file.path()]].concat());
             let expected = format!("{}: the file is compressed; unpack it first: ", file.path());
             assert!(code == Some(2) && error.contains(&expected), "{call:?}: {error}");
         }
@@ -71,28 +71,28 @@ fn a_compressed_file_is_explained() {
 
 #[test]
 fn an_erratum_is_printed_with_its_ruling() {
-    let (code, shown, _) = said(&["requirements", "e-17"]);
+    let (code, shown, _) = run_tool(&["requirements", "e-17"]);
     assert_eq!(code, Some(0));
     for part in
         ["E-17  ", "\n  reading   ads-de ", "\n  ruling    ", "\n  question  ", "\n  cited by  "]
     {
         assert!(shown.contains(part), "{part:?} is not in\n{shown}");
     }
-    let both = said(&["requirements", "E-17", "VAR-8"]).1;
+    let both = run_tool(&["requirements", "E-17", "VAR-8"]).1;
     assert!(both.starts_with(&shown) && both.contains("\n\nVAR-8  "), "{both}");
-    let (code, _, error) = said(&["requirements", "E-17", "--format", "json"]);
+    let (code, _, error) = run_tool(&["requirements", "E-17", "--format", "json"]);
     assert_eq!(
         (code, error.as_str()),
         (Some(2), "ads-cnc: an erratum is printed only with --format text\n")
     );
-    assert_eq!(said(&["requirements", "E-999"]).0, Some(3));
+    assert_eq!(run_tool(&["requirements", "E-999"]).0, Some(3));
 }
 
 #[test]
 fn an_empty_file_of_waivers_is_reported_with_an_example() {
     let file = TestFile::new(".toml", b"# none yet\n");
     let run = ["run", "--only", "vec-handle-printed", "--waivers"];
-    let (code, _, error) = said(&[&run[..], &[file.path()]].concat());
+    let (code, _, error) = run_tool(&[&run[..], &[file.path()]].concat());
     assert_eq!(code, Some(0));
     let start = format!("ads-cnc: {} contains no waiver, so every failure counts.", file.path());
     assert!(error.starts_with(&start) && error.contains("\n  [[waiver]]\n  test = "), "{error}");
@@ -101,7 +101,7 @@ fn an_empty_file_of_waivers_is_reported_with_an_example() {
 #[test]
 fn a_statement_has_one_of_the_known_formats() {
     for name in ["statement.pdf", "statement"] {
-        let (code, _, error) = said(&["report", "report.json", "--statement", name]);
+        let (code, _, error) = run_tool(&["report", "report.json", "--statement", name]);
         assert_eq!(code, Some(2));
         assert!(error.contains("expected a name that ends in .html or .md, or - "), "{error}");
     }
@@ -110,6 +110,6 @@ fn a_statement_has_one_of_the_known_formats() {
 /// The short help of `run`, which most users read, fits on a screen.
 #[test]
 fn the_short_help_of_run_is_short() {
-    let (_, shown, _) = said(&["run", "-h"]);
+    let (_, shown, _) = run_tool(&["run", "-h"]);
     assert!(shown.lines().count() <= 50, "{} lines", shown.lines().count());
 }

@@ -13,7 +13,7 @@ use crate::common::file::TestFile;
 use crate::common::harmless::number;
 use crate::common::{Serve, connect};
 use ads_cnc_conformance::client::{Client, Target};
-use ads_cnc_conformance::faults::{self, Faulty, Seed};
+use ads_cnc_conformance::faults::{self, Faulty, SeededDefect};
 use ads_cnc_conformance::gate::{Allowed, Gate};
 use ads_cnc_conformance::judge::Selection;
 use ads_cnc_conformance::net;
@@ -170,7 +170,7 @@ impl Write for Lines {
 }
 
 /// The writes in the log of a simulated CNC in this process with this defect.
-fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
+fn written(seed: &SeededDefect, named: &Named) -> BTreeSet<String> {
     let lines = Lines::default();
     let writer = lines.clone();
     let log = tracing_subscriber::fmt()
@@ -421,11 +421,11 @@ fn a_value_that_is_not_restored_has_a_reason() {
     let file = TestFile::allowing(OBJECT.table);
     let output = run(&addr.to_string(), &file, &["write-objects"]);
     assert_eq!(output.status.code(), Some(6), "{output:?}");
-    let said = String::from_utf8(output.stderr).unwrap();
-    let last = said.lines().last().unwrap();
-    assert!(last.contains("LEFT CHANGED: "), "{said}");
+    let stderr_text = String::from_utf8(output.stderr).unwrap();
+    let last = stderr_text.lines().last().unwrap();
+    assert!(last.contains("LEFT CHANGED: "), "{stderr_text}");
     let why = "no entry in the file of --allow-write allows it)";
-    assert!(last.contains("(not restored: ") && last.ends_with(why), "{said}");
+    assert!(last.contains("(not restored: ") && last.ends_with(why), "{stderr_text}");
 }
 
 /// A list contains two objects with the same address: the write by name of the object is rejected.

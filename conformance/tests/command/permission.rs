@@ -10,7 +10,7 @@ use std::time::Duration;
 use crate::common::Serve;
 use crate::common::fake::{Answer, fake};
 use crate::common::file::TestFile;
-use crate::common::proxy::{Deed, is_write, proxy};
+use crate::common::proxy::{FrameHandling, is_write, proxy};
 use ads_cnc::ads::{AdsError, Command as AdsCommand};
 use ads_cnc_conformance::gate::Moment;
 
@@ -122,9 +122,9 @@ fn a_stream_ends_when_its_file_expires() {
     let (program, file) = (TestFile::new(".nc", program.as_bytes()), expiring(STREAM, 3));
     let args = ["stream", program.path(), "--allow-write", file.path()];
     let ended = against(&addr.to_string(), &args);
-    let said = text(&ended.stderr);
-    assert_eq!(ended.status.code(), Some(4), "{said}");
-    assert!(said.contains("the file of --allow-write expired at "), "{said}");
+    let stderr_text = text(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(4), "{stderr_text}");
+    assert!(stderr_text.contains("the file of --allow-write expired at "), "{stderr_text}");
     let packets = *packets.lock().unwrap();
     assert!((2..10).contains(&packets), "{packets}");
     let shown = text(&ended.stdout);
@@ -142,7 +142,7 @@ fn nothing_is_changed_shortly_before_the_file_expires() {
     let addr = proxy(cnc.addr.parse().unwrap(), |frame| {
         // A write of 4711 changes nothing, because the value is 4711.
         let changes = is_write(frame) && !frame.data().ends_with(&4711_u16.to_le_bytes());
-        if changes { Deed::Reject } else { Deed::Pass }
+        if changes { FrameHandling::Reject } else { FrameHandling::Pass }
     });
     let run = ["run", "--seed", "1", "--only", "write-by-name", "--timeout", "1000"];
     let rest = ["--allow-write", file.path(), "--json", json.path()];
@@ -184,7 +184,7 @@ fn a_hostile_profile_causes_no_write() {
     let addr = proxy(cnc.addr.parse().unwrap(), move |frame| {
         let header = frame.header();
         keep.lock().unwrap().insert((header.command.0, header.target.port.0));
-        Deed::Pass
+        FrameHandling::Pass
     });
     let profile = TestFile::new(".toml", PROFILE.as_bytes());
     let run = ["run", "--seed", "1", "--profile", profile.path(), "--deadline", "60"];

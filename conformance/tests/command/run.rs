@@ -109,6 +109,19 @@ fn a_device_is_only_read() {
     assert!(shown.contains("are sent only with --malformed"), "{shown}");
 }
 
+/// The log contains each exchange with its frames.
+#[test]
+fn exchanges_are_logged() {
+    let serve = Serve::start(&[]);
+    let get = ["get", "V.E.vartest", "--target", &serve.addr, "--net-id", &serve.net_id];
+    let log = ["--log", "ads_cnc_conformance::client=debug"];
+    let logged = text(&ads_cnc(&[&get[..], &log].concat()).stderr);
+    let read =
+        logged.lines().find(|line| line.contains(": ReadWrite 0x122301, 0x48 at port 552: "));
+    let read = read.unwrap_or_else(|| panic!("{logged}"));
+    assert!(read.contains(": 2 bytes sent=00 00 ") && read.ends_with(" 67 12"), "{read}");
+}
+
 /// Without a profile, a run judges all channels that it finds. It first prints how many requests it will
 /// send, and the report contains what was found. With a profile, it judges only the channels of the
 /// profile.
@@ -123,23 +136,25 @@ fn a_run_without_a_profile_judges_found_channels() {
         let report: Value = serde_json::from_slice(&output.stdout).unwrap();
         (report, text(&output.stderr))
     };
-    let (report, told) = run(&[]);
+    let (report, stderr_text) = run(&[]);
     let channels = serde_json::json!([1, 2, 6]);
     assert_eq!(report["profile"]["claims"]["channels"], channels);
     assert_eq!(report["found"]["ports"], serde_json::json!([551, 552, 553]));
     let found = "channel 1 with 3 axis places, 2 with 3 axis places, 6 with 3 axis places";
     assert!(
-        told.contains(found) && told.contains("about ") && told.contains(" requests"),
-        "{told}"
+        stderr_text.contains(found)
+            && stderr_text.contains("about ")
+            && stderr_text.contains(" requests"),
+        "{stderr_text}"
     );
 
     let profile = std::env::temp_dir().join(format!("ads-cnc-found-{}.toml", std::process::id()));
     std::fs::write(&profile, "channels = [6]").unwrap();
-    let (report, told) = run(&["--profile", profile.to_str().unwrap()]);
+    let (report, stderr_text) = run(&["--profile", profile.to_str().unwrap()]);
     std::fs::remove_file(&profile).unwrap();
     assert_eq!(report["profile"]["claims"]["channels"], serde_json::json!([6]));
     assert_eq!(report["found"]["ports"], serde_json::json!([]));
-    assert!(told.contains("channel 6 with 3 axis places;"), "{told}");
+    assert!(stderr_text.contains("channel 6 with 3 axis places;"), "{stderr_text}");
 }
 
 /// A run reads only a sample of a long list, and the whole list with `--all`.
@@ -163,11 +178,11 @@ fn a_long_list_is_read_completely_with_all() {
         (text(&output.stdout), text(&output.stderr))
     };
     let sampled = "V.E channel 1: 256 of 423; by the seed\n";
-    let (shown, told) = run(&[]);
+    let (shown, stderr_text) = run(&[]);
     assert!(shown.contains(&format!("sampled  {sampled}")), "{shown}");
-    assert!(told.contains(sampled), "{told}");
-    let (shown, told) = run(&["--all"]);
-    assert!(!shown.contains("sampled") && !told.contains("sampled"), "{shown}{told}");
+    assert!(stderr_text.contains(sampled), "{stderr_text}");
+    let (shown, stderr_text) = run(&["--all"]);
+    assert!(!shown.contains("sampled") && !stderr_text.contains("sampled"), "{shown}{stderr_text}");
     let without = ads_cnc(&["run", "--all"]);
     assert_eq!(without.status.code(), Some(2), "{without:?}");
 }

@@ -78,13 +78,17 @@ fn only_selected_cases_are_run() {
 
 #[test]
 fn an_unknown_selection_is_not_a_success() {
-    for args in [&["run", "--only", "VRA"][..], &["run", "--only", "VAR", "--only", "DYN-99"]] {
+    for args in [
+        &["run", "--only", "VRA"][..],
+        &["run", "--only", "VAR", "--only", "DYN-99"],
+        &["run", "--only", "VAR-4.999"],
+    ] {
         let output = ads_cnc(args);
         assert_eq!(output.status.code(), Some(2), "{args:?}");
         assert!(
             String::from_utf8(output.stderr)
                 .unwrap()
-                .contains("no requirement, stream or case is called")
+                .contains("no requirement, section, stream or case is called")
         );
     }
     let output = ads_cnc(&["run", "--edition", "fr-1.0"]);
@@ -152,7 +156,12 @@ fn cases_are_listed_without_running() {
     let rows: Vec<&str> =
         rows.as_array().unwrap().iter().map(|row| row["id"].as_str().unwrap()).collect();
     assert_eq!(rows, ["VAR-8", "VAR-11", "VAR-14"]);
-    for (name, title) in [("variable-handle", "VAR-10  Handle"), ("readbyname", "VAR-14  Value")] {
+    for (name, title) in [
+        ("variable-handle", "VAR-10  Handle"),
+        ("readbyname", "VAR-14  Value"),
+        ("ads:4.3.2", "VAR-8  "),
+        ("val-whole-by-*", "VAR-11  "),
+    ] {
         let rows = ads_cnc(&["requirements", name]).stdout;
         assert!(String::from_utf8(rows).unwrap().contains(title), "{name}");
     }
@@ -305,9 +314,12 @@ fn an_invalid_file_of_waivers_is_rejected_with_its_line() {
     for (name, text, why) in cases {
         let file = File::new(name, &text);
         let output = ads_cnc(&["run", "--waivers", file.0.to_str().unwrap()]);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{name}: {said}");
-        assert!(said.contains(why) && said.contains(".toml"), "{name}: {said}");
+        let stderr_text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{name}: {stderr_text}");
+        assert!(
+            stderr_text.contains(why) && stderr_text.contains(".toml"),
+            "{name}: {stderr_text}"
+        );
         assert!(output.stdout.is_empty());
     }
     assert_eq!(ads_cnc(&["run", "--waivers", "/no/such/file"]).status.code(), Some(2));

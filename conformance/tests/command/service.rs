@@ -120,10 +120,13 @@ fn a_command_answers() {
     assert_eq!(state, 1);
     assert!(response.starts_with("Variable handle by name"), "{response}");
     assert_eq!(response.chars().count(), 127);
-    let (told, said) = (text(&output.stdout), text(&output.stderr));
+    let (told, stderr_text) = (text(&output.stdout), text(&output.stderr));
     let line = format!("{ID} \"04 00 00 02\", state 7: \"Variable handle by name");
     assert!(told.starts_with(&line) && told.ends_with(", state 1\n"), "{told}");
-    assert!(said.contains("warning: the response is truncated to 127 bytes"), "{said}");
+    assert!(
+        stderr_text.contains("warning: the response is truncated to 127 bytes"),
+        "{stderr_text}"
+    );
 }
 
 /// The manual's example: an NC program of the simulated CNC requests square roots.
@@ -226,9 +229,9 @@ fn the_service_needs_an_entry() {
     for table in ["", "[[service]]\nchannel = 1\n", "[[stream]]\nchannel = 2\n"] {
         bench.allow = TestFile::allowing(table);
         let output = bench.tool(&["--uuid", ID], &["echo"]).output().unwrap();
-        let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(4), "{said}");
-        assert!(said.ends_with("\n\n[[service]]\nchannel = 2\n"), "{said}");
+        let stderr_text = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(4), "{stderr_text}");
+        assert!(stderr_text.ends_with("\n\n[[service]]\nchannel = 2\n"), "{stderr_text}");
     }
 }
 
@@ -275,9 +278,9 @@ fn a_lost_connection_ends_the_service() {
     let mut stderr = BufReader::new(tool.stderr.take().unwrap());
     wait_for("waiting for requests", &mut stderr);
     drop(bench.server);
-    let mut said = String::new();
-    stderr.read_to_string(&mut said).unwrap();
-    assert_eq!(tool.wait().unwrap().code(), Some(3), "{said}");
+    let mut stderr_text = String::new();
+    stderr.read_to_string(&mut stderr_text).unwrap();
+    assert_eq!(tool.wait().unwrap().code(), Some(3), "{stderr_text}");
 }
 
 /// Reads lines until one contains `what`.
@@ -369,11 +372,15 @@ fn processes_in_own_sessions_are_limited() {
     for id in left.lines() {
         let _gone = Command::new("kill").args(["-KILL", id]).output().unwrap();
     }
-    let said = reader.join().unwrap();
-    assert_eq!((&states[..8], &states[8..], last), (&[1; 8][..], &[1004; 2][..], 1004), "{said}");
+    let stderr_text = reader.join().unwrap();
+    assert_eq!(
+        (&states[..8], &states[8..], last),
+        (&[1; 8][..], &[1004; 2][..], 1004),
+        "{stderr_text}"
+    );
     assert!(threads <= 12, "{threads} threads");
-    assert_eq!((status.code(), left.lines().count()), (Some(0), 8), "{said}");
-    assert!(said.contains("8 processes started by earlier commands"), "{said}");
+    assert_eq!((status.code(), left.lines().count()), (Some(0), 8), "{stderr_text}");
+    assert!(stderr_text.contains("8 processes started by earlier commands"), "{stderr_text}");
 }
 
 /// A command may write any amount of output without blocking; only the beginning is stored.

@@ -50,7 +50,7 @@ fn only_allowed_values_are_written() {
     assert_eq!(session.call(&read).unwrap().bytes, value);
 
     let error = session.call(&write("V.E.Testvar[4]")).unwrap_err();
-    assert_eq!(error.exit(), Exit::Refused);
+    assert_eq!(error.exit(), Exit::NotPermitted);
     let text = error.to_string();
     assert!(text.contains("rejected for safety") && text.contains("V.E.Testvar[4]"), "{text}");
 }
@@ -63,10 +63,10 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
     let write =
         |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0][..]);
     // A write by handle is allowed only after a description has confirmed the handle.
-    assert!(matches!(session.call(&write(handle)), Err(ToolError::Refused(_))));
+    assert!(matches!(session.call(&write(handle)), Err(ToolError::NotPermitted(_))));
     session.call(&DescribeByName::new(channel(), WRITABLE).unwrap()).unwrap();
     session.call(&write(handle)).unwrap();
-    assert!(matches!(session.call(&write(other)), Err(ToolError::Refused(_))));
+    assert!(matches!(session.call(&write(other)), Err(ToolError::NotPermitted(_))));
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn a_named_object_is_written_after_reading_its_list() {
 
     let mut session = simulated(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
     let write = WriteObject::new(group, offset, &[1][..]).unwrap();
-    assert!(matches!(session.call(&write), Err(ToolError::Refused(_))));
+    assert!(matches!(session.call(&write), Err(ToolError::NotPermitted(_))));
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn a_dry_run_continues_after_writes_and_stops_at_queries() {
     for _ in 0..3 {
         session.call(&write(WRITABLE)).unwrap();
     }
-    assert!(matches!(session.call(&write("V.E.b")), Err(ToolError::Refused(_))));
+    assert!(matches!(session.call(&write("V.E.b")), Err(ToolError::NotPermitted(_))));
     let read = ReadByName::new(channel(), WRITABLE).unwrap();
     assert!(matches!(session.call(&read), Err(ToolError::NotSent)));
 }

@@ -106,15 +106,15 @@ fn retries_are_limited() {
     let allow = TestFile::allowing(STREAM_1);
     let options = ["--retry-after", "1ms", "--retries", "3"];
     let output = stream(program().as_bytes(), addr, &allow, &options);
-    let (shown, said) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(code(&output), 1, "{said}");
+    let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(code(&output), 1, "{stderr_text}");
     let packets = packets.lock().unwrap();
     // The first packet is accepted; the second is sent once and then repeated three times.
     assert_eq!(packets.len(), 5);
     assert!(packets[1..].iter().all(|packet| *packet == packets[1]));
     assert!(shown.contains("accepted lines 1 to 72 in 1 packet, "), "{shown}");
     assert!(shown.ends_with("\n  not sent or not accepted: lines 73 to 1000\n"), "{shown}");
-    assert!(said.contains("gave up") && said.contains("--retries"), "{said}");
+    assert!(stderr_text.contains("gave up") && stderr_text.contains("--retries"), "{stderr_text}");
 }
 
 /// A packet that is rejected with an error other than "busy" is not sent again.
@@ -124,13 +124,13 @@ fn another_error_ends_the_stream() {
     let (addr, packets) = kept(move |_| refused);
     let allow = TestFile::allowing(STREAM_1);
     let output = stream(b"N10 G0 X0\nN20 M30\n", addr, &allow, &[]);
-    let (shown, said) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!((code(&output), packets.lock().unwrap().len()), (1, 1), "{said}");
+    let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!((code(&output), packets.lock().unwrap().len()), (1, 1), "{stderr_text}");
     assert!(
         shown.contains("accepted nothing\n  not sent or not accepted: lines 1 to 2"),
         "{shown}"
     );
-    assert!(said.contains("\"data streaming\" with 0x703"), "{said}");
+    assert!(stderr_text.contains("\"data streaming\" with 0x703"), "{stderr_text}");
 }
 
 /// A packet without a reply may have been accepted, so it is not sent again.
@@ -140,12 +140,12 @@ fn a_packet_without_a_reply_is_not_repeated() {
         let (addr, packets) = kept(move |count| if count == 2 { lost } else { OK });
         let allow = TestFile::allowing(STREAM_1);
         let output = stream(program().as_bytes(), addr, &allow, &["--timeout", "300"]);
-        let (shown, said) = (text(&output.stdout), text(&output.stderr));
-        assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "{said}");
+        let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
+        assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "{stderr_text}");
         let left = "\n  unknown whether accepted: lines 73 to 137\
                     \n  not sent or not accepted: lines 138 to 1000\n";
         assert!(shown.ends_with(left), "{shown}");
-        assert!(said.contains("not sent again"), "{said}");
+        assert!(stderr_text.contains("not sent again"), "{stderr_text}");
     }
 }
 
@@ -165,7 +165,7 @@ fn a_packet_with_a_wrong_reply_may_have_been_accepted() {
 fn an_invalid_program_is_not_sent() {
     let (addr, packets) = kept(|_| OK);
     let allow = TestFile::allowing(STREAM_1);
-    for (program, said) in [
+    for (program, stderr_text) in [
         (
             &b"N10 (\xE4)\nN20 \x00\n"[..],
             ".nc:2:5: error: ASCII character expected, NUL found (STM-7)",
@@ -175,16 +175,19 @@ fn an_invalid_program_is_not_sent() {
         let output = stream(program, addr, &allow, &[]);
         let shown = text(&output.stderr);
         assert_eq!(code(&output), 1, "{shown}");
-        assert!(shown.contains(said) && shown.contains("nothing was sent"), "{shown}");
+        assert!(shown.contains(stderr_text) && shown.contains("nothing was sent"), "{shown}");
     }
     let output = stream(b"", addr, &allow, &[]);
     assert_eq!(code(&output), 2);
     assert!(packets.lock().unwrap().is_empty());
 
     let output = stream(b"N10 $FOR P1=0,10,1\nN20 M30\nN30 X1", addr, &allow, &["--force"]);
-    let said = text(&output.stderr);
-    assert_eq!(code(&output), 0, "{said}");
-    assert!(said.contains(".nc:3:1: warning: text after the M30 of line 2 (STM-10)"), "{said}");
+    let stderr_text = text(&output.stderr);
+    assert_eq!(code(&output), 0, "{stderr_text}");
+    assert!(
+        stderr_text.contains(".nc:3:1: warning: text after the M30 of line 2 (STM-10)"),
+        "{stderr_text}"
+    );
     let packets = packets.lock().unwrap();
     assert_eq!(packets[..], [(1, b"N10 $FOR P1=0,10,1\r\nN20 M30\r\nN30 X1\r\n".to_vec())]);
 }
@@ -196,9 +199,9 @@ fn the_stream_needs_an_entry() {
     for table in ["", "[[stream]]\nchannel = 2\n", "[[service]]\nchannel = 1\n"] {
         let allow = TestFile::allowing(table);
         let output = stream(b"M30\n", addr, &allow, &[]);
-        let said = text(&output.stderr);
-        assert_eq!(code(&output), 4, "{said}");
-        assert!(said.ends_with("\n\n[[stream]]\nchannel = 1\n"), "{said}");
+        let stderr_text = text(&output.stderr);
+        assert_eq!(code(&output), 4, "{stderr_text}");
+        assert!(stderr_text.ends_with("\n\n[[stream]]\nchannel = 1\n"), "{stderr_text}");
     }
     let file = TestFile::new(".nc", b"M30\n");
     let addr = addr.to_string();
@@ -269,12 +272,16 @@ fn a_signal_ends_the_stream_with_a_summary() {
         told.recv().unwrap();
         crate::common::signal(name, process.id());
         let output = process.wait_with_output().unwrap();
-        let (shown, said) = (text(&output.stdout), text(&output.stderr));
-        assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "SIG{name}: {said}");
+        let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
+        assert_eq!(
+            (code(&output), packets.lock().unwrap().len()),
+            (3, 2),
+            "SIG{name}: {stderr_text}"
+        );
         assert!(shown.contains("accepted lines 1 to 72 in 1 packet"), "SIG{name}: {shown}");
         let left = "\n  not sent or not accepted: lines 73 to 1000\n";
         assert!(shown.ends_with(left), "SIG{name}: {shown}");
-        assert!(said.contains("interrupted"), "SIG{name}: {said}");
+        assert!(stderr_text.contains("interrupted"), "SIG{name}: {stderr_text}");
     }
 }
 

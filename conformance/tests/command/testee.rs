@@ -14,11 +14,11 @@ use ads_cnc_conformance::judge::{
 use ads_cnc_conformance::process::{RunningCommand, shell};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
-    CodecTestee, JudgedTestee, Miniature, Terms, Testee, TesteeProcess, judge,
+    CodecTestee, JudgedTestee, JudgementOptions, Miniature, Testee, TesteeProcess, judge,
 };
 
-const OF_A_TESTEE: Terms<'static> =
-    Terms { seed: 7, subject: CaseSubject::Testee, edition: None, strict: false };
+const OF_A_TESTEE: JudgementOptions<'static> =
+    JudgementOptions { seed: 7, subject: CaseSubject::Testee, edition: None, strict: false };
 
 fn cases() -> Vec<Case> {
     suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
@@ -83,7 +83,7 @@ fn this_codec_passes_over_pipes_and_in_process() {
 fn the_seed_determines_only_the_order() {
     let with = |seed| {
         let mut own = CodecTestee::default();
-        let judged = judge(&mut own, cases(), Terms { seed, ..OF_A_TESTEE });
+        let judged = judge(&mut own, cases(), JudgementOptions { seed, ..OF_A_TESTEE });
         judged.outcomes.iter().map(|one| one.verdict()).collect::<Vec<_>>()
     };
     assert_eq!(with(1), with(2));

@@ -12,7 +12,7 @@ use super::connect;
 
 /// What the proxy does with a frame of the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Deed {
+pub(crate) enum FrameHandling {
     /// The CNC receives the frame, and the tool receives the reply.
     Pass,
     /// The CNC does not receive the frame, and the tool receives no reply.
@@ -31,14 +31,14 @@ pub(crate) enum Deed {
 /// Returns the address of the proxy.
 pub(crate) fn proxy(
     cnc: SocketAddr,
-    mut deed: impl FnMut(&FrameRef<'_>) -> Deed + Send + 'static,
+    mut handling: impl FnMut(&FrameRef<'_>) -> FrameHandling + Send + 'static,
 ) -> SocketAddr {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let addr = listener.local_addr().unwrap();
     thread::spawn(move || {
         for client in listener.incoming() {
             // Either side may disconnect at any time.
-            let _gone = pass(&client.unwrap(), &connect(cnc), &mut deed);
+            let _gone = pass(&client.unwrap(), &connect(cnc), &mut handling);
         }
     });
     addr
@@ -47,24 +47,24 @@ pub(crate) fn proxy(
 fn pass(
     mut client: &TcpStream,
     mut cnc: &TcpStream,
-    deed: &mut impl FnMut(&FrameRef<'_>) -> Deed,
+    handling: &mut impl FnMut(&FrameRef<'_>) -> FrameHandling,
 ) -> io::Result<()> {
     let mut received = Vec::new();
     while let Some(bytes) = frame(&mut client, &mut received)? {
         let (frame, _) = FrameRef::split(&bytes, u32::MAX).unwrap().unwrap();
-        let deed = deed(&frame);
-        match deed {
-            Deed::Pass | Deed::LoseAnswer => {
+        let handling = handling(&frame);
+        match handling {
+            FrameHandling::Pass | FrameHandling::LoseAnswer => {
                 cnc.write_all(&bytes)?;
                 let answer = self::frame(&mut cnc, &mut Vec::new())?;
-                if deed == Deed::Pass {
+                if handling == FrameHandling::Pass {
                     client.write_all(&answer.unwrap_or_default())?;
                 }
             }
-            Deed::Lose => {}
-            Deed::Close => return Ok(()),
-            Deed::Reject | Deed::Pretend => {
-                let result = match deed == Deed::Reject {
+            FrameHandling::Lose => {}
+            FrameHandling::Close => return Ok(()),
+            FrameHandling::Reject | FrameHandling::Pretend => {
+                let result = match handling == FrameHandling::Reject {
                     true => AdsError::INVALID_ACCESS,
                     false => AdsError::NO_ERROR,
                 };

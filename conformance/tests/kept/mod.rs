@@ -1,15 +1,13 @@
-//! proptest stores random cases that failed, and runs them before new cases: see
-//! proptest-regressions/README.md.
+//! Random cases that failed are stored and run before new cases: see proptest-regressions/README.md.
 
 use std::path::Path;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
-/// The configuration of proptest for this number of new cases; `source` is the `file!()` of the test.
+/// The configuration for a number of new cases; `source` is the `file!()` of the test.
 pub(crate) fn cases(cases: u32, source: &str) -> Config {
     let default = Config::default();
-    // The environment variable PROPTEST_DISABLE_FAILURE_PERSISTENCE disables the storing of failed
-    // cases; Miri cannot use files.
+    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables the files; Miri has no files.
     if default.failure_persistence.is_none() || cfg!(miri) {
         return Config { cases, failure_persistence: None, ..default };
     }
@@ -17,10 +15,10 @@ pub(crate) fn cases(cases: u32, source: &str) -> Config {
     Config { cases, failure_persistence: Some(Box::new(beside(folder, source))), ..default }
 }
 
-/// A file in `folder` with the name of the test's source file.
+/// A file in `folder` with the name of the test.
 pub(crate) fn beside(folder: impl AsRef<Path>, source: &str) -> FileFailurePersistence {
     let name = Path::new(source).with_extension("txt");
     let file = folder.as_ref().join(name.file_name().expect("the file of a test"));
-    // proptest needs a path with a static lifetime, so one path per test is leaked.
+    // proptest needs a path with a static lifetime, so leak the path of each test.
     FileFailurePersistence::Direct(file.to_str().expect("a path in UTF-8").to_string().leak())
 }

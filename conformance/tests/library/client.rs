@@ -4,7 +4,7 @@
 use std::net::SocketAddr;
 use std::thread;
 
-use ads_cnc_conformance::clients::{
+use ads_cnc_conformance::client_suite::{
     ClientDefect, ClientFault, JudgedClient, ReferenceClient, Scenario, TestServer, VOCABULARY,
     defects, find_defect, judge, scenarios, trial, variants,
 };

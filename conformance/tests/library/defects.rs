@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc_conformance::edition::Edition;
-use ads_cnc_conformance::faults::{Faulty, FieldChange, FieldDefect, Seed};
+use ads_cnc_conformance::faults::{Faulty, FieldChange, FieldDefect, SeededDefect};
 use ads_cnc_conformance::judge::{Case, CaseOutcome, Judgement, Needs, Verdict};
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::selftest::UNSEEN;
@@ -30,7 +30,7 @@ fn run_against(
     wanted: impl Fn(&Case) -> bool,
 ) -> Vec<CaseOutcome> {
     let cases = suite::cases().into_iter().filter(wanted).collect();
-    let seed = defect.cloned().map(Seed::from);
+    let seed = defect.cloned().map(SeededDefect::from);
     let faulty = Faulty::new(cnc.with_stopped_clock(), seed.as_ref());
     let (client, _) = Session::in_process_to_try(Arc::new(faulty)).unwrap().into_parts();
     let mut session = TargetState::new(client, profile);

@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 
 use ads_cnc_conformance::client::{Client, Target};
-use ads_cnc_conformance::faults::{self, Faulty, Seed, SeedKind};
+use ads_cnc_conformance::faults::{self, DefectKind, Faulty, SeededDefect};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection, Verdict};
 use ads_cnc_conformance::profile::Profile;
@@ -14,7 +14,7 @@ use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState}
 
 /// A simulated CNC in this process as a device, after the queries with which a run discovers what the
 /// device has.
-fn discovered(seed: Option<&Seed>) -> (TargetState, Discovery) {
+fn discovered(seed: Option<&SeededDefect>) -> (TargetState, Discovery) {
     let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
     let cnc = Arc::new(Faulty::new(cnc, seed));
     let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
@@ -59,7 +59,7 @@ fn a_missing_port_fails() {
 /// Some valid variants of a CNC pass without a profile; `selftest --only different` tries all.
 #[test]
 fn a_sample_of_valid_variants_passes() {
-    let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
+    let variants = faults::all().iter().filter(|seed| seed.kind == DefectKind::Different);
     let mut alarms = Vec::new();
     let mut count = 0;
     for seed in variants.step_by(16) {

@@ -3,7 +3,7 @@
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Function, OffsetRule, Service};
+use ads_cnc::operation::{AdsService, Function, OffsetRule};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
     ExplainQuery, ExplainSubject, Explanation, ExplanationOutcome, ServiceAddress, ValueFormat,
@@ -50,8 +50,8 @@ fn values() -> impl Strategy<Value = ValueFormat> {
     (ty, dimensions).prop_map(|(ty, dimensions)| ValueFormat { ty, dimensions })
 }
 
-fn services() -> impl Strategy<Value = Option<Service>> {
-    proptest::option::of(select(vec![Service::Read, Service::Write, Service::ReadWrite]))
+fn services() -> impl Strategy<Value = Option<AdsService>> {
+    proptest::option::of(select(vec![AdsService::Read, AdsService::Write, AdsService::ReadWrite]))
 }
 
 /// Addresses of functions, and any other addresses.

@@ -5,8 +5,8 @@ use ads_cnc_conformance::exit::Exit;
 use ads_cnc_conformance::judge::{Body, Case, CaseSubject, Needs, Verdict, VerdictTally};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
-    Answer, CodecTestee, Output, Question, Rejection, Terms, Testee, TesteeHello, TesteeReaction,
-    judge, questions,
+    Answer, CodecTestee, JudgementOptions, Output, Question, Rejection, Testee, TesteeHello,
+    TesteeReaction, judge, questions,
 };
 use ads_cnc_vectors::{Level, sequence, vector};
 
@@ -33,7 +33,8 @@ fn cases() -> Vec<Case> {
 
 /// The exit code for this codec, and the cases with a warning or a difference.
 fn judged(codec: impl Fn(&CodecTestee, &Question) -> Answer) -> (Exit, Vec<String>) {
-    let terms = Terms { seed: 3, subject: CaseSubject::Testee, edition: None, strict: false };
+    let terms =
+        JudgementOptions { seed: 3, subject: CaseSubject::Testee, edition: None, strict: false };
     let outcomes = judge(&mut StepError(codec), cases(), terms).outcomes;
     let verdicts = outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict);
     let noticed = |verdict| matches!(verdict, Verdict::Warning | Verdict::Differs);
@@ -270,7 +271,7 @@ fn names_of_another_edition_fail_nothing() {
             _ => own.answer(question),
         });
         let (seed, subject) = (3, CaseSubject::Testee);
-        let terms = Terms { seed, subject, edition: Some(edition), strict: false };
+        let terms = JudgementOptions { seed, subject, edition: Some(edition), strict: false };
         let outcomes = judge(&mut codec, cases(), terms).outcomes;
         let one = outcomes.iter().find(|one| one.case.id == "vec-path-trajectory-x").unwrap();
         one.verdict()

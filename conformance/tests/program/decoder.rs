@@ -5,7 +5,7 @@ use std::time::Duration;
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::{Ack, ProgramEnd};
 use ads_cnc_conformance::simulator::program::{
-    Pace, ProgramConfig, Start, StartError, State, StreamingProgram, digest,
+    Pace, ProgramConfig, ProgramState, Start, StartError, StreamingProgram, digest,
 };
 use proptest::prelude::*;
 
@@ -28,7 +28,7 @@ fn lines(rate: u32) -> StreamingProgram {
 #[track_caller]
 fn aborted(program: &StreamingProgram) -> String {
     match program.state() {
-        State::Aborted(message) => message.to_string(),
+        ProgramState::Aborted(message) => message.to_string(),
         other => panic!("{other:?}"),
     }
 }
@@ -36,15 +36,15 @@ fn aborted(program: &StreamingProgram) -> String {
 #[test]
 fn the_default_program_is_started_once() {
     let mut program = StreamingProgram::new(ProgramConfig::default());
-    assert_eq!(program.state(), State::Dry);
+    assert_eq!(program.state(), ProgramState::Dry);
     let line = [&[b'X'; 990][..], b"\r\n"].concat();
     let taken = (0..10).take_while(|_| program.write(&line, ZERO) == Ack::Accepted).count();
     // One line is being executed, and four lines wait in the interface.
-    assert_eq!((taken, program.refusals(), program.buffered()), (5, 1, 4 * 992));
+    assert_eq!((taken, program.busy_count(), program.buffered()), (5, 1, 4 * 992));
     program.advance(ms(1));
     assert_eq!(program.write(&line, ms(1)), Ack::Accepted);
     program.advance(ms(6));
-    assert_eq!((program.executed().line_count(), program.state()), (6, State::Dry));
+    assert_eq!((program.executed().line_count(), program.state()), (6, ProgramState::Dry));
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn writes_of_a_wrong_size_are_rejected_in_any_state() {
             StreamingProgram::new(ProgramConfig { start, ..ProgramConfig::default() });
         assert_eq!(program.write(b"", ZERO), Ack::Rejected);
         assert_eq!(program.write(&[b'X'; STREAM_PACKET_MAX + 1], ZERO), Ack::Rejected);
-        assert_eq!((program.buffered(), program.refusals()), (0, 0));
+        assert_eq!((program.buffered(), program.busy_count()), (0, 0));
     }
 }
 
@@ -88,15 +88,15 @@ fn pace() {
 fn a_dry_stream_waits_for_the_next_write() {
     let mut program = lines(10);
     program.write(b"N1\r\n", ZERO);
-    assert_eq!(program.state(), State::Running);
+    assert_eq!(program.state(), ProgramState::Running);
     program.advance(ms(5000));
-    assert_eq!(program.state(), State::Dry);
+    assert_eq!(program.state(), ProgramState::Dry);
     program.write(b"N2\r\n", ms(6000));
-    assert_eq!((program.state(), program.executed().line_count()), (State::Running, 1));
+    assert_eq!((program.state(), program.executed().line_count()), (ProgramState::Running, 1));
     program.advance(ms(6099));
     assert_eq!(program.executed().line_count(), 1);
     program.advance(ms(6100));
-    assert_eq!((program.state(), program.executed().line_count()), (State::Dry, 2));
+    assert_eq!((program.state(), program.executed().line_count()), (ProgramState::Dry, 2));
 }
 
 /// Lines that the decoder read together with a program end are discarded; lines that were written later
@@ -113,7 +113,7 @@ fn program_ends_discard_read_lines() {
         program.write(format!("N1\r\nN2 {word}\r\nN3\r\n$FOR\r\n").as_bytes(), ZERO);
         program.write(b"N4 X4\r\n", ms(150));
         program.advance(ms(200));
-        assert_eq!(program.state(), State::Ended(end));
+        assert_eq!(program.state(), ProgramState::Ended(end));
         assert_eq!(program.executed().line_count(), 2);
         assert_eq!(program.buffered(), 7);
         assert_eq!(program.write(b"N5 $DO\r\n", ms(300)), Ack::Accepted);
@@ -137,14 +137,14 @@ fn a_program_may_be_started_again() {
         ProgramConfig { start: Start::Again, pace: Pace::Fast, ..ProgramConfig::default() };
     let mut program = StreamingProgram::new(config);
     program.write(b"N1:\r\nM30\r\nN2\r\n", ZERO);
-    assert_eq!(program.state(), State::Dry);
+    assert_eq!(program.state(), ProgramState::Dry);
     // The label N1 belonged to the previous program, so the jump is not a backward jump.
     program.write(b"$GOTO N1\r\nM30\r\n", ZERO);
     assert!(program.executed().lines().eq([&b"N1:"[..], b"M30", b"$GOTO N1", b"M30"]));
     program.write(b"X1\r\n$FOR\r\n", ZERO);
     assert_eq!(aborted(&program), "streaming.nc:2:1: $FOR in a stream");
     program.reset(ZERO);
-    assert_eq!(program.state(), State::Stopped);
+    assert_eq!(program.state(), ProgramState::Stopped);
 }
 
 #[test]
@@ -162,10 +162,10 @@ fn errors_abort_before_their_line() {
         // After an error, writes fill the interface, and the program can be started only after a
         // reset.
         while program.write(b"N9 X1\r\n", ms(2000)) == Ack::Accepted {}
-        assert_eq!((program.buffered(), program.refusals()), (STREAM_MAX / 7 * 7, 1));
+        assert_eq!((program.buffered(), program.busy_count()), (STREAM_MAX / 7 * 7, 1));
         assert_eq!(program.start(ms(2000)), Err(StartError::Aborted));
         program.reset(ms(2000));
-        assert_eq!((program.buffered(), program.state()), (0, State::Stopped));
+        assert_eq!((program.buffered(), program.state()), (0, ProgramState::Stopped));
         program.start(ms(2000)).unwrap();
         program.write(b"$DO\r\n", ms(2000));
         assert_eq!(aborted(&program), "streaming.nc:1:1: $DO in a stream");
@@ -178,7 +178,7 @@ fn a_missing_line_end_aborts_when_read() {
     program.write(b"N1\r\n", ZERO);
     assert_eq!(program.write(b"N2\r\nN3\n", ms(50)), Ack::Accepted);
     program.advance(ms(99));
-    assert_eq!(program.state(), State::Running);
+    assert_eq!(program.state(), ProgramState::Running);
     program.advance(ms(100));
     assert_eq!(
         aborted(&program),
@@ -206,7 +206,7 @@ fn comments_span_packets_and_calls_return() {
         ["#COMMENT BEGIN\r\n", "$DO\r\nM30\r\n", "#COMMENT END\r\n", "N9 L M30\r\n", "X1\r\n"]
     {
         program.write(packet.as_bytes(), ZERO);
-        assert_eq!(program.state(), State::Dry, "{packet}");
+        assert_eq!(program.state(), ProgramState::Dry, "{packet}");
     }
     assert_eq!(program.executed().line_count(), 6);
 }
@@ -216,7 +216,7 @@ fn streaming_needs_a_name() {
     let config =
         ProgramConfig { name: String::new(), pace: Pace::Fast, ..ProgramConfig::default() };
     let mut program = StreamingProgram::new(config);
-    assert_eq!(program.state(), State::Stopped);
+    assert_eq!(program.state(), ProgramState::Stopped);
     assert_eq!(program.start(ZERO), Err(StartError::NoName));
     assert_eq!(program.write(b"N1\r\n", ZERO), Ack::Accepted);
     program.advance(ms(1000));
@@ -230,7 +230,7 @@ fn a_reset_executes_only_due_lines() {
     program.write(b"N4\r\n", ZERO);
     program.reset(ms(250));
     program.advance(ms(9000));
-    assert_eq!((program.state(), program.buffered()), (State::Stopped, 0));
+    assert_eq!((program.state(), program.buffered()), (ProgramState::Stopped, 0));
     assert_eq!(program.executed().digest(), digest(b"N1\r\nN2\r\n"));
     program.forget_executed();
     assert_eq!(program.executed().digest(), digest(b""));

@@ -15,7 +15,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use crate::kept;
-use crate::machines::{CheckedInterface, InterfaceBend};
+use crate::machines::{CheckedInterface, InterfaceMutation};
 
 const TOO_LONG: &str =
     "service: response at offset 0: too long, expected at most 128 bytes, found 129";
@@ -149,7 +149,7 @@ proptest! {
         let text = lines.iter().map(|line| format!("{line}{end}")).collect::<String>();
         let wire = lines.iter().map(|line| format!("{line}\r\n")).collect::<String>();
         let mut sender = Sender::new(NcText::new(text.as_bytes()).unwrap());
-        let mut interface = CheckedInterface::new(InterfaceBend::NONE);
+        let mut interface = CheckedInterface::new(InterfaceMutation::NONE);
         let (mut got, mut reads) = (Vec::<u8>::new(), reads.into_iter().chain([true]).cycle());
         while let Some(packet) = sender.packet() {
             let ack = interface.write(packet);
@@ -165,7 +165,7 @@ proptest! {
     /// Compares the interface with a vector of bytes.
     #[test]
     fn an_interface_is_a_bounded_queue(steps in vec((0..12_u8, 0..1100_usize, any::<u8>()), 0..60)) {
-        let mut interface = CheckedInterface::new(InterfaceBend::NONE);
+        let mut interface = CheckedInterface::new(InterfaceMutation::NONE);
         for (step, len, byte) in steps {
             match step {
                 0 => interface.reset(),

@@ -14,19 +14,19 @@ fn clears() -> impl Strategy<Value = Clears> {
     select(vec![Clears::OnResponseState, Clears::Never])
 }
 
-fn requests() -> impl Strategy<Value = Vec<Asked>> {
+fn requests() -> impl Strategy<Value = Vec<TestRequest>> {
     vec((0..2_usize, 0..2_u8), 1..12)
 }
 
-fn luck() -> impl Strategy<Value = Luck> {
-    prop_oneof![6 => Just(Luck::Fine), 1 => Just(Luck::Fails), 1 => Just(Luck::FailsLate)]
+fn outcome() -> impl Strategy<Value = StepOutcome> {
+    prop_oneof![6 => Just(StepOutcome::Fine), 1 => Just(StepOutcome::Fails), 1 => Just(StepOutcome::FailsLate)]
 }
 
 fn orderly() -> impl Strategy<Value = Vec<Action>> {
     // Each action is repeated, so that one side makes progress while the other waits.
     let one = prop_oneof![
         1 => Just(Action::Program),
-        2 => (0..2_usize, luck()).prop_map(|(place, luck)| Action::Host(place, luck)),
+        2 => (0..2_usize, outcome()).prop_map(|(place, outcome)| Action::Host(place, outcome)),
     ];
     let runs = vec((one, 1..8_usize), 0..120);
     runs.prop_map(|runs| {
@@ -37,7 +37,7 @@ fn orderly() -> impl Strategy<Value = Vec<Action>> {
 fn chaos() -> impl Strategy<Value = Vec<Action>> {
     let one = prop_oneof![
         20 => Just(Action::Program),
-        30 => (0..2_usize, luck()).prop_map(|(place, luck)| Action::Host(place, luck)),
+        30 => (0..2_usize, outcome()).prop_map(|(place, outcome)| Action::Host(place, outcome)),
         1 => Just(Action::GiveUp),
         1 => Just(Action::ResetCnc),
         1 => (0..2_usize).prop_map(Action::Restart),
@@ -60,7 +60,7 @@ proptest! {
     #[test]
     fn one_host_answers_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();
-        let mut world = World::new(&ids, true, clears, true, ServiceBend::NONE);
+        let mut world = World::new(&ids, true, clears, true, ServiceMutation::NONE);
         let mut next = requests.into_iter();
         actions.into_iter().for_each(|action| world.act(action, &mut next));
         world.finish(&mut next);
@@ -71,7 +71,7 @@ proptest! {
     #[test]
     fn two_hosts_answer_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();
-        let mut world = World::new(&ids, false, clears, true, ServiceBend::NONE);
+        let mut world = World::new(&ids, false, clears, true, ServiceMutation::NONE);
         let mut next = requests.into_iter();
         for action in actions {
             let action = world.luck_of_two(action);
@@ -91,7 +91,7 @@ proptest! {
         together: bool,
     ) {
         let ids = service_ids();
-        let mut world = World::new(&ids, together, clears, false, ServiceBend::NONE);
+        let mut world = World::new(&ids, together, clears, false, ServiceMutation::NONE);
         let mut next = before.into_iter();
         actions.into_iter().for_each(|action| world.act(action, &mut next));
         world.settle();

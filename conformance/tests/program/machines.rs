@@ -193,13 +193,13 @@ impl CheckedVariables {
 
 /// A bug that is injected by replacing the calls of a streaming interface.
 #[derive(Clone, Copy)]
-pub(crate) struct InterfaceBend {
+pub(crate) struct InterfaceMutation {
     /// Called to write to the interface.
     pub(crate) write: fn(&mut StreamingInterface, &[u8]) -> Ack,
     pub(crate) reset: fn(&mut StreamingInterface),
 }
 
-impl InterfaceBend {
+impl InterfaceMutation {
     pub(crate) const NONE: Self =
         Self { write: StreamingInterface::write, reset: StreamingInterface::reset };
 }
@@ -214,25 +214,25 @@ fn fault_of(error: LineError) -> TextFault {
 /// A streaming interface, which each call compares with a vector of bytes.
 pub(crate) struct CheckedInterface {
     interface: StreamingInterface,
-    held: Vec<u8>,
-    bend: InterfaceBend,
+    buffered: Vec<u8>,
+    mutation: InterfaceMutation,
 }
 
 impl CheckedInterface {
-    pub(crate) fn new(bend: InterfaceBend) -> Self {
-        Self { interface: StreamingInterface::new(), held: Vec::new(), bend }
+    pub(crate) fn new(mutation: InterfaceMutation) -> Self {
+        Self { interface: StreamingInterface::new(), buffered: Vec::new(), mutation }
     }
 
     /// Checks that a write stores all bytes or none.
     pub(crate) fn write(&mut self, data: &[u8]) -> Ack {
         let wanted = match data.len() {
             0 | 993.. => Ack::Rejected,
-            len if self.held.len() + len > STREAM_MAX => Ack::Busy,
+            len if self.buffered.len() + len > STREAM_MAX => Ack::Busy,
             _ => Ack::Accepted,
         };
-        assert_eq!((self.bend.write)(&mut self.interface, data), wanted);
+        assert_eq!((self.mutation.write)(&mut self.interface, data), wanted);
         if wanted == Ack::Accepted {
-            self.held.extend_from_slice(data);
+            self.buffered.extend_from_slice(data);
         }
         self.check();
         wanted
@@ -240,9 +240,9 @@ impl CheckedInterface {
 
     /// Checks that a read returns all written bytes, or an error for the first line with a wrong line end.
     pub(crate) fn read(&mut self) -> Result<Vec<u8>, TextFault> {
-        let held = std::mem::take(&mut self.held);
-        let wanted = match missing_end(&held) {
-            None => Ok(held),
+        let buffered = std::mem::take(&mut self.buffered);
+        let wanted = match missing_end(&buffered) {
+            None => Ok(buffered),
             Some(fault) => Err(fault),
         };
         let found = self.interface.read().map_err(fault_of);
@@ -252,14 +252,14 @@ impl CheckedInterface {
     }
 
     pub(crate) fn reset(&mut self) {
-        (self.bend.reset)(&mut self.interface);
-        self.held.clear();
+        (self.mutation.reset)(&mut self.interface);
+        self.buffered.clear();
         self.check();
     }
 
     fn check(&self) {
         let (len, is_empty) = (self.interface.len(), self.interface.is_empty());
-        assert_eq!((len, is_empty), (self.held.len(), self.held.is_empty()));
+        assert_eq!((len, is_empty), (self.buffered.len(), self.buffered.is_empty()));
     }
 }
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender};
 use ads_cnc_conformance::simulator::program::{
-    Pace, ProgramConfig, State, StreamingProgram, digest,
+    Pace, ProgramConfig, ProgramState, StreamingProgram, digest,
 };
 use proptest::prelude::*;
 
@@ -53,9 +53,9 @@ fn ten_megabytes_arrive() {
         (if ack == Some(Ack::Busy) { RETRY_AFTER / 20 } else { cycle }, false)
     });
     assert!(most > 1000, "the decoder is slow: {most}");
-    assert_eq!(program.refusals(), most as u64);
+    assert_eq!(program.busy_count(), most as u64);
     program.advance(now + Duration::from_secs(1));
-    assert_eq!(program.state(), State::Dry);
+    assert_eq!(program.state(), ProgramState::Dry);
     let executed = program.executed();
     assert_eq!(executed.line_count(), text.line_count() as u64);
     assert_eq!((executed.byte_count(), executed.digest()), (wire.len() as u64, digest(&wire)));
@@ -100,7 +100,7 @@ fn what_is_run_is_the_text(
         (Duration::from_millis(wait + 1), refused)
     });
     program.advance(now + Duration::from_secs(3600));
-    prop_assert_eq!(program.state(), State::Dry);
+    prop_assert_eq!(program.state(), ProgramState::Dry);
     let executed = program.executed();
     prop_assert_eq!(executed.line_count(), text.line_count() as u64);
     prop_assert!(executed.lines().eq(text.lines()));

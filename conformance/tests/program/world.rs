@@ -14,7 +14,7 @@ const NOW: Duration = Duration::ZERO;
 
 /// Whether a step of a host succeeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Luck {
+pub(crate) enum StepOutcome {
     Fine,
     /// The read or write does not reach the CNC, and the host gets an error.
     Fails,
@@ -25,7 +25,7 @@ pub(crate) enum Luck {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Action {
     Program,
-    Host(usize, Luck),
+    Host(usize, StepOutcome),
     /// The program gives up waiting for a response.
     GiveUp,
     ResetCnc,
@@ -34,11 +34,11 @@ pub(crate) enum Action {
 
 /// A request: the index of the service, and a number as text. There are only few texts, so that requests
 /// repeat.
-pub(crate) type Asked = (usize, u8);
+pub(crate) type TestRequest = (usize, u8);
 
 /// A bug that is injected by replacing calls of the hosts and of the interface.
 #[derive(Clone, Copy)]
-pub(crate) struct ServiceBend {
+pub(crate) struct ServiceMutation {
     /// Called to report a failed step to a host.
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) restart: fn(&mut Host<'_>),
@@ -48,7 +48,7 @@ pub(crate) struct ServiceBend {
     pub(crate) asked: fn(usize, &str) -> usize,
 }
 
-impl ServiceBend {
+impl ServiceMutation {
     pub(crate) const NONE: Self = Self {
         failed: |host| host.failed(),
         restart: |host| host.restart(),
@@ -63,13 +63,13 @@ pub(crate) struct World<'s> {
     interface: ServiceInterface,
     hosts: Vec<Host<'s>>,
     ids: &'s [ServiceId],
-    call: Option<(Asked, ServiceCall)>,
+    call: Option<(TestRequest, ServiceCall)>,
     asked: Vec<usize>,
     served: Vec<usize>,
     /// Whether each response must be right; false while time-outs, resets and restarts may cause wrong
     /// responses.
     strict: bool,
-    bend: ServiceBend,
+    mutation: ServiceMutation,
 }
 
 impl<'s> World<'s> {
@@ -79,7 +79,7 @@ impl<'s> World<'s> {
         together: bool,
         clears: Clears,
         strict: bool,
-        bend: ServiceBend,
+        mutation: ServiceMutation,
     ) -> Self {
         let hosts = match together {
             true => vec![Host::new(ids)],
@@ -94,7 +94,7 @@ impl<'s> World<'s> {
             asked: count.clone(),
             served: count,
             strict,
-            bend,
+            mutation,
         }
     }
 
@@ -109,7 +109,7 @@ impl<'s> World<'s> {
         format!("{service} {request} {times}")
     }
 
-    fn program(&mut self, next: &mut impl Iterator<Item = Asked>) {
+    fn program(&mut self, next: &mut impl Iterator<Item = TestRequest>) {
         let Some(((service, text), call)) = &mut self.call else {
             let Some((service, text)) = next.next() else { return };
             let request = format!("{service}{text}");
@@ -122,7 +122,7 @@ impl<'s> World<'s> {
         match call.step() {
             CallStep::Read(variable) => call.read(self.interface.read(variable), NOW).unwrap(),
             CallStep::Write(variable, value) => {
-                (self.bend.write)(&mut self.interface, variable, value);
+                (self.mutation.write)(&mut self.interface, variable, value);
                 call.written(NOW);
             }
             CallStep::Wait { .. } => call.poll(),
@@ -139,23 +139,29 @@ impl<'s> World<'s> {
         }
     }
 
-    fn host(&mut self, place: usize, luck: Luck) {
+    fn host(&mut self, place: usize, outcome: StepOutcome) {
         let place = place % self.hosts.len();
         let host = &mut self.hosts[place];
         match host.step() {
-            HostStep::Read(_) | HostStep::Wait if luck != Luck::Fine => (self.bend.failed)(host),
+            HostStep::Read(_) | HostStep::Wait if outcome != StepOutcome::Fine => {
+                (self.mutation.failed)(host)
+            }
             HostStep::Read(variable) => host.read(self.interface.read(variable)).unwrap(),
             HostStep::Wait => host.poll(),
             HostStep::Write(variable, value) => {
-                if luck != Luck::Fails {
-                    (self.bend.write)(&mut self.interface, variable, value);
+                if outcome != StepOutcome::Fails {
+                    (self.mutation.write)(&mut self.interface, variable, value);
                 }
-                if luck == Luck::Fine { host.written() } else { (self.bend.failed)(host) }
+                if outcome == StepOutcome::Fine {
+                    host.written()
+                } else {
+                    (self.mutation.failed)(host)
+                }
             }
             HostStep::Serve { uuid, request, .. } => {
                 let service = self.ids.iter().position(|id| id == uuid).unwrap();
                 let request = request.to_string();
-                let service = (self.bend.asked)(service, &request);
+                let service = (self.mutation.asked)(service, &request);
                 if self.strict {
                     // SVC-2: the program has just sent this request to this service.
                     let ((asked, text), _) = self.call.as_ref().expect("somebody asks");
@@ -168,10 +174,10 @@ impl<'s> World<'s> {
         }
     }
 
-    pub(crate) fn act(&mut self, action: Action, next: &mut impl Iterator<Item = Asked>) {
+    pub(crate) fn act(&mut self, action: Action, next: &mut impl Iterator<Item = TestRequest>) {
         match action {
             Action::Program => self.program(next),
-            Action::Host(place, luck) => self.host(place, luck),
+            Action::Host(place, outcome) => self.host(place, outcome),
             Action::GiveUp => self.call = None,
             Action::ResetCnc => {
                 self.call = None;
@@ -179,7 +185,7 @@ impl<'s> World<'s> {
             }
             Action::Restart(place) => {
                 let place = place % self.hosts.len();
-                (self.bend.restart)(&mut self.hosts[place]);
+                (self.mutation.restart)(&mut self.hosts[place]);
             }
         }
     }
@@ -188,9 +194,11 @@ impl<'s> World<'s> {
     /// a write that does not arrive. Otherwise, the host could not distinguish its own request from a
     /// later request that the other host is about to answer.
     pub(crate) fn luck_of_two(&self, action: Action) -> Action {
-        let Action::Host(place, Luck::FailsLate) = action else { return action };
+        let Action::Host(place, StepOutcome::FailsLate) = action else { return action };
         match self.hosts[place % self.hosts.len()].step() {
-            HostStep::Write(ServiceVariable::ResponseState, _) => Action::Host(place, Luck::Fails),
+            HostStep::Write(ServiceVariable::ResponseState, _) => {
+                Action::Host(place, StepOutcome::Fails)
+            }
             _ => action,
         }
     }
@@ -205,7 +213,7 @@ impl<'s> World<'s> {
             assert!(round < 200, "the hosts do not come to rest");
             let before = (self.interface.clone(), self.served.clone());
             for place in 0..self.hosts.len() {
-                self.host(place, Luck::Fine);
+                self.host(place, StepOutcome::Fine);
             }
             let same = before == (self.interface.clone(), self.served.clone());
             calm = if same { calm + 1 } else { 0 };
@@ -218,7 +226,7 @@ impl<'s> World<'s> {
             let steps = (0..10).find(|_| {
                 let waits = self.hosts[place].step() == HostStep::Wait;
                 if !waits {
-                    self.host(place, Luck::Fine);
+                    self.host(place, StepOutcome::Fine);
                 }
                 waits
             });
@@ -228,11 +236,11 @@ impl<'s> World<'s> {
     }
 
     /// All participants execute steps in turn until the program has all responses.
-    pub(crate) fn finish(&mut self, next: &mut impl Iterator<Item = Asked>) {
+    pub(crate) fn finish(&mut self, next: &mut impl Iterator<Item = TestRequest>) {
         let mut idle = 0;
         for _ in 0..2000 {
             self.program(next);
-            (0..self.hosts.len()).for_each(|place| self.host(place, Luck::Fine));
+            (0..self.hosts.len()).for_each(|place| self.host(place, StepOutcome::Fine));
             // The program has no more requests if it sends none for several steps. In these steps, a
             // host may still complete the last response.
             idle = if self.call.is_none() { idle + 1 } else { 0 };

@@ -9,14 +9,17 @@ use ads_cnc::sda::ObjectAddress;
 use ads_cnc_conformance::objects::ValueAddress;
 use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
 
-use crate::target::{Check, Target};
+use crate::target::{CheckResult, TestCnc};
 
 /// All addresses of a content. For a content of a channel: by the number of the channel, and then by
 /// its rank.
-pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<ValueAddress>> {
+pub(crate) fn addresses(
+    target: &TestCnc,
+    content: &StoredContent,
+) -> CheckResult<Vec<ValueAddress>> {
     use Addressing::{Index, Logical};
-    let length = u32::try_from(held.value.len())?;
-    let at = |stride, axis: u8| IndexOffset::for_axis(stride, axis.into(), held.element);
+    let length = u32::try_from(content.value.len())?;
+    let at = |stride, axis: u8| IndexOffset::for_axis(stride, axis.into(), content.element);
     let object = |addressing, table, instance, offset| {
         let group = ComGroup { addressing, access: Access::Element, table, instance };
         ValueAddress::Object { group: group.index_group(), offset, size: length }
@@ -34,14 +37,14 @@ pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<Valu
     };
     // The index offset of an element, calculated from the address of the instance, which the
     // target returns.
-    let of_first = |class, channel: u8, axis: u8| -> Check<IndexOffset> {
+    let of_first = |class, channel: u8, axis: u8| -> CheckResult<IndexOffset> {
         let find = FindInstance::new(class, channel.into(), axis.into());
         let first = target.read::<ObjectAddress>(find)?.first_element()?;
         let first = first.map_or(0, |first| first.index_offset().get());
-        Ok(IndexOffset::new(first.saturating_add(held.element)))
+        Ok(IndexOffset::new(first.saturating_add(content.element)))
     };
     let own = at(AxisStride::X10000, 0)?;
-    Ok(match held.holder {
+    Ok(match content.holder {
         // The objects of the platform also have addresses of channel 1.
         ContentOwner::Platform => [(Logical, 0), (Index, 0), (Logical, 1)]
             .map(|(by, instance)| object(by, ComTable::Channel, instance, own))
@@ -75,8 +78,11 @@ pub(crate) fn addresses(target: &Target, held: &StoredContent) -> Check<Vec<Valu
 }
 
 /// The address of an element; `None` for an object.
-pub(crate) fn element(target: &Target, held: &StoredContent) -> Check<Option<ElementAddress>> {
-    Ok(addresses(target, held)?.into_iter().find_map(|address| match address {
+pub(crate) fn element(
+    target: &TestCnc,
+    content: &StoredContent,
+) -> CheckResult<Option<ElementAddress>> {
+    Ok(addresses(target, content)?.into_iter().find_map(|address| match address {
         ValueAddress::Element { element, .. } => Some(element),
         _ => None,
     }))

@@ -11,7 +11,7 @@ use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
 
 use crate::addresses::addresses;
 use crate::checks::checks;
-use crate::target::{Check, Failed, Reply, Target, ensure, same};
+use crate::target::{CheckResult, Failed, Reply, TestCnc, ensure, same};
 
 checks! {
     an_axis_takes_its_values_to_another_place,
@@ -22,8 +22,8 @@ checks! {
 
 /// The place in channel 1 of the axis that owns a content; 0 for a platform axis; `None` for other
 /// owners.
-fn place_of(held: &StoredContent) -> Option<u8> {
-    match held.holder {
+fn place_of(content: &StoredContent) -> Option<u8> {
+    match content.holder {
         ContentOwner::ChannelAxis { channel: 1, place }
         | ContentOwner::OfPlace { channel: 1, place, .. } => Some(place),
         ContentOwner::PlatformAxis(_) | ContentOwner::OfAxis { .. } => Some(0),
@@ -32,13 +32,13 @@ fn place_of(held: &StoredContent) -> Option<u8> {
 }
 
 /// The name and the value of each content of a place of channel 1, read at each of its addresses.
-fn contents(target: &Target, place: u8) -> Check<Vec<(String, Reply)>> {
+fn contents(target: &TestCnc, place: u8) -> CheckResult<Vec<(String, Reply)>> {
     let mut all = Vec::new();
-    for held in target.cnc().stored_contents() {
-        if place_of(&held) == Some(place) {
-            for address in addresses(target, &held)? {
+    for content in target.cnc().stored_contents() {
+        if place_of(&content) == Some(place) {
+            for address in addresses(target, &content)? {
                 let Ok(request) = address.read() else { continue };
-                all.push((held.name.to_string(), target.ask(request)?));
+                all.push((content.name.to_string(), target.ask(request)?));
             }
         }
     }
@@ -47,13 +47,13 @@ fn contents(target: &Target, place: u8) -> Check<Vec<(String, Reply)>> {
 
 /// Axis 3 moves from place 3 to place 2 of channel 1, where axis 2 was: its values move with it, and
 /// place 3 is blank.
-fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
+fn an_axis_takes_its_values_to_another_place(target: &TestCnc) -> CheckResult {
     let cnc = target.cnc();
     same("the axes", (cnc.axis_at(1, 2), cnc.axis_at(1, 3)), (2, 3))?;
     let (third, platform) = (contents(target, 3)?, contents(target, 0)?);
     let mut addresses_of_third = Vec::new();
-    for held in cnc.stored_contents().iter().filter(|held| place_of(held) == Some(3)) {
-        addresses_of_third.extend(addresses(target, held)?);
+    for content in cnc.stored_contents().iter().filter(|content| place_of(content) == Some(3)) {
+        addresses_of_third.extend(addresses(target, content)?);
     }
     cnc.exchange_axis(1, 2, 3)?;
     same("place 2", contents(target, 2)?, third)?;
@@ -68,8 +68,13 @@ fn an_axis_takes_its_values_to_another_place(target: &Target) -> Check {
 
 /// Reads of all elements of a class at a place of a channel, whose lengths are those of place 1 of
 /// channel 1.
-fn elements(target: &Target, class: Class, channel: u32, place: u32) -> Check<Vec<ReadElement>> {
-    let at = |channel, place| -> Check<_> {
+fn elements(
+    target: &TestCnc,
+    class: Class,
+    channel: u32,
+    place: u32,
+) -> CheckResult<Vec<ReadElement>> {
+    let at = |channel, place| -> CheckResult<_> {
         let address = target.read::<ObjectAddress>(FindInstance::new(class, channel, place))?;
         address.first_element()?.ok_or_else(|| Failed(format!("no {class:?} at place {place}")))
     };
@@ -86,9 +91,9 @@ fn elements(target: &Target, class: Class, channel: u32, place: u32) -> Check<Ve
 
 /// The elements of a place without an axis are zero: in the initial state, and after axis 4 has left
 /// the first place of channel 2.
-fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
+fn a_place_without_an_axis_is_blank(target: &TestCnc) -> CheckResult {
     let cnc = target.cnc();
-    let is_blank = |read: &ReadElement| -> Check<bool> {
+    let is_blank = |read: &ReadElement| -> CheckResult<bool> {
         Ok(target.ask(*read)??.iter().all(|&byte| byte == 0))
     };
     let empty = cnc.model().profile().empty_places;
@@ -117,13 +122,13 @@ fn a_place_without_an_axis_is_blank(target: &Target) -> Check {
 const NAME: &str = "V.A.WCS";
 
 /// The handle and the value of the variable `NAME` at a place of channel 1.
-fn by_place(target: &Target, place: u32) -> Check<(Handle, Reply)> {
+fn by_place(target: &TestCnc, place: u32) -> CheckResult<(Handle, Reply)> {
     let (channel, axis) = (Channel::new(1)?, ChannelAxis::new(place)?);
     let handle = target.read(AxisHandleByName::new(channel, axis, NAME)?)?;
     Ok((handle, target.ask(AxisReadByName::new(channel, axis, NAME)?)?))
 }
 
-fn names_and_handles_of_a_place_are_of_its_axis(target: &Target) -> Check {
+fn names_and_handles_of_a_place_are_of_its_axis(target: &TestCnc) -> CheckResult {
     let channel = Channel::new(1)?;
     let by_handle = |handle| target.ask(ReadByHandle::new(channel, handle, U32List::EMPTY));
     let ((second, of_y), (third, of_z)) = (by_place(target, 2)?, by_place(target, 3)?);
@@ -143,7 +148,7 @@ fn names_and_handles_of_a_place_are_of_its_axis(target: &Target) -> Check {
 }
 
 /// The replies by which a channel can be identified.
-fn known_by(target: &Target, channel: Channel) -> Check<Vec<Reply>> {
+fn known_by(target: &TestCnc, channel: Channel) -> CheckResult<Vec<Reply>> {
     let mut requests: Vec<Request<'_>> =
         vec![CountObjects::new(channel).into(), CountVariables::new(channel, Kind::V_E).into()];
     requests
@@ -151,7 +156,7 @@ fn known_by(target: &Target, channel: Channel) -> Check<Vec<Reply>> {
     requests.into_iter().map(|request| target.ask(request)).collect()
 }
 
-fn ranks_are_those_of_the_active_channels(target: &Target) -> Check {
+fn ranks_are_those_of_the_active_channels(target: &TestCnc) -> CheckResult {
     let all = target.channels();
     for &gone in &all {
         target.cnc().set_active(gone, false)?;
@@ -162,7 +167,7 @@ fn ranks_are_those_of_the_active_channels(target: &Target) -> Check {
     ranks_are(target, &all)
 }
 
-fn ranks_are(target: &Target, active: &[u8]) -> Check {
+fn ranks_are(target: &TestCnc, active: &[u8]) -> CheckResult {
     for (rank, &number) in (1..).zip(active) {
         let by_number = known_by(target, Channel::new(number.into())?)?;
         ensure(by_number[1].is_ok(), format_args!("channel {number} rejects requests"))?;

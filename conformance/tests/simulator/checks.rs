@@ -4,12 +4,12 @@
 use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
 use ads_cnc_vectors::ClauseId;
 
-use crate::target::{Check, Target};
+use crate::target::{CheckResult, TestCnc};
 
 /// A check that starts with a CNC in its initial state.
 pub(crate) struct SimulatorCheck {
     pub(crate) name: &'static str,
-    pub(crate) run: fn(&Target) -> Check,
+    pub(crate) run: fn(&TestCnc) -> CheckResult,
 }
 
 impl SimulatorCheck {
@@ -30,7 +30,7 @@ macro_rules! checks {
         mod tests {
             $(#[test]
             fn $name() {
-                super::$name(&$crate::target::Target::new(None)).unwrap();
+                super::$name(&$crate::target::TestCnc::new(None)).unwrap();
             })+
         }
     };

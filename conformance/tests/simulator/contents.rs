@@ -12,7 +12,7 @@ use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
 
 use crate::addresses::{addresses, element};
 use crate::checks::checks;
-use crate::target::{Check, Target, ensure, same};
+use crate::target::{CheckResult, TestCnc, ensure, same};
 
 checks! {
     contents_are_read_at_their_addresses,
@@ -27,14 +27,14 @@ const ROUNDS: u32 = 6;
 /// Number of rounds in which contents other than BOOLEANs are read.
 const ROUNDS_OF_NUMBERS: u32 = 2;
 
-fn is_bit(held: &StoredContent) -> bool {
-    matches!(held.type_name, "BOOL" | "BOOLEAN")
+fn is_bit(content: &StoredContent) -> bool {
+    matches!(content.type_name, "BOOL" | "BOOLEAN")
 }
 
 /// The value of the content with this number, which is different in each round. All bytes of a numeric
 /// value differ, and REALs are finite.
-fn value(held: &StoredContent, number: u32, round: u32) -> Vec<u8> {
-    if is_bit(held) {
+fn value(content: &StoredContent, number: u32, round: u32) -> Vec<u8> {
+    if is_bit(content) {
         return vec![u8::from(number >> round & 1 == 1)];
     }
     let mut seed = number.wrapping_mul(0x9E37_79B9) ^ round.wrapping_mul(0x85EB_CA6B);
@@ -42,78 +42,78 @@ fn value(held: &StoredContent, number: u32, round: u32) -> Vec<u8> {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         seed.to_le_bytes()[3]
     };
-    let len = held.value.len();
-    match held.type_name {
+    let len = content.value.len();
+    match content.type_name {
         "STRING" => (1..len).map(|_| b'a' + next() % 26).chain([0]).collect(),
         _ if len == 1 => vec![next()],
         _ => (0_u8..).map(|place| next() & 0x1F | place.wrapping_shl(5)).take(len).collect(),
     }
 }
 
-fn what(held: &StoredContent) -> String {
-    format!("{} of {:?}", held.name, held.holder)
+fn what(content: &StoredContent) -> String {
+    format!("{} of {:?}", content.name, content.holder)
 }
 
 /// The part of a value that is compared: a text up to its NUL, or the whole value.
-fn counting<'v>(held: &StoredContent, value: &'v [u8]) -> &'v [u8] {
-    match held.type_name {
+fn counting<'v>(content: &StoredContent, value: &'v [u8]) -> &'v [u8] {
+    match content.type_name {
         "STRING" => value.split(|&byte| byte == 0).next().unwrap_or_default(),
         _ => value,
     }
 }
 
 /// Each content is little-endian, and can be read at each of its addresses.
-fn contents_are_read_at_their_addresses(target: &Target) -> Check {
+fn contents_are_read_at_their_addresses(target: &TestCnc) -> CheckResult {
     let all = target.cnc().stored_contents();
     ensure(all.len() > 100, format_args!("{} contents", all.len()))?;
     for round in 0..ROUNDS {
         let values: Vec<Vec<u8>> =
-            (1..).zip(&all).map(|(number, held)| value(held, number, round)).collect();
-        for (held, value) in all.iter().zip(&values) {
-            target.cnc().set_content(held, value);
+            (1..).zip(&all).map(|(number, content)| value(content, number, round)).collect();
+        for (content, value) in all.iter().zip(&values) {
+            target.cnc().set_content(content, value);
         }
-        let of_round = |held: &StoredContent| is_bit(held) || round < ROUNDS_OF_NUMBERS;
-        for (held, value) in all.iter().zip(&values).filter(|(held, _)| of_round(held)) {
-            for address in addresses(target, held)? {
+        let of_round = |content: &StoredContent| is_bit(content) || round < ROUNDS_OF_NUMBERS;
+        for (content, value) in all.iter().zip(&values).filter(|(content, _)| of_round(content)) {
+            for address in addresses(target, content)? {
                 // The program stream, and contents at the offsets of functions, cannot be read.
                 let Ok(request) = address.read() else { continue };
                 let found = target.ask(request)??;
-                let at = format!("{} at {address:?}", what(held));
-                same(at, counting(held, &found), counting(held, value))?;
+                let at = format!("{} at {address:?}", what(content));
+                same(at, counting(content, &found), counting(content, value))?;
             }
         }
     }
     Ok(())
 }
 
-fn a_write_changes_its_content_alone(target: &Target) -> Check {
+fn a_write_changes_its_content_alone(target: &TestCnc) -> CheckResult {
     let all = target.cnc().stored_contents();
     let profile = target.cnc().model().profile();
-    for (number, held) in (1..).zip(&all).filter(|(_, held)| held.writable) {
-        if profile.leaves(&held.name.to_string()) {
+    for (number, content) in (1..).zip(&all).filter(|(_, content)| content.writable) {
+        if profile.leaves(&content.name.to_string()) {
             continue;
         }
-        let new = match is_bit(held) {
-            true => held.value.iter().map(|bit| bit ^ 1).collect(),
-            false => value(held, number, 0),
+        let new = match is_bit(content) {
+            true => content.value.iter().map(|bit| bit ^ 1).collect(),
+            false => value(content, number, 0),
         };
-        for address in addresses(target, held)? {
+        for address in addresses(target, content)? {
             let Ok(request) = address.write(&new) else { continue };
             target.ask(request)??;
             for (now, before) in target.cnc().stored_contents().iter().zip(&all) {
-                let is_written = (now.holder, now.element) == (held.holder, held.element);
+                let is_written = (now.holder, now.element) == (content.holder, content.element);
                 let expected = if is_written { &new } else { &before.value };
                 let after = format!("{} after a write to {address:?}", what(now));
                 same(after, counting(now, &now.value), counting(now, expected))?;
             }
-            target.cnc().set_content(held, &held.value);
+            target.cnc().set_content(content, &content.value);
         }
     }
     Ok(())
 }
 
 /// All descriptors of a list.
-fn descriptors(target: &Target, list: impl Into<ObjectList>) -> Check<Descriptors> {
+fn descriptors(target: &TestCnc, list: impl Into<ObjectList>) -> CheckResult<Descriptors> {
     let list = list.into();
     let count = target.read::<ObjectCount>(CountObjects::new(list))?.0;
     let mut all = Descriptors::default();
@@ -127,54 +127,54 @@ fn descriptors(target: &Target, list: impl Into<ObjectList>) -> Check<Descriptor
 }
 
 /// Each object has a descriptor in its list, with the name, the size and an address of the object.
-fn every_object_is_in_its_list(target: &Target) -> Check {
+fn every_object_is_in_its_list(target: &TestCnc) -> CheckResult {
     let all = target.cnc().stored_contents();
     let mut lists = vec![(0, descriptors(target, ObjectList::PLATFORM)?)];
     for channel in target.channels() {
         lists.push((channel, descriptors(target, Channel::new(channel.into())?)?));
     }
-    for held in &all {
-        let list = match held.holder {
+    for content in &all {
+        let list = match content.holder {
             ContentOwner::Platform => 0,
             ContentOwner::Channel(channel) | ContentOwner::ChannelAxis { channel, .. } => channel,
             _ => continue,
         };
         let Some((_, list)) = lists.iter().find(|(of, _)| *of == list) else { continue };
-        let addresses = addresses(target, held)?;
+        let addresses = addresses(target, content)?;
         let listed = list.iter().find(|one| {
             let content = Some((one.index_group(), one.index_offset()));
             addresses.iter().any(|address| address.content() == content)
         });
-        ensure(listed.is_some(), format_args!("{} is in no list", what(held)))?;
+        ensure(listed.is_some(), format_args!("{} is in no list", what(content)))?;
         let Some(listed) = listed else { continue };
-        same(what(held), usize::try_from(listed.size())?, held.value.len())?;
-        same(what(held), listed.name(), held.name.as_cnc_str())?;
+        same(what(content), usize::try_from(listed.size())?, content.value.len())?;
+        same(what(content), listed.name(), content.name.as_cnc_str())?;
     }
     Ok(())
 }
 
-fn elements_have_the_attributes_of_their_contents(target: &Target) -> Check {
-    for held in target.cnc().stored_contents() {
-        let Some(element) = element(target, &held)? else { continue };
+fn elements_have_the_attributes_of_their_contents(target: &TestCnc) -> CheckResult {
+    for content in target.cnc().stored_contents() {
+        let Some(element) = element(target, &content)? else { continue };
         let texts: [(Request<'_>, &[u8]); 3] = [
-            (ReadElementName::new(element).into(), held.name.as_bytes()),
-            (ReadElementType::new(element).into(), held.type_name.as_bytes()),
-            (ReadElementUnit::new(element).into(), held.unit.as_bytes()),
+            (ReadElementName::new(element).into(), content.name.as_bytes()),
+            (ReadElementType::new(element).into(), content.type_name.as_bytes()),
+            (ReadElementUnit::new(element).into(), content.unit.as_bytes()),
         ];
         for (request, expected) in texts {
             let read = target.read::<ElementText>(request)?;
-            same(what(&held), read.text.text.as_bytes(), expected)?;
+            same(what(&content), read.text.text.as_bytes(), expected)?;
         }
         let length = target.read::<ElementLength>(ReadElementLength::new(element))?.get();
-        same(what(&held), usize::try_from(length)?, held.value.len())?;
-        let first = element.index_offset().get() - held.element;
+        same(what(&content), usize::try_from(length)?, content.value.len())?;
+        let first = element.index_offset().get() - content.element;
         let first = ads_cnc::address::ElementAddress::new(
             element.class_group(),
             ads_cnc::address::IndexOffset::new(first),
         );
         let count = target.ask(CountElements::new(first)?)??;
         let count = count.iter().rev().fold(0, |count, &byte| count << 8 | u32::from(byte));
-        ensure(held.element <= count, format_args!("{} of {count}", what(&held)))?;
+        ensure(content.element <= count, format_args!("{} of {count}", what(&content)))?;
     }
     Ok(())
 }

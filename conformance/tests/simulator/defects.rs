@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::thread;
 
-use ads_cnc_conformance::faults::{self, Seed, SeedKind};
+use ads_cnc_conformance::faults::{self, DefectKind, SeededDefect};
 use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
 use ads_cnc_conformance::selftest::UNSEEN;
 
 use crate::checks::SimulatorCheck;
 use crate::player::play;
 use crate::sequences::with_steps;
-use crate::target::Target;
+use crate::target::TestCnc;
 use crate::{changes, contents, device, services, streams, variables};
 
 /// All checks.
@@ -28,15 +28,16 @@ fn checks() -> impl Iterator<Item = &'static SimulatorCheck> {
 
 /// The checks and sequences of these requirements that fail for a CNC with this defect or variant; if
 /// `requirements` is empty, of all requirements.
-fn failing(seed: &Seed, requirements: &[&str]) -> Vec<String> {
+fn failing(seed: &SeededDefect, requirements: &[&str]) -> Vec<String> {
     let wanted = |id: &str| requirements.is_empty() || requirements.contains(&id);
-    let fails = |failed: crate::target::Check, name: &str| {
+    let fails = |failed: crate::target::CheckResult, name: &str| {
         failed.err().map(|why| format!("{name}: {why:?}"))
     };
     let checks = checks().filter(|one| one.clauses().iter().any(|id| wanted(id.as_str())));
-    let checks = checks.filter_map(|one| fails((one.run)(&Target::new(Some(seed))), one.name));
+    let checks = checks.filter_map(|one| fails((one.run)(&TestCnc::new(Some(seed))), one.name));
     let sequences = with_steps().filter(|one| one.cited().iter().any(|one| wanted(&one.id)));
-    let sequences = sequences.filter_map(|one| fails(play(&Target::new(Some(seed)), one), &one.id));
+    let sequences =
+        sequences.filter_map(|one| fails(play(&TestCnc::new(Some(seed)), one), &one.id));
     checks.chain(sequences).collect()
 }
 
@@ -85,13 +86,13 @@ const OF_THIS_CNC: &str = "each_query_has_its_own_answer";
 
 #[test]
 fn valid_variants_pass() {
-    let variants = faults::all().iter().filter(|seed| seed.kind == SeedKind::Different);
-    let variants: Vec<&Seed> = variants.collect();
-    let is_failing = |seed: &&&Seed| {
+    let variants = faults::all().iter().filter(|seed| seed.kind == DefectKind::Different);
+    let variants: Vec<&SeededDefect> = variants.collect();
+    let is_failing = |seed: &&&SeededDefect| {
         let failing = failing(seed, &[]);
         failing.iter().any(|one| !one.contains(OF_THIS_CNC))
     };
-    let failing_of = |part: &[&'static Seed]| -> Vec<&str> {
+    let failing_of = |part: &[&'static SeededDefect]| -> Vec<&str> {
         part.iter().filter(is_failing).map(|seed| seed.id.as_str()).collect()
     };
     let failing: BTreeSet<&str> = thread::scope(|scope| {

@@ -5,11 +5,11 @@ use ads_cnc::Kind;
 use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AdsState, AmsPort, Command, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::{
-    Call, CountObjects, CountVariables, HandleByName, Request, Service, WriteByName,
+    AdsService, Call, CountObjects, CountVariables, HandleByName, Request, WriteByName,
 };
 
 use crate::checks::checks;
-use crate::target::{Check, Target, same};
+use crate::target::{CheckResult, TestCnc, same};
 
 checks! {
     each_task_has_the_information_of_the_program,
@@ -17,7 +17,7 @@ checks! {
     each_query_has_its_own_answer,
 }
 
-fn each_task_has_the_information_of_the_program(target: &Target) -> Check {
+fn each_task_has_the_information_of_the_program(target: &TestCnc) -> CheckResult {
     for port in [AmsPort::COM, AmsPort::SDA, AmsPort::GEO] {
         let (_, data) = target.frame(port, Command::READ_DEVICE_INFO, &[])?;
         let info = DeviceInfoReply::decode(&data)?;
@@ -32,7 +32,7 @@ fn each_task_has_the_information_of_the_program(target: &Target) -> Check {
 }
 
 /// The error numbers in response frames are those that [`Cnc::answer`] returns.
-fn errors_have_their_numbers(target: &Target) -> Check {
+fn errors_have_their_numbers(target: &TestCnc) -> CheckResult {
     let channel = Channel::new(1)?;
     let requests: [Request<'_>; 3] = [
         CountObjects::new(channel).into(),
@@ -59,35 +59,35 @@ fn errors_have_their_numbers(target: &Target) -> Check {
 
 /// Queries of channel 6, which has the rank 3.
 #[rustfmt::skip]
-const QUERIES: [(Service, u32, u32, &[u8]); 18] = [
-    (Service::Read, 0x13_0106, 0, b""),
-    (Service::Read, 0x13_0106, 1, b""),
-    (Service::Read, 0x12_0106, 1, b""),
-    (Service::ReadWrite, 0x12_2306, 0x44, b"V.E\0"),
-    (Service::ReadWrite, 0x12_2306, 0x45, b"\0\0\0\0V.E\0"),
-    (Service::ReadWrite, 0x12_2306, 0x46, b"V.E.array\0"),
-    (Service::ReadWrite, 0x12_2306, 0x48, b"V.E.array[1]\0"),
-    (Service::ReadWrite, 0x12_2306, 0x4B, b"\0\0\0\0V.E\0"),
-    (Service::ReadWrite, 0x12_2306, 0x4C, b"V.E.array\0"),
-    (Service::ReadWrite, 0x12_2306, 0x1_0004, b"V.A.ACT_POS\0"),
-    (Service::ReadWrite, 0x12_2306, 0x1_0005, b"V.A.ACT_POS\0"),
-    (Service::Read, 0x12_2306, 0x02, b""),
-    (Service::ReadWrite, 0x12_2302, 0x1B, b"\x01\0\0\0"),
-    (Service::ReadWrite, 0x12_2302, 0x1C, b"P1\0"),
-    (Service::ReadWrite, 0x12_2302, 0x1D, b"\x01\0\0\0"),
-    (Service::ReadWrite, 0x12_2900, 0, b"\x06\0\0\0\0\0\0\0"),
-    (Service::Read, 0x12_3306, 0, b""),
-    (Service::Read, 0x12_3306, 1, b""),
+const QUERIES: [(AdsService, u32, u32, &[u8]); 18] = [
+    (AdsService::Read, 0x13_0106, 0, b""),
+    (AdsService::Read, 0x13_0106, 1, b""),
+    (AdsService::Read, 0x12_0106, 1, b""),
+    (AdsService::ReadWrite, 0x12_2306, 0x44, b"V.E\0"),
+    (AdsService::ReadWrite, 0x12_2306, 0x45, b"\0\0\0\0V.E\0"),
+    (AdsService::ReadWrite, 0x12_2306, 0x46, b"V.E.array\0"),
+    (AdsService::ReadWrite, 0x12_2306, 0x48, b"V.E.array[1]\0"),
+    (AdsService::ReadWrite, 0x12_2306, 0x4B, b"\0\0\0\0V.E\0"),
+    (AdsService::ReadWrite, 0x12_2306, 0x4C, b"V.E.array\0"),
+    (AdsService::ReadWrite, 0x12_2306, 0x1_0004, b"V.A.ACT_POS\0"),
+    (AdsService::ReadWrite, 0x12_2306, 0x1_0005, b"V.A.ACT_POS\0"),
+    (AdsService::Read, 0x12_2306, 0x02, b""),
+    (AdsService::ReadWrite, 0x12_2302, 0x1B, b"\x01\0\0\0"),
+    (AdsService::ReadWrite, 0x12_2302, 0x1C, b"P1\0"),
+    (AdsService::ReadWrite, 0x12_2302, 0x1D, b"\x01\0\0\0"),
+    (AdsService::ReadWrite, 0x12_2900, 0, b"\x06\0\0\0\0\0\0\0"),
+    (AdsService::Read, 0x12_3306, 0, b""),
+    (AdsService::Read, 0x12_3306, 1, b""),
 ];
 
 /// The CNC replies to each query as [`Cnc::answer`] does without a defect: by number and by rank, for an
 /// unknown channel, axis, index and name, and with a short read length.
-fn each_query_has_its_own_answer(target: &Target) -> Check {
+fn each_query_has_its_own_answer(target: &TestCnc) -> CheckResult {
     let attributes =
-        (0x12_3406..=0x12_3806).step_by(0x100).map(|group| (Service::Read, group, 1, &b""[..]));
+        (0x12_3406..=0x12_3806).step_by(0x100).map(|group| (AdsService::Read, group, 1, &b""[..]));
     let handle = Request::from(HandleByName::new(Channel::new(6)?, "V.E.array")?);
     let by_handle = [&target.ask(handle)??[..], &[1, 0, 0, 0, 1, 0, 0, 0]].concat();
-    let by_handle = (Service::ReadWrite, 0x12_2306, 0x47, &by_handle[..]);
+    let by_handle = (AdsService::ReadWrite, 0x12_2306, 0x47, &by_handle[..]);
     for (service, group, offset, data) in QUERIES.into_iter().chain(attributes).chain([by_handle]) {
         let port = if group & 0x0F00 < 0x300 { AmsPort::COM } else { AmsPort::SDA };
         let mut other = data.to_vec();

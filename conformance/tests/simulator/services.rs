@@ -9,7 +9,7 @@ use ads_cnc::service::{ServiceId, ServiceVariable};
 use ads_cnc_conformance::simulator::program::{Script, ScriptConfig, ScriptState};
 
 use crate::checks::checks;
-use crate::target::{Check, Failed, Target, ensure, same};
+use crate::target::{CheckResult, Failed, TestCnc, ensure, same};
 
 checks! {
     a_request_is_over_when_it_is_answered,
@@ -20,21 +20,21 @@ checks! {
 
 /// The value of a variable; empty if the read is rejected.
 pub(crate) fn read_variable(
-    target: &Target,
+    target: &TestCnc,
     channel: u8,
     variable: ServiceVariable,
-) -> Check<Vec<u8>> {
+) -> CheckResult<Vec<u8>> {
     let request = ReadByName::new(Channel::new(channel.into())?, variable.name())?;
     Ok(target.ask(request)?.unwrap_or_default())
 }
 
 /// Whether a write is accepted.
 pub(crate) fn write_variable(
-    target: &Target,
+    target: &TestCnc,
     channel: u8,
     variable: ServiceVariable,
     value: &[u8],
-) -> Check<bool> {
+) -> CheckResult<bool> {
     let request = WriteByName::new(Channel::new(channel.into())?, variable.name(), value)?;
     Ok(target.ask(request)?.is_ok())
 }
@@ -49,7 +49,7 @@ const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
 
 /// A value without the padding of a text.
-fn value(target: &Target, channel: u8, variable: ServiceVariable) -> Check<Vec<u8>> {
+fn value(target: &TestCnc, channel: u8, variable: ServiceVariable) -> CheckResult<Vec<u8>> {
     let mut value = read_variable(target, channel, variable)?;
     if !matches!(variable, ServiceVariable::RequestState | ServiceVariable::ResponseState) {
         let len = value.iter().take_while(|byte| **byte != 0).count();
@@ -59,7 +59,7 @@ fn value(target: &Target, channel: u8, variable: ServiceVariable) -> Check<Vec<u
 }
 
 /// Ends the NC program of the model, resets the interface, and writes these values without ADS.
-fn alone(target: &Target, channel: u8, values: &[(ServiceVariable, &[u8])]) -> Check {
+fn alone(target: &TestCnc, channel: u8, values: &[(ServiceVariable, &[u8])]) -> CheckResult {
     target.cnc().set_script(channel, None)?;
     target.cnc().with_service(channel, |service| {
         service.reset();
@@ -70,7 +70,7 @@ fn alone(target: &Target, channel: u8, values: &[(ServiceVariable, &[u8])]) -> C
 
 /// Two requests one after the other: the response state of one ends its request, and a new request
 /// resets the response state.
-fn a_request_is_over_when_it_is_answered(target: &Target) -> Check {
+fn a_request_is_over_when_it_is_answered(target: &TestCnc) -> CheckResult {
     use ServiceVariable::{Request, RequestState, Response, ResponseState};
     alone(target, 1, &[])?;
     for request in [ONE, [2, 0, 0, 0]] {
@@ -88,7 +88,7 @@ fn a_request_is_over_when_it_is_answered(target: &Target) -> Check {
 }
 
 /// A write changes only its own variable, and a shorter text replaces the whole previous text.
-fn each_variable_is_its_own(target: &Target) -> Check {
+fn each_variable_is_its_own(target: &TestCnc) -> CheckResult {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     alone(target, 1, &[])?;
     let mut all: Vec<(ServiceVariable, &[u8])> = Vec::new();
@@ -112,7 +112,7 @@ fn each_variable_is_its_own(target: &Target) -> Check {
 
 /// NC programs in two channels have requests; a response in one channel does not change the variables
 /// of the other.
-fn an_answer_changes_no_other_channel(target: &Target) -> Check {
+fn an_answer_changes_no_other_channel(target: &TestCnc) -> CheckResult {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let held: [(ServiceVariable, &[u8]); 4] = [
         (Uuid, UUID),
@@ -144,7 +144,7 @@ fn an_answer_changes_no_other_channel(target: &Target) -> Check {
 }
 
 /// REQUEST_STATE is 0 until UUID and REQUEST have the values of the program's request.
-fn a_program_writes_its_state_last(target: &Target) -> Check {
+fn a_program_writes_its_state_last(target: &TestCnc) -> CheckResult {
     use ServiceVariable::{Request, RequestState, Uuid};
     let config = ScriptConfig::square_root()?;
     let asked = config.requests.first().cloned();

@@ -8,11 +8,11 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::{Call, Request, WriteProgramStream};
 use ads_cnc_conformance::simulator::program::{
-    Pace, ProgramConfig, Start, State, StreamingProgram,
+    Pace, ProgramConfig, ProgramState, Start, StreamingProgram,
 };
 
 use crate::checks::checks;
-use crate::target::{Check, Target, ensure, same};
+use crate::target::{CheckResult, TestCnc, ensure, same};
 
 checks! {
     each_channel_executes_its_own_stream,
@@ -36,7 +36,11 @@ checks! {
 pub(crate) const BUFFER_LEN: usize = 4094;
 
 /// Writes any bytes to a program stream, including bytes that the codec would not encode.
-pub(crate) fn send(target: &Target, channel: Channel, data: &[u8]) -> Check<Result<(), AdsError>> {
+pub(crate) fn send(
+    target: &TestCnc,
+    channel: Channel,
+    data: &[u8],
+) -> CheckResult<Result<(), AdsError>> {
     let request = Request::from(WriteProgramStream::new(channel, b"\r\n"));
     let mut buf = [0; 8];
     let call = Call { data, ..request.encode(&mut buf)? };
@@ -46,10 +50,10 @@ pub(crate) fn send(target: &Target, channel: Channel, data: &[u8]) -> Check<Resu
 /// Writes to a program stream and repeats the write while it is rejected, because the manuals do not
 /// state when a CNC rejects data although the interface has room.
 pub(crate) fn send_until_taken(
-    target: &Target,
+    target: &TestCnc,
     channel: Channel,
     data: &[u8],
-) -> Check<Result<(), AdsError>> {
+) -> CheckResult<Result<(), AdsError>> {
     let mut sent = send(target, channel, data)?;
     for _ in 1..8 {
         if sent.is_ok() {
@@ -63,16 +67,16 @@ pub(crate) fn send_until_taken(
 /// The program stream of a channel: the writes of the client, and the state inside the CNC.
 #[derive(Clone, Copy)]
 struct Stream<'t> {
-    target: &'t Target,
+    target: &'t TestCnc,
     channel: u8,
 }
 
 /// The program stream of channel 1, with this pace and start.
-fn first(target: &Target, pace: Pace, start: Start) -> Check<Stream<'_>> {
+fn first(target: &TestCnc, pace: Pace, start: Start) -> CheckResult<Stream<'_>> {
     stream(target, 1, pace, start)
 }
 
-fn stream(target: &Target, channel: u8, pace: Pace, start: Start) -> Check<Stream<'_>> {
+fn stream(target: &TestCnc, channel: u8, pace: Pace, start: Start) -> CheckResult<Stream<'_>> {
     let stream = Stream { target, channel };
     let config = stream.with(|program| program.config().clone())?;
     target.cnc().set_program(channel, ProgramConfig { pace, start, ..config })?;
@@ -80,44 +84,44 @@ fn stream(target: &Target, channel: u8, pace: Pace, start: Start) -> Check<Strea
 }
 
 impl Stream<'_> {
-    fn with<T>(self, then: impl FnOnce(&mut StreamingProgram) -> T) -> Check<T> {
+    fn with<T>(self, then: impl FnOnce(&mut StreamingProgram) -> T) -> CheckResult<T> {
         Ok(self.target.cnc().with_program(self.channel, then)?)
     }
 
-    fn pace(self, pace: Pace) -> Check {
+    fn pace(self, pace: Pace) -> CheckResult {
         self.with(|program| program.set_pace(pace, Duration::ZERO))
     }
 
-    fn holds(self, expected: usize) -> Check {
+    fn holds(self, expected: usize) -> CheckResult {
         same("bytes in the interface", self.with(|program| program.buffered())?, expected)
     }
 
-    fn executed(self) -> Check<Vec<u8>> {
+    fn executed(self) -> CheckResult<Vec<u8>> {
         self.with(|program| program.executed().recent().to_vec())
     }
 
-    fn has_executed(self, expected: &[u8]) -> Check {
+    fn has_executed(self, expected: &[u8]) -> CheckResult {
         same("the lines executed", self.executed()?, expected.to_vec())
     }
 
-    fn state(self) -> Check<State> {
+    fn state(self) -> CheckResult<ProgramState> {
         self.with(|program| program.state())
     }
 
-    fn start(self) -> Check {
+    fn start(self) -> CheckResult {
         Ok(self.with(|program| program.start(Duration::ZERO))??)
     }
 
-    fn number(self) -> Check<Channel> {
+    fn number(self) -> CheckResult<Channel> {
         Ok(Channel::new(self.channel.into())?)
     }
 
-    fn accepts(self, data: &[u8]) -> Check {
+    fn accepts(self, data: &[u8]) -> CheckResult {
         let sent = send_until_taken(self.target, self.number()?, data)?;
         ensure(sent.is_ok(), format_args!("{} bytes: {sent:?}", data.len()))
     }
 
-    fn rejects(self, data: &[u8]) -> Check {
+    fn rejects(self, data: &[u8]) -> CheckResult {
         let sent = send(self.target, self.number()?, data)?;
         ensure(sent.is_err(), format_args!("{} bytes are accepted", data.len()))
     }
@@ -132,7 +136,7 @@ fn comment(len: usize) -> Vec<u8> {
 }
 
 /// Each channel is addressed by its number and by its rank, and executes the lines sent to it.
-fn each_channel_executes_its_own_stream(target: &Target) -> Check {
+fn each_channel_executes_its_own_stream(target: &TestCnc) -> CheckResult {
     for (rank, channel) in (1..).zip(target.channels()) {
         let stream = stream(target, channel, Pace::Fast, Start::Once)?;
         let (one, two) = (format!("X{channel}\r\n"), format!("Y{channel}\r\n"));
@@ -146,7 +150,7 @@ fn each_channel_executes_its_own_stream(target: &Target) -> Check {
 }
 
 /// Tests all printable ASCII characters and tabs. They are in comments, so that no word ends streaming.
-fn lines_are_executed_as_written(target: &Target) -> Check {
+fn lines_are_executed_as_written(target: &TestCnc) -> CheckResult {
     let graphic: String =
         (b' '..=b'~').map(char::from).filter(|c| !"()$#;%".contains(*c)).collect();
     let lines = [
@@ -164,11 +168,11 @@ fn lines_are_executed_as_written(target: &Target) -> Check {
         stream.accepts(line.as_bytes())?;
     }
     stream.has_executed(all.repeat(2).as_bytes())?;
-    same("the state", stream.state()?, State::Dry)
+    same("the state", stream.state()?, ProgramState::Dry)
 }
 
 /// Tests packets whose lengths are around multiples of 256.
-fn packets_of_any_length_are_executed(target: &Target) -> Check {
+fn packets_of_any_length_are_executed(target: &TestCnc) -> CheckResult {
     let stream = first(target, Pace::Fast, Start::Once)?;
     let mut all = Vec::new();
     for len in [3, 127, 128, 255, 256, 257, 511, 512, 513, 767, 768, 769, 991, 992] {
@@ -184,7 +188,7 @@ fn packets_of_any_length_are_executed(target: &Target) -> Check {
 }
 
 /// Tests a packet that is too long with an empty and with a non-empty interface.
-fn a_packet_that_is_too_long_takes_no_room(target: &Target) -> Check {
+fn a_packet_that_is_too_long_takes_no_room(target: &TestCnc) -> CheckResult {
     let stream = first(target, Pace::Hold, Start::Once)?;
     for held in [0, STREAM_PACKET_MAX] {
         for len in [993, 993, 994, 1024, 1984, 2048, BUFFER_LEN, 4096] {
@@ -199,7 +203,7 @@ fn a_packet_that_is_too_long_takes_no_room(target: &Target) -> Check {
 }
 
 /// Fills the interface with packets of one short line each.
-fn many_packets_fill_the_interface(target: &Target) -> Check {
+fn many_packets_fill_the_interface(target: &TestCnc) -> CheckResult {
     let stream = first(target, Pace::Hold, Start::Once)?;
     let line = |number: usize| format!("N{number:05} (of many)  \r\n").into_bytes();
     let count = BUFFER_LEN / line(0).len();
@@ -218,7 +222,7 @@ fn many_packets_fill_the_interface(target: &Target) -> Check {
     stream.has_executed(&[all, last, line(count)].concat())
 }
 
-fn each_channel_has_its_own_room(target: &Target) -> Check {
+fn each_channel_has_its_own_room(target: &TestCnc) -> CheckResult {
     const FILLING: [usize; 5] = [992, 992, 992, 992, 126];
     let all = target.channels();
     for &full in &all {
@@ -243,7 +247,7 @@ fn each_channel_has_its_own_room(target: &Target) -> Check {
 }
 
 /// The first line of the packet would fit into the interface, but the second would not.
-fn a_packet_without_room_is_rejected_whole(target: &Target) -> Check {
+fn a_packet_without_room_is_rejected_whole(target: &TestCnc) -> CheckResult {
     for room in [4, 40, 500, 988] {
         let stream = first(target, Pace::Hold, Start::Once)?;
         let last = BUFFER_LEN - 4 * 700 - room;
@@ -267,7 +271,7 @@ fn a_packet_without_room_is_rejected_whole(target: &Target) -> Check {
     Ok(())
 }
 
-fn all_packets_are_read_at_once(target: &Target) -> Check {
+fn all_packets_are_read_at_once(target: &TestCnc) -> CheckResult {
     let slow = Pace::lines_per_second(1).expect("a pace");
     let stream = first(target, Pace::Hold, Start::Once)?;
     let packets = ["X1\r\n", "X2\r\nX3\r\n", "X4\r\n"];
@@ -282,7 +286,7 @@ fn all_packets_are_read_at_once(target: &Target) -> Check {
     stream.has_executed(packets.concat().as_bytes())
 }
 
-fn a_packet_that_is_sent_twice_is_executed_twice(target: &Target) -> Check {
+fn a_packet_that_is_sent_twice_is_executed_twice(target: &TestCnc) -> CheckResult {
     let stream = first(target, Pace::Fast, Start::Once)?;
     stream.accepts(b"X1\r\n")?;
     stream.accepts(b"X1\r\n")?;
@@ -291,7 +295,7 @@ fn a_packet_that_is_sent_twice_is_executed_twice(target: &Target) -> Check {
 
 /// Lines that are written after the decoder has read the program end, but before it is executed, remain
 /// in the interface.
-fn lines_written_after_a_program_end_stay(target: &Target) -> Check {
+fn lines_written_after_a_program_end_stay(target: &TestCnc) -> CheckResult {
     let slow = Pace::lines_per_second(1).expect("a pace");
     for end in ["M30", "M2", "M17", "M29"] {
         let stream = first(target, slow, Start::Once)?;
@@ -299,7 +303,10 @@ fn lines_written_after_a_program_end_stay(target: &Target) -> Check {
         stream.holds(0)?;
         stream.accepts(b"Y1\r\n")?;
         stream.pace(Pace::Fast)?;
-        ensure(matches!(stream.state()?, State::Ended(_)), format_args!("{end} ends no program"))?;
+        ensure(
+            matches!(stream.state()?, ProgramState::Ended(_)),
+            format_args!("{end} ends no program"),
+        )?;
         let before = stream.executed()?;
         same(
             "lines after the end",
@@ -313,12 +320,12 @@ fn lines_written_after_a_program_end_stay(target: &Target) -> Check {
     Ok(())
 }
 
-fn a_reset_ends_the_program(target: &Target) -> Check {
+fn a_reset_ends_the_program(target: &TestCnc) -> CheckResult {
     let stream = first(target, Pace::Hold, Start::Once)?;
     stream.accepts(b"N10 X1\r\n")?;
     stream.with(|program| program.reset(Duration::ZERO))?;
     stream.holds(0)?;
-    same("the state", stream.state()?, State::Stopped)?;
+    same("the state", stream.state()?, ProgramState::Stopped)?;
     stream.accepts(b"N10 Y1\r\n")?;
     stream.pace(Pace::Fast)?;
     stream.has_executed(b"")?;
@@ -326,7 +333,7 @@ fn a_reset_ends_the_program(target: &Target) -> Check {
     stream.has_executed(b"N10 Y1\r\n")
 }
 
-fn loops_and_jumps_back_end_streaming(target: &Target) -> Check {
+fn loops_and_jumps_back_end_streaming(target: &TestCnc) -> CheckResult {
     for word in [
         "$FOR P1=0,9,1",
         "$ENDFOR",
@@ -341,9 +348,9 @@ fn loops_and_jumps_back_end_streaming(target: &Target) -> Check {
         let stream = first(target, Pace::Fast, Start::Once)?;
         stream.accepts(b"N10: X1\r\n")?;
         stream.accepts(format!("({word})\r\nX2 ; {word}\r\n").as_bytes())?;
-        same("the state", stream.state()?, State::Dry)?;
+        same("the state", stream.state()?, ProgramState::Dry)?;
         stream.accepts(format!("{word}\r\nX3\r\n").as_bytes())?;
-        let aborted = matches!(stream.state()?, State::Aborted(_));
+        let aborted = matches!(stream.state()?, ProgramState::Aborted(_));
         ensure(aborted, format_args!("{word} does not end streaming"))?;
         let has_x3 = stream.executed()?.windows(2).any(|two| two == b"X3");
         ensure(!has_x3, format_args!("the line after {word} is executed"))?;
@@ -351,7 +358,7 @@ fn loops_and_jumps_back_end_streaming(target: &Target) -> Check {
     Ok(())
 }
 
-fn branches_may_span_packets(target: &Target) -> Check {
+fn branches_may_span_packets(target: &TestCnc) -> CheckResult {
     let packets = [
         "$IF P1==1\r\nX1\r\n",
         "$ELSEIF P1==2\r\n",
@@ -365,17 +372,21 @@ fn branches_may_span_packets(target: &Target) -> Check {
     let stream = first(target, Pace::Fast, Start::Once)?;
     for packet in packets {
         stream.accepts(packet.as_bytes())?;
-        same("the state", stream.state()?, State::Dry)?;
+        same("the state", stream.state()?, ProgramState::Dry)?;
     }
     stream.has_executed(packets.concat().as_bytes())
 }
 
-fn comments_hide_words(target: &Target) -> Check {
+fn comments_hide_words(target: &TestCnc) -> CheckResult {
     let ends_streaming = |text: &str, ends: bool| {
         let stream = first(target, Pace::Fast, Start::Once)?;
         stream.accepts(text.as_bytes())?;
         let state = stream.state()?;
-        let passed = if ends { matches!(state, State::Aborted(_)) } else { state == State::Dry };
+        let passed = if ends {
+            matches!(state, ProgramState::Aborted(_))
+        } else {
+            state == ProgramState::Dry
+        };
         ensure(passed, format_args!("{state:?} after {text:?}"))
     };
     for word in ["$FOR P1=0,9,1", "$ENDDO", "$REPEAT", "$WHILE P1==1"] {
@@ -402,13 +413,13 @@ fn comments_hide_words(target: &Target) -> Check {
     ends_streaming("$GOTO N10\r\nX2\r\nN10: X1\r\n", false)
 }
 
-fn four_words_end_the_program(target: &Target) -> Check {
+fn four_words_end_the_program(target: &TestCnc) -> CheckResult {
     let end = ["M30", "M2", "M17", "M29", "N90 G00 X1 M30", "N90 M30 (end)", "N90 M30 ; end"];
     let go_on = ["M3 S1000", "M20", "M170", "M300", "(M30)", "X1 ; M30", "(M2"];
     for line in end.into_iter().chain(go_on) {
         let stream = first(target, Pace::Fast, Start::Once)?;
         stream.accepts(format!("X1\r\n{line}\r\nX2\r\n").as_bytes())?;
-        let is_ended = matches!(stream.state()?, State::Ended(_));
+        let is_ended = matches!(stream.state()?, ProgramState::Ended(_));
         let has_x2 = stream.executed()?.windows(2).any(|two| two == b"X2");
         let ends = end.contains(&line);
         same(

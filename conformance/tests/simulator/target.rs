@@ -6,9 +6,9 @@ use std::fmt;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::operation::{Call, Request};
 use ads_cnc::{Decode, Encode as _};
-use ads_cnc_conformance::faults::{Faulty, Seed};
+use ads_cnc_conformance::ads_service::decode_reply;
+use ads_cnc_conformance::faults::{Faulty, SeededDefect};
 use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
-use ads_cnc_conformance::wire_service::decode_reply;
 
 /// The reason why a check fails.
 pub(crate) struct Failed(pub(crate) String);
@@ -25,14 +25,14 @@ impl<E: Error> From<E> for Failed {
     }
 }
 
-pub(crate) type Check<T = ()> = Result<T, Failed>;
+pub(crate) type CheckResult<T = ()> = Result<T, Failed>;
 
 /// Fails unless both are the same.
 pub(crate) fn same<T: PartialEq + fmt::Debug>(
     what: impl fmt::Display,
     found: T,
     expected: T,
-) -> Check {
+) -> CheckResult {
     if found == expected {
         return Ok(());
     }
@@ -40,7 +40,7 @@ pub(crate) fn same<T: PartialEq + fmt::Debug>(
 }
 
 /// Fails unless the condition is true.
-pub(crate) fn ensure(condition: bool, what: impl fmt::Display) -> Check {
+pub(crate) fn ensure(condition: bool, what: impl fmt::Display) -> CheckResult {
     if condition { Ok(()) } else { Err(Failed(what.to_string())) }
 }
 
@@ -48,15 +48,15 @@ pub(crate) fn ensure(condition: bool, what: impl fmt::Display) -> Check {
 pub(crate) type Reply = Result<Vec<u8>, AdsError>;
 
 /// A CNC with a stopped clock, optionally with a defect, that receives requests in frames.
-pub(crate) struct Target(Faulty);
+pub(crate) struct TestCnc(Faulty);
 
-impl Target {
-    pub(crate) fn new(seed: Option<&Seed>) -> Self {
+impl TestCnc {
+    pub(crate) fn new(seed: Option<&SeededDefect>) -> Self {
         let edition = seed.and_then(|seed| seed.edition);
         Self::with_settings(seed, Settings { edition, version: None })
     }
 
-    pub(crate) fn with_settings(seed: Option<&Seed>, settings: Settings) -> Self {
+    pub(crate) fn with_settings(seed: Option<&SeededDefect>, settings: Settings) -> Self {
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings).unwrap();
         Self(Faulty::new(Cnc::new(model).with_stopped_clock(), seed))
     }
@@ -71,14 +71,14 @@ impl Target {
         all.iter().map(|&number| u8::try_from(number).unwrap()).collect()
     }
 
-    pub(crate) fn ask<'a>(&self, request: impl Into<Request<'a>>) -> Check<Reply> {
+    pub(crate) fn ask<'a>(&self, request: impl Into<Request<'a>>) -> CheckResult<Reply> {
         let request = request.into();
         let mut data = vec![0; request.encoded_len()];
         self.call(&request.encode(&mut data)?)
     }
 
     /// The data of a successful reply, decoded as a stream.
-    pub(crate) fn read<'a, T>(&self, request: impl Into<Request<'a>>) -> Check<T>
+    pub(crate) fn read<'a, T>(&self, request: impl Into<Request<'a>>) -> CheckResult<T>
     where
         T: for<'b> Decode<'b>,
     {
@@ -86,7 +86,7 @@ impl Target {
         Ok(T::decode(&data)?)
     }
 
-    pub(crate) fn call(&self, call: &Call<'_>) -> Check<Reply> {
+    pub(crate) fn call(&self, call: &Call<'_>) -> CheckResult<Reply> {
         let payload = call.encode_to_vec()?;
         let (header, payload) = self.frame(call.port, call.service.command(), &payload)?;
         if !header.error.is_ok() {
@@ -102,7 +102,7 @@ impl Target {
         port: AmsPort,
         command: Command,
         payload: &[u8],
-    ) -> Check<(AmsHeader, Vec<u8>)> {
+    ) -> CheckResult<(AmsHeader, Vec<u8>)> {
         let source = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8001) };
         let header = AmsHeader::request(AmsAddr { net_id: NET_ID, port }, source, command, 1);
         let mut received = Vec::new();

@@ -11,7 +11,7 @@ use ads_cnc::operation::{
 use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 
 use crate::checks::checks;
-use crate::target::{Check, Target, ensure, same};
+use crate::target::{CheckResult, TestCnc, ensure, same};
 
 checks! {
     variables_are_described_as_configured,
@@ -22,7 +22,7 @@ checks! {
 
 /// Compares the descriptions of all V.E and V.G variables of every channel with the model, and the
 /// values of read-only variables.
-fn variables_are_described_as_configured(target: &Target) -> Check {
+fn variables_are_described_as_configured(target: &TestCnc) -> CheckResult {
     for number in target.channels() {
         let channel = Channel::new(number.into())?;
         let (external, global) = target.cnc().model().configured(number.into());
@@ -61,7 +61,7 @@ fn variables_are_described_as_configured(target: &Target) -> Check {
     Ok(())
 }
 
-fn values_have_their_lowest_byte_first(target: &Target) -> Check {
+fn values_have_their_lowest_byte_first(target: &TestCnc) -> CheckResult {
     for variable in target.cnc().current_variables() {
         let channel = Channel::new(variable.channel.into())?;
         if variable.var_type.element_size().is_some() && variable.name.as_bytes().len() < TEXT_MAX {
@@ -79,7 +79,7 @@ fn values_have_their_lowest_byte_first(target: &Target) -> Check {
     Ok(())
 }
 
-fn variables_without_a_handle_are_written_by_name(target: &Target) -> Check {
+fn variables_without_a_handle_are_written_by_name(target: &TestCnc) -> CheckResult {
     let mut written = 0;
     for number in target.channels() {
         let channel = Channel::new(number.into())?;
@@ -125,11 +125,11 @@ fn parameter(kind: DynamicKind, place: u32) -> (String, f64) {
 }
 
 /// An NC program creates and deletes parameters in the last channel.
-fn parameters_come_and_go(target: &Target) -> Check {
+fn parameters_come_and_go(target: &TestCnc) -> CheckResult {
     let number = *target.channels().last().expect("a channel");
     let channel = Channel::new(number.into())?;
     for kind in DynamicKind::ALL {
-        let set = |all: &[(String, f64)]| -> Check {
+        let set = |all: &[(String, f64)]| -> CheckResult {
             let named: Vec<(&str, f64)> =
                 all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
             target.cnc().set_parameters(number, kind, &named)?;
@@ -152,11 +152,11 @@ fn parameters_come_and_go(target: &Target) -> Check {
 /// Checks that the parameters at the ends of the list and around indices 128 and 255 have these names
 /// and values.
 fn are_listed(
-    target: &Target,
+    target: &TestCnc,
     channel: Channel,
     kind: DynamicKind,
     all: &[(String, f64)],
-) -> Check {
+) -> CheckResult {
     let count = target.read::<DynamicCount>(CountDynamic::new(channel, kind))?.0;
     same(format_args!("the number of {kind:?}"), usize::try_from(count)?, all.len())?;
     for index in [1, 2, 10, 11, 127, 128, 255, 256, 257, count] {

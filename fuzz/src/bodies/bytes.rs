@@ -3,7 +3,7 @@
 use ads_cnc::layout::Stream;
 use ads_cnc::{Decode as _, Error, ErrorKind, NoData};
 
-use crate::common::{self, Bend, Fault};
+use crate::common::{self, Fault, Mutation};
 use crate::{Defect, Outcome};
 
 /// The streams of a family. The first byte of an input is an index into this list, so add new
@@ -18,7 +18,7 @@ pub(crate) type Family = &'static [Stream];
 pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
     let Some(&stream) = family.get(usize::from(pick)) else { return Outcome::unread() };
-    match common::check_bent(stream, bytes, &bend(defect)) {
+    match common::check_bent(stream, bytes, &mutation(defect)) {
         // Accepted bytes encode to the same bytes, so they serve as the result.
         Ok(()) => Outcome::accepted((pick, bytes)),
         Err(error) => Outcome::refused(shown(error)),
@@ -79,34 +79,34 @@ pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
 
 /// The changed behaviour for a target that has only some of these defects: `some` has their numbers, in the
 /// order of the target's own defects. 0 stands for a defect that the target implements itself.
-pub(crate) fn bend_among(some: &[u8], defect: Defect) -> Bend {
+pub(crate) fn bend_among(some: &[u8], defect: Defect) -> Mutation {
     let number = (1..).zip(some).find(|(own, _)| defect.is(*own));
-    bend(number.map_or(Defect::NONE, |(_, number)| Defect::new(*number)))
+    mutation(number.map_or(Defect::NONE, |(_, number)| Defect::new(*number)))
 }
 
-fn bend(defect: Defect) -> Bend {
-    let mut bend = Bend::NONE;
+fn mutation(defect: Defect) -> Mutation {
+    let mut mutation = Mutation::NONE;
     if defect.is(1) {
-        bend.written = |bytes| {
+        mutation.written = |bytes| {
             if let Some(last) = bytes.last_mut() {
                 *last &= 0x7F;
             }
         };
     }
     if defect.is(2) {
-        bend.fault = |fault| match fault.offset {
+        mutation.fault = |fault| match fault.offset {
             offset @ 9.. => Fault { offset: offset - 1, ..fault },
             _ => fault,
         };
     }
     if defect.is(3) {
-        bend.len = |len| len.map(|len| if len >= 8 { len + 1 } else { len });
+        mutation.len = |len| len.map(|len| if len >= 8 { len + 1 } else { len });
     }
     if defect.is(4) {
-        bend.same = |bytes, same| same && bytes.last().is_none_or(|last| last % 2 == 0);
+        mutation.same = |bytes, same| same && bytes.last().is_none_or(|last| last % 2 == 0);
     }
     if defect.is(5) {
-        bend.written = |bytes| {
+        mutation.written = |bytes| {
             let long = bytes.len() > 16;
             if let Some(byte) = bytes.iter_mut().find(|byte| long && **byte == 0xB5) {
                 *byte = 0xB4;
@@ -114,62 +114,62 @@ fn bend(defect: Defect) -> Bend {
         };
     }
     if defect.is(6) {
-        bend.small = |small| small.iter_mut().take(1).for_each(|first| *first = 0);
+        mutation.small = |small| small.iter_mut().take(1).for_each(|first| *first = 0);
     }
     if defect.is(7) {
-        bend.fault = |fault| Fault { kind: ErrorKind::Missing, ..fault };
+        mutation.fault = |fault| Fault { kind: ErrorKind::Missing, ..fault };
     }
     if defect.is(8) {
-        bend.fault = |fault| Fault { field: "", ..fault };
+        mutation.fault = |fault| Fault { field: "", ..fault };
     }
     if defect.is(9) {
-        bend.fault = |fault| match fault.found {
+        mutation.fault = |fault| match fault.found {
             found @ 9.. => Fault { found: found + 1, ..fault },
             _ => fault,
         };
     }
     if defect.is(10) {
-        bend.vec = |vec| {
+        mutation.vec = |vec| {
             if vec.last() == Some(&0) {
                 vec.push(0);
             }
         };
     }
     if defect.is(11) {
-        bend.segment = |len| if len > 4 { len - 1 } else { len };
+        mutation.segment = |len| if len > 4 { len - 1 } else { len };
     }
     if defect.is(12) {
-        bend.prefix = |bytes, prefix| {
+        mutation.prefix = |bytes, prefix| {
             prefix.map(|len| if len == bytes.len() { len.saturating_sub(1) } else { len })
         };
     }
     if defect.is(13) {
-        bend.prefix = |bytes, prefix| match prefix {
+        mutation.prefix = |bytes, prefix| match prefix {
             Ok(len) if len == bytes.len() && len > 4 => rejected(),
             _ => prefix,
         };
     }
     if defect.is(18) {
-        bend.joined = |bytes| bytes.truncate(bytes.len().saturating_sub(1).max(8));
+        mutation.joined = |bytes| bytes.truncate(bytes.len().saturating_sub(1).max(8));
     }
     if defect.is(19) {
-        bend.prefix = |bytes, prefix| prefix.map(|_| bytes.len());
+        mutation.prefix = |bytes, prefix| prefix.map(|_| bytes.len());
     }
     if defect.is(20) {
-        bend.prefix = |bytes, prefix| prefix.or(Ok(bytes.len().saturating_sub(1)));
+        mutation.prefix = |bytes, prefix| prefix.or(Ok(bytes.len().saturating_sub(1)));
     }
     if defect.is(21) {
-        bend.prefix = |bytes, prefix| match prefix {
+        mutation.prefix = |bytes, prefix| match prefix {
             Ok(len) if len < bytes.len() => rejected(),
             _ => prefix,
         };
     }
     #[cfg(feature = "binrw")]
-    bend_binrw(&mut bend, defect);
+    bend_binrw(&mut mutation, defect);
     if defect.is(24) {
-        bend.typed = |bytes| bytes.iter_mut().skip(16).for_each(|byte| *byte &= 0x7F);
+        mutation.typed = |bytes| bytes.iter_mut().skip(16).for_each(|byte| *byte &= 0x7F);
     }
-    bend
+    mutation
 }
 
 /// An error, to replace a result.
@@ -179,9 +179,9 @@ fn rejected() -> Result<usize, Error> {
 
 /// The defects of `BinRead` and `BinWrite`.
 #[cfg(feature = "binrw")]
-fn bend_binrw(bend: &mut Bend, defect: Defect) {
+fn bend_binrw(mutation: &mut Mutation, defect: Defect) {
     if defect.is(14) {
-        bend.binrw = |_, (mut written, read)| {
+        mutation.binrw = |_, (mut written, read)| {
             if let Some([_, _, _, _, .., last]) = written.as_deref_mut() {
                 *last ^= 1;
             }
@@ -189,31 +189,31 @@ fn bend_binrw(bend: &mut Bend, defect: Defect) {
         };
     }
     if defect.is(15) {
-        bend.binrw = |bytes, (written, read)| {
+        mutation.binrw = |bytes, (written, read)| {
             if read == bytes.len() && read > 4 { (None, 0) } else { (written, read) }
         };
     }
     if defect.is(16) {
-        bend.binrw = |bytes, (written, read)| match written {
+        mutation.binrw = |bytes, (written, read)| match written {
             None => (Some(bytes.to_vec()), bytes.len()),
             _ => (written, read),
         };
     }
     if defect.is(17) {
-        bend.binrw = |bytes, (written, read)| {
+        mutation.binrw = |bytes, (written, read)| {
             let read = if written.is_none() { bytes.len() } else { read };
             (written, read)
         };
     }
     if defect.is(22) {
-        bend.binrw = |bytes, (mut written, read)| {
+        mutation.binrw = |bytes, (mut written, read)| {
             let follows = read < bytes.len();
             let last = written.as_mut().filter(|_| follows).and_then(Vec::pop);
             (written, read - usize::from(last.is_some()))
         };
     }
     if defect.is(23) {
-        bend.binrw = |bytes, (written, read)| {
+        mutation.binrw = |bytes, (written, read)| {
             if read < bytes.len() { (None, 0) } else { (written, read) }
         };
     }

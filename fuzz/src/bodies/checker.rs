@@ -3,7 +3,7 @@
 use ads_cnc::streaming::{DiagnosticKind, NcText};
 
 use crate::common::checker::{CheckedLots, check_any_lots};
-use crate::common::findings::{FindingsBend, check_findings};
+use crate::common::findings::{DiagnosticsMutation, check_findings};
 use crate::{Defect, Outcome};
 
 /// The byte that ends a lot. It is not a character of NC text.
@@ -29,12 +29,12 @@ pub(crate) fn lots(data: &[u8], defect: Defect) -> Outcome {
     if let Err(error) = NcText::new(&text) {
         return Outcome::refused((error.line(), error.column(), error.kind()));
     }
-    let bend = bend(defect);
-    let mut checked = CheckedLots::new(bend);
+    let mutation = mutation(defect);
+    let mut checked = CheckedLots::new(mutation);
     for lot in &lots {
         checked.lot(lot);
     }
-    let found = check_findings(&text, bend);
+    let found = check_findings(&text, mutation);
     Outcome::accepted(found.iter().map(|finding| finding.to_string()).collect::<Vec<_>>())
 }
 
@@ -46,8 +46,8 @@ pub(crate) const DEFECTS: &[&str] = &[
     "two findings are swapped",
 ];
 
-fn bend(defect: Defect) -> FindingsBend {
-    let defects: [FindingsBend; 5] = [
+fn mutation(defect: Defect) -> DiagnosticsMutation {
+    let defects: [DiagnosticsMutation; 5] = [
         |found, before| found.iter_mut().for_each(|finding| finding.line -= before),
         |found, before| {
             let is = |kind| matches!(kind, DiagnosticKind::BackwardJump { to } if to <= before);
@@ -69,5 +69,5 @@ fn bend(defect: Defect) -> FindingsBend {
         },
     ];
     let chosen = (1..).zip(defects).find(|&(number, _)| defect.is(number));
-    chosen.map_or(|_, _| (), |(_, bend)| bend)
+    chosen.map_or(|_, _| (), |(_, mutation)| mutation)
 }

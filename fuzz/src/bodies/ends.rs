@@ -5,8 +5,8 @@ use ads_cnc::streaming::{Ack, NcText};
 use ads_cnc_conformance::simulator::program::StreamingInterface;
 
 use super::input::Input;
-use crate::common::streaming::{CheckedSender, SenderBend};
-use crate::machines::{CheckedInterface, InterfaceBend};
+use crate::common::streaming::{CheckedSender, SenderMutation};
+use crate::machines::{CheckedInterface, InterfaceMutation};
 use crate::{Defect, Outcome};
 
 /// Input: the number of lines, and one byte for each line: its length (the upper six bits, most
@@ -91,33 +91,33 @@ pub(crate) const DEFECTS: &[&str] = &[
     "a reset keeps the held bytes if they are more than a packet",
 ];
 
-fn sender_bend(defect: Defect) -> SenderBend {
-    let mut bend = SenderBend::NONE;
+fn sender_bend(defect: Defect) -> SenderMutation {
+    let mut mutation = SenderMutation::NONE;
     if defect.is(1) {
-        bend.ack = |ack| if ack == Ack::Busy { Ack::Accepted } else { ack };
+        mutation.ack = |ack| if ack == Ack::Busy { Ack::Accepted } else { ack };
     }
     if defect.is(2) {
-        bend.ack = |ack| if ack == Ack::Rejected { Ack::Busy } else { ack };
+        mutation.ack = |ack| if ack == Ack::Rejected { Ack::Busy } else { ack };
     }
     if defect.is(3) {
-        bend.sent = |mut sent| {
+        mutation.sent = |mut sent| {
             sent.lines -= usize::from(sent.packets > 1);
             sent
         };
     }
-    bend
+    mutation
 }
 
-fn interface_bend(defect: Defect) -> InterfaceBend {
-    let mut bend = InterfaceBend::NONE;
+fn interface_bend(defect: Defect) -> InterfaceMutation {
+    let mut mutation = InterfaceMutation::NONE;
     if defect.is(4) {
-        bend.write = |interface, data| match data {
+        mutation.write = |interface, data| match data {
             [data @ .., _] if data.len() >= 500 => interface.write(data),
             data => interface.write(data),
         };
     }
     if defect.is(5) {
-        bend.write = |interface, data| {
+        mutation.write = |interface, data| {
             let ack = interface.write(data);
             if ack == Ack::Busy {
                 interface.write(&data[..1]);
@@ -126,11 +126,11 @@ fn interface_bend(defect: Defect) -> InterfaceBend {
         };
     }
     if defect.is(6) {
-        bend.reset = |interface| {
+        mutation.reset = |interface| {
             if interface.len() <= 992 {
                 StreamingInterface::reset(interface);
             }
         };
     }
-    bend
+    mutation
 }

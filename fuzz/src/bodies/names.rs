@@ -1,6 +1,6 @@
 //! Names of variables.
 
-use crate::common::names::{NameBend, check_name};
+use crate::common::names::{NameMutation, check_name};
 use crate::{Defect, Outcome};
 
 /// Input: a name in CP1252, up to its first NUL.
@@ -10,7 +10,7 @@ use crate::{Defect, Outcome};
 /// before the offset of its fault has no fault.
 pub(crate) fn path(data: &[u8], defect: Defect) -> Outcome {
     let text = data.split(|&byte| byte == 0).next().unwrap_or(data);
-    match check_name(text, bend(defect)) {
+    match check_name(text, mutation(defect)) {
         Ok(pieces) => Outcome::accepted(format!("{pieces:?}")),
         Err(fault) => Outcome::refused(format!("{fault:?}")),
     }
@@ -24,33 +24,33 @@ pub(crate) const DEFECTS: &[&str] = &[
     "a name of more than thirty characters is written without the last character",
 ];
 
-fn bend(defect: Defect) -> NameBend {
-    let mut bend = NameBend::NONE;
+fn mutation(defect: Defect) -> NameMutation {
+    let mut mutation = NameMutation::NONE;
     if defect.is(1) {
-        bend.pieces = |pieces| {
+        mutation.pieces = |pieces| {
             let indices = pieces.parts.iter_mut().flat_map(|(_, indices)| indices);
             indices.for_each(|index| *index &= 0xFF);
         };
     }
     if defect.is(2) {
-        bend.pieces = |pieces| pieces.kind = pieces.kind.replace("CYC", "C");
+        mutation.pieces = |pieces| pieces.kind = pieces.kind.replace("CYC", "C");
     }
     if defect.is(3) {
-        bend.pieces = |pieces| pieces.parts.truncate(3);
+        mutation.pieces = |pieces| pieces.parts.truncate(3);
     }
     if defect.is(4) {
-        bend.fault = |mut fault| {
+        mutation.fault = |mut fault| {
             fault.offset -= usize::from(fault.offset > 10);
             fault
         };
     }
     if defect.is(5) {
-        bend.written = |mut name| {
+        mutation.written = |mut name| {
             if name.chars().count() > 30 {
                 name.pop();
             }
             name
         };
     }
-    bend
+    mutation
 }

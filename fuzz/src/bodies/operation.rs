@@ -6,7 +6,7 @@ use ads_cnc::address::{
 };
 use ads_cnc::ads::AmsPort;
 use ads_cnc::dynamic::DynamicKind;
-use ads_cnc::operation::{Call, Function, ReadDescriptors, Service};
+use ads_cnc::operation::{AdsService, Call, Function, ReadDescriptors};
 use ads_cnc::text::cp1252_to_char;
 
 use super::bytes::{bend_among, shown};
@@ -146,16 +146,16 @@ pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
     }
     let bytes = input.bytes(usize::MAX);
     // The fourth defect is implemented below; the others are those of `bytes::DEFECTS` with these numbers.
-    let mut bend = bend_among(&[1, 2, 3, 0, 6, 7, 8], defect);
+    let mut mutation = bend_among(&[1, 2, 3, 0, 6, 7, 8], defect);
     if defect.is(4) {
-        bend.len = |len| {
+        mutation.len = |len| {
             len.or_else(|error| match error.kind() {
                 ErrorKind::TooLong | ErrorKind::TooMany => Ok(error.found() as usize),
                 _ => Err(error),
             })
         };
     }
-    match common::check_reply_bent(&call, bytes, &bend) {
+    match common::check_reply_bent(&call, bytes, &mutation) {
         Ok(function) => Outcome::accepted((function, data)),
         Err(error) => Outcome::refused(shown(error)),
     }
@@ -193,7 +193,7 @@ pub(crate) fn read_call(bytes: &[u8]) -> Option<Call<'_>> {
         index_offset: IndexOffset::new(u32::from_le_bytes(offset)),
         read_length: u32::from_le_bytes(read_length),
         // A Read has no data.
-        data: if service == Service::Read { &[] } else { data },
+        data: if service == AdsService::Read { &[] } else { data },
     })
 }
 
@@ -209,4 +209,4 @@ pub(crate) fn write_call(call: &Call<'_>) -> Vec<u8> {
     bytes
 }
 
-const SERVICES: [Service; 3] = [Service::Read, Service::Write, Service::ReadWrite];
+const SERVICES: [AdsService; 3] = [AdsService::Read, AdsService::Write, AdsService::ReadWrite];

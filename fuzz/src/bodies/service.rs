@@ -6,9 +6,9 @@ use ads_cnc::service::{HostStep, ServiceId, ServiceVariable};
 use ads_cnc_conformance::simulator::program::service::{Clears, ServiceInterface};
 
 use super::input::Input;
-use crate::common::machines::{CheckedHost, HostBend, service_ids};
+use crate::common::machines::{CheckedHost, HostMutation, service_ids};
 use crate::machines::{CheckedCall, CheckedVariables};
-use crate::world::{Action, Asked, Luck, ServiceBend, World};
+use crate::world::{Action, ServiceMutation, StepOutcome, TestRequest, World};
 use crate::{Defect, Outcome};
 
 /// Input: the settings (1 byte): one host for both services (bit 0); the interface never clears
@@ -43,7 +43,7 @@ pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
 
 /// Reads requests: their number, and a byte for each with the service to which the request is sent (bit 0)
 /// and one of two texts (bit 1).
-fn requests(input: &mut Input<'_>) -> Vec<Asked> {
+fn requests(input: &mut Input<'_>) -> Vec<TestRequest> {
     let count = input.byte() % 8;
     (0..count).map(|_| input.byte()).map(|byte| (usize::from(byte & 1), byte >> 1 & 1)).collect()
 }
@@ -55,9 +55,9 @@ fn actions(byte: u8, chaos: bool) -> impl Iterator<Item = Action> {
     let (place, more) = (usize::from(byte >> 3 & 1), byte >> 4);
     let (action, times) = match byte & 7 {
         0..2 => (Action::Program, more % 8 + 1),
-        2..5 => (Action::Host(place, Luck::Fine), more % 8 + 1),
-        5 => (Action::Host(place, Luck::Fails), 1),
-        6 => (Action::Host(place, Luck::FailsLate), 1),
+        2..5 => (Action::Host(place, StepOutcome::Fine), more % 8 + 1),
+        5 => (Action::Host(place, StepOutcome::Fails), 1),
+        6 => (Action::Host(place, StepOutcome::FailsLate), 1),
         _ if !chaos => (Action::Program, 1),
         _ => match more {
             0..4 => (Action::GiveUp, 1),
@@ -77,16 +77,16 @@ pub(crate) const WORLD_DEFECTS: &[&str] = &[
     "a response loses its last character if it has six",
 ];
 
-fn world_bend(defect: Defect) -> ServiceBend {
-    let mut bend = ServiceBend::NONE;
+fn world_bend(defect: Defect) -> ServiceMutation {
+    let mut mutation = ServiceMutation::NONE;
     if defect.is(1) {
-        bend.failed = |host| host.written();
+        mutation.failed = |host| host.written();
     }
     if defect.is(2) {
-        bend.failed = |host| host.restart();
+        mutation.failed = |host| host.restart();
     }
     if defect.is(3) {
-        bend.write = |interface, variable, value| {
+        mutation.write = |interface, variable, value| {
             let before = interface.read(ServiceVariable::ResponseState).to_vec();
             interface.write(variable, value).unwrap();
             if variable == ServiceVariable::RequestState && value != [0; 4] && before != [0; 4] {
@@ -101,18 +101,18 @@ fn world_bend(defect: Defect) -> ServiceBend {
         };
     }
     if defect.is(4) {
-        bend.restart = |host| *host = ads_cnc::service::Host::new(&[]);
+        mutation.restart = |host| *host = ads_cnc::service::Host::new(&[]);
     }
     if defect.is(5) {
-        bend.asked = |service, text| if text.ends_with('1') { 1 - service } else { service };
+        mutation.asked = |service, text| if text.ends_with('1') { 1 - service } else { service };
     }
     if defect.is(6) {
-        bend.write = |interface, variable, value| {
+        mutation.write = |interface, variable, value| {
             let long = variable == ServiceVariable::Response && value.len() == 7;
             interface.write(variable, if long { &value[..5] } else { value }).unwrap();
         };
     }
-    bend
+    mutation
 }
 
 /// Input: the machine (1 byte), then its events, see [`value`] and the functions of the machines.
@@ -233,25 +233,25 @@ pub(crate) const MACHINES_DEFECTS: &[&str] = &[
     "an invalid value restarts the host",
 ];
 
-fn host_bend(defect: Defect) -> HostBend {
-    let mut bend = HostBend::NONE;
+fn host_bend(defect: Defect) -> HostMutation {
+    let mut mutation = HostMutation::NONE;
     if defect.is(1) {
-        bend.read = |value, last| match last {
+        mutation.read = |value, last| match last {
             Some(last) if value.len() != 4 => last,
             _ => value,
         };
     }
     if defect.is(2) {
-        bend.state = |state| state.max(1);
+        mutation.state = |state| state.max(1);
     }
     if defect.is(3) {
-        bend.failed = |host| host.written();
+        mutation.failed = |host| host.written();
     }
     if defect.is(4) {
-        bend.poll = |host| host.restart();
+        mutation.poll = |host| host.restart();
     }
     if defect.is(8) {
-        bend.written = |host| {
+        mutation.written = |host| {
             if matches!(host.step(), HostStep::Write(ServiceVariable::Response, _)) {
                 host.written();
             }
@@ -259,7 +259,7 @@ fn host_bend(defect: Defect) -> HostBend {
         };
     }
     if defect.is(9) {
-        bend.refused = |host| host.restart();
+        mutation.refused = |host| host.restart();
     }
-    bend
+    mutation
 }

@@ -3,7 +3,7 @@
 use ads_cnc::value::DataType;
 
 use super::input::Input;
-use crate::common::shapes::{Described, ShapeBend, check_shape};
+use crate::common::shapes::{Described, ShapeMutation, check_shape};
 use crate::{Defect, Outcome};
 
 /// Input: the type, the number of dimensions, the dimensions, the indices (as many, or one more), and
@@ -23,7 +23,7 @@ pub(crate) fn typed(data: &[u8], defect: Defect) -> Outcome {
     let bytes = input.bytes(usize::MAX);
     let size = if size == 0 { u32::try_from(bytes.len()).unwrap_or(u32::MAX) } else { size };
     let of = Described { data_type, dimensions: &dimensions, size, indices: &indices, bytes };
-    match check_shape(&of, bend(defect)) {
+    match check_shape(&of, mutation(defect)) {
         // The value that is read is a part of the input, so the input serves as the result.
         Ok(count) => Outcome::accepted((count, data)),
         Err(kind) => Outcome::refused(format!("{kind:?}")),
@@ -45,13 +45,13 @@ pub(crate) const DEFECTS: &[&str] = &[
     "the position of an element after the ninth is one too high",
 ];
 
-fn bend(defect: Defect) -> ShapeBend {
-    let mut bend = ShapeBend::NONE;
+fn mutation(defect: Defect) -> ShapeMutation {
+    let mut mutation = ShapeMutation::NONE;
     if defect.is(1) {
-        bend.indices = <[u32]>::reverse;
+        mutation.indices = <[u32]>::reverse;
     }
     if defect.is(2) {
-        bend.place = |place| {
+        mutation.place = |place| {
             place.map_err(|mut fault| {
                 fault.offset = 0;
                 fault
@@ -59,17 +59,17 @@ fn bend(defect: Defect) -> ShapeBend {
         };
     }
     if defect.is(3) {
-        bend.written = |bytes| {
+        mutation.written = |bytes| {
             if let Some(second) = bytes.get_mut(1) {
                 *second &= 0x7F;
             }
         };
     }
     if defect.is(4) {
-        bend.size = |size| if size > 8 && size % 2 == 1 { size - 1 } else { size };
+        mutation.size = |size| if size > 8 && size % 2 == 1 { size - 1 } else { size };
     }
     if defect.is(5) {
-        bend.place = |place| place.map(|place| place + u32::from(place > 8));
+        mutation.place = |place| place.map(|place| place + u32::from(place > 8));
     }
-    bend
+    mutation
 }

@@ -1,6 +1,6 @@
 //! NC text and its packets.
 
-use crate::common::streaming::{TextBend, check_text};
+use crate::common::streaming::{TextMutation, check_text};
 use crate::{Defect, Outcome};
 
 /// Input: NC text.
@@ -8,16 +8,16 @@ use crate::{Defect, Outcome};
 /// Its first fault is found, or its packets together are the text with CR LF after each line, and each
 /// packet is legal and as full as possible.
 pub(crate) fn packets(data: &[u8], defect: Defect) -> Outcome {
-    let mut bend = TextBend::NONE;
+    let mut mutation = TextMutation::NONE;
     if defect.is(1) {
-        bend.packets = |packets| {
+        mutation.packets = |packets| {
             if let Some(last) = packets.last_mut().filter(|last| last.len() > 100) {
                 last.remove(last.len() - 2);
             }
         };
     }
     if defect.is(2) {
-        bend.packets = |packets| {
+        mutation.packets = |packets| {
             if packets.len() > 1 {
                 let second = packets.remove(1);
                 packets[0].extend(second);
@@ -25,7 +25,7 @@ pub(crate) fn packets(data: &[u8], defect: Defect) -> Outcome {
         };
     }
     if defect.is(3) {
-        bend.packets = |packets| {
+        mutation.packets = |packets| {
             let line = packets.iter().position(|packet| packet.starts_with(b"N"));
             let Some(place) = line else { return };
             let end = packets[place].iter().position(|&byte| byte == b'\n').unwrap_or(0) + 1;
@@ -36,12 +36,12 @@ pub(crate) fn packets(data: &[u8], defect: Defect) -> Outcome {
         };
     }
     if defect.is(4) {
-        bend.fault = |(line, column, kind)| Some((line, column + usize::from(line > 1), kind));
+        mutation.fault = |(line, column, kind)| Some((line, column + usize::from(line > 1), kind));
     }
     if defect.is(5) {
-        bend.fault = |fault| Some(fault).filter(|&(line, ..)| line < 3);
+        mutation.fault = |fault| Some(fault).filter(|&(line, ..)| line < 3);
     }
-    match check_text(data, bend) {
+    match check_text(data, mutation) {
         Ok(packets) => Outcome::accepted(packets),
         Err((line, column, kind)) => Outcome::refused((line, column, kind)),
     }

@@ -1,7 +1,7 @@
 //! Text in CP1252.
 
 use super::input::Input;
-use crate::common::text::{CncStrBend, check_cp1252, check_utf8};
+use crate::common::text::{CncStrMutation, check_cp1252, check_utf8};
 use crate::{Defect, Outcome};
 
 /// Input: a byte, even for CP1252 or odd for UTF-8, then the text. If the text is not valid UTF-8, each
@@ -13,17 +13,17 @@ pub(crate) fn cp1252(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let of_utf8 = input.byte() % 2 == 1;
     let bytes = input.bytes(usize::MAX);
-    let bend = bend(defect);
+    let mutation = mutation(defect);
     let verdict = match of_utf8 {
-        false => check_cp1252(bytes, bend),
+        false => check_cp1252(bytes, mutation),
         true => match std::str::from_utf8(bytes) {
-            Ok(text) => check_utf8(text, bend),
+            Ok(text) => check_utf8(text, mutation),
             Err(_) => {
                 let wide = |three: &[u8]| {
                     let number = three.iter().fold(0, |high, &low| high << 8 | u32::from(low));
                     char::from_u32(number % 0x11_0000)
                 };
-                check_utf8(&bytes.chunks(3).filter_map(wide).collect::<String>(), bend)
+                check_utf8(&bytes.chunks(3).filter_map(wide).collect::<String>(), mutation)
             }
         },
     };
@@ -41,25 +41,25 @@ pub(crate) const DEFECTS: &[&str] = &[
     "a character without a CP1252 byte is not an error",
 ];
 
-fn bend(defect: Defect) -> CncStrBend {
-    let mut bend = CncStrBend::NONE;
+fn mutation(defect: Defect) -> CncStrMutation {
+    let mut mutation = CncStrMutation::NONE;
     if defect.is(1) {
-        bend.shown = |text| text.replace('\u{178}', "\u{9F}");
+        mutation.shown = |text| text.replace('\u{178}', "\u{9F}");
     }
     if defect.is(2) {
-        bend.bytes = |bytes| {
+        mutation.bytes = |bytes| {
             bytes.iter_mut().filter(|byte| **byte == 0x96).for_each(|byte| *byte = 0x97);
         };
     }
     if defect.is(3) {
-        bend.len = |_, text| text.len();
+        mutation.len = |_, text| text.len();
     }
     if defect.is(4) {
-        bend.fault = |(kind, at, found)| Some((kind, if at > 4 { at - 1 } else { at }, found));
+        mutation.fault = |(kind, at, found)| Some((kind, if at > 4 { at - 1 } else { at }, found));
     }
     if defect.is(5) {
-        bend.fault =
+        mutation.fault =
             |fault| Some(fault).filter(|(kind, ..)| *kind != ads_cnc::ErrorKind::NotCp1252);
     }
-    bend
+    mutation
 }

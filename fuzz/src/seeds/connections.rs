@@ -1,7 +1,7 @@
 //! Initial inputs of the targets for captures, the gate and sessions.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 
 use super::Seed;
 use crate::bodies::tools::{calls, gate};
@@ -56,7 +56,7 @@ pub(super) fn sent() -> Vec<Seed> {
     let group = handle.index_group;
     let named = Call { data: b"V.E.A\0", ..handle };
     let write = Call {
-        service: Service::Write,
+        service: AdsService::Write,
         index_group: group,
         index_offset: IndexOffset::new(0x49),
         data: b"\x07\0\0\0\0\0\0\0\x01",
@@ -109,7 +109,7 @@ pub(super) fn sent() -> Vec<Seed> {
     descriptor.extend(b"BOOL");
     descriptor.resize(84, 0);
     let written = Call {
-        service: Service::Write,
+        service: AdsService::Write,
         index_group: IndexGroup::new(0x12_0101),
         data: b"\x01",
         ..all
@@ -143,7 +143,7 @@ pub(super) fn sessions() -> Vec<Seed> {
             all.extend([4, 5, 100, 0]);
         }
         if sample.call.data.len() < 200 {
-            let kind = if sample.call.service == Service::Write { 6 } else { 1 };
+            let kind = if sample.call.service == AdsService::Write { 6 } else { 1 };
             let alone = calls::write_call(kind, &sample.call);
             seeds.push((sample.slug.to_owned(), alone));
         }
@@ -152,7 +152,7 @@ pub(super) fn sessions() -> Vec<Seed> {
         let data = [name.as_bytes(), &[0], value].concat();
         let call = Call {
             port: ads_cnc::ads::AmsPort::SDA,
-            service: Service::Write,
+            service: AdsService::Write,
             index_group: IndexGroup::new(0x12_2301),
             index_offset: IndexOffset::new(0x4A),
             read_length: 0,

@@ -1,16 +1,16 @@
 //! Initial inputs of the targets for NC text, CP1252 text and names of variables.
 
 use ads_cnc::layout::Stream;
-use ads_cnc_vectors::{Given, Pieces, sequences, vectors};
+use ads_cnc_vectors::{Pieces, SequenceInput, sequences, vectors};
 
 use super::{LONGEST, Seed};
 use crate::common;
 
 /// The NC texts of the accepted and rejected sequences.
 pub(super) fn programs() -> Vec<Seed> {
-    let of = |given: &Given| match given {
-        Given::NcText(text) => Some(text.bytes()),
-        Given::NcCheck(packets) => Some(packets.iter().flat_map(Pieces::bytes).collect()),
+    let of = |given: &SequenceInput| match given {
+        SequenceInput::NcText(text) => Some(text.bytes()),
+        SequenceInput::NcCheck(packets) => Some(packets.iter().flat_map(Pieces::bytes).collect()),
         _ => None,
     };
     short(|given| of(given))
@@ -20,7 +20,7 @@ pub(super) fn programs() -> Vec<Seed> {
 /// packets.
 pub(super) fn lots() -> Vec<Seed> {
     let mut seeds = short(|given| match given {
-        Given::NcCheck(packets) => {
+        SequenceInput::NcCheck(packets) => {
             Some(packets.iter().map(Pieces::bytes).collect::<Vec<_>>().join(&0xFF))
         }
         _ => None,
@@ -32,7 +32,7 @@ pub(super) fn lots() -> Vec<Seed> {
     seeds
 }
 
-fn short(of: impl Fn(&Given) -> Option<Vec<u8>>) -> Vec<Seed> {
+fn short(of: impl Fn(&SequenceInput) -> Option<Vec<u8>>) -> Vec<Seed> {
     let seed = |case: &ads_cnc_vectors::Sequence| Some((case.id.clone(), of(&case.given)?));
     sequences().iter().filter_map(seed).filter(|(_, bytes)| bytes.len() <= 2 * LONGEST).collect()
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::Service;
+use ads_cnc::operation::AdsService;
 use ads_cnc_vectors::vectors;
 
 use super::{LONGEST, Seed, connections};
@@ -146,9 +146,9 @@ fn explained() -> Vec<Seed> {
     for sample in CALLS {
         let call = &sample.call;
         let service = match call.service {
-            Service::Read => 1,
-            Service::Write => 2,
-            Service::ReadWrite => 3,
+            AdsService::Read => 1,
+            AdsService::Write => 2,
+            AdsService::ReadWrite => 3,
         };
         let port = [0, 551, 552, 553].iter().position(|port| *port == call.port.0);
         let mut bytes = vec![1, 0, 0, 0, 0, byte(port.unwrap_or(0)), service, 0];

@@ -1,4 +1,5 @@
-//! Lists the cases in order, for `results.py`: subject, implementation, units, limits.
+//! Lists the cases in the order of their measurement, for `results.py`: subject, implementation, units and
+//! limits.
 
 use ads_cnc_benches::{Case, Limit, gate, others};
 
@@ -8,7 +9,7 @@ fn main() {
 }
 
 fn show(group: &str, case: &Case) {
-    print!("{group}\t{}\t{}\t{}", case.subject, case.who, (case.prepare)().units);
+    print!("{group}\t{}\t{}\t{}", case.subject, case.implementation, (case.prepare)().units);
     for limit in case.limits {
         let (kind, most) = match limit {
             Limit::Instructions(_, times) => ("instructions", times),

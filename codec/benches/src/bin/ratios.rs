@@ -13,38 +13,41 @@ fn main() {
         for limit in case.limits {
             let Limit::Time(other, _) = *limit else { continue };
             let other = gate()
-                .find(|it| (it.subject, it.who) == (case.subject, other))
+                .find(|it| (it.subject, it.implementation) == (case.subject, other))
                 .unwrap_or_else(|| panic!("{}: no case {other}", case.subject));
             let [middle, least, most] = ratios((case.prepare)(), (other.prepare)());
-            println!("{}\t{}\t{}\t{middle}\t{least}\t{most}", case.subject, case.who, other.who);
+            println!(
+                "{}\t{}\t{}\t{middle}\t{least}\t{most}",
+                case.subject, case.implementation, other.implementation
+            );
         }
     }
 }
 
 fn ratios(mut one: Work, mut other: Work) -> [f64; 3] {
-    let goes = [goes(&mut one), goes(&mut other)];
+    let rounds = [rounds(&mut one), rounds(&mut other)];
     let mut ratios: Vec<f64> =
-        (0..PAIRS).map(|_| time(&mut one, goes[0]) / time(&mut other, goes[1])).collect();
+        (0..PAIRS).map(|_| time(&mut one, rounds[0]) / time(&mut other, rounds[1])).collect();
     ratios.sort_by(f64::total_cmp);
     [ratios[PAIRS / 2], ratios[0], ratios[PAIRS - 1]]
 }
 
-/// The number of runs in a turn; also warms up.
-fn goes(work: &mut Work) -> u32 {
+/// The number of runs in a turn. Counting them also warms up the caches.
+fn rounds(work: &mut Work) -> u32 {
     let start = Instant::now();
-    let mut goes = 0_u32;
+    let mut rounds = 0_u32;
     while start.elapsed() < TURN * 4 {
         (work.run)();
-        goes += 1;
+        rounds += 1;
     }
-    goes.div_ceil(4)
+    rounds.div_ceil(4)
 }
 
-/// Nanoseconds per unit.
-fn time(work: &mut Work, goes: u32) -> f64 {
+/// Measures a turn of this number of runs; returns nanoseconds per unit.
+fn time(work: &mut Work, rounds: u32) -> f64 {
     let start = Instant::now();
-    for _ in 0..goes {
+    for _ in 0..rounds {
         (work.run)();
     }
-    start.elapsed().as_nanos() as f64 / f64::from(goes) / work.units as f64
+    start.elapsed().as_nanos() as f64 / f64::from(rounds) / work.units as f64
 }

@@ -3,7 +3,7 @@
 use ads_cnc::{Decode, Description, DescriptionRef, Encode};
 
 use crate::case::{Case, Limit, Work, each};
-use crate::hand::{self, Hand};
+use crate::hand::{self, HandWritten};
 use crate::plain;
 
 type ByHand<'a> = hand::Description<&'a [u8], &'a [u8]>;
@@ -58,7 +58,7 @@ descriptions! {
     "description, 2 dimensions": 2;
 }
 
-/// Names as in programs, starting with `V.E.a`, each one character longer.
+/// Descriptions with names of 5 to 32 characters; each name is one character longer than the previous one.
 fn descriptions(dimensions: u32) -> Vec<Vec<u8>> {
     (0..COUNT).map(|at| description(dimensions, 5 + at % 28)).collect()
 }

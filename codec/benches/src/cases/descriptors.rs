@@ -3,7 +3,7 @@
 use ads_cnc::{Decode, Descriptors, DescriptorsRef, Encode};
 
 use crate::case::{Case, Limit, Work, each};
-use crate::hand::{self, Hand};
+use crate::hand::{self, HandWritten};
 use crate::plain;
 
 /// The number of descriptors in a run, in all lists together.
@@ -43,7 +43,7 @@ lists! {
     "10,000 descriptors": 10_000;
 }
 
-/// A client that searches for an address: reads one field of each descriptor.
+/// Reads one field of each descriptor, like a client that searches for an address.
 pub(super) fn last_offset(list: DescriptorsRef<'_>) -> u32 {
     list.iter().fold(0, |sum, object| sum ^ object.index_offset().get())
 }
@@ -54,7 +54,7 @@ pub(super) fn lists(count: u64) -> Vec<Vec<u8>> {
         .collect()
 }
 
-/// Object number `at`, as a manual would list it.
+/// The descriptor of object number `at`, with a name and an address as in the manuals.
 pub(crate) fn record(at: u64) -> [u8; 84] {
     let mut bytes = [0; 84];
     bytes[..4].copy_from_slice(&(at as u32).to_le_bytes());

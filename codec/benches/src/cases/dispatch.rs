@@ -3,7 +3,7 @@
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::dynamic::{DynamicIndex, DynamicNameRequestRef};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc::sda::ObjectAddressQuery;
 use ads_cnc::streaming::ProgramStreamRef;
 use ads_cnc::{
@@ -39,7 +39,7 @@ macro_rules! functions {
             Case::new(concat!("call: ", $subject), "encode", || {
                 encode(call(row!($port $service $group $offset $length), $data))
             })
-            // All operations share the code that builds a call.
+            // All operations share the code that builds a call, which needs more instructions.
             .within(&[Limit::Instructions("encode by hand", 4.0)]),
             Case::new(concat!("call: ", $subject), "encode by hand", || {
                 encode_by_hand(hand::requests::Request::$function $parameters)
@@ -59,7 +59,7 @@ macro_rules! functions {
 
 macro_rules! row {
     ($port:literal $service:ident $group:literal $offset:literal $length:literal) => {
-        ($port, Service::$service, $group, $offset, $length)
+        ($port, AdsService::$service, $group, $offset, $length)
     };
 }
 
@@ -154,13 +154,13 @@ functions! {
 
 /// A request for a handle by name, and variants with one fault.
 macro_rules! refusals {
-    ($( $who:literal: $port:literal $service:ident $group:literal $offset:literal; )+) => {
+    ($( $implementation:literal: $port:literal $service:ident $group:literal $offset:literal; )+) => {
         pub(super) const REFUSALS: &[Case] = &[$(
-            Case::new("one fault", $who, || {
+            Case::new("one fault", $implementation, || {
                 let data = b"V.E.vartest\0";
                 each!([call(row!($port $service $group $offset 4), data); CALLS], |call| call.dispatch())
             })
-            // An address is rejected after the whole table was scanned.
+            // Rejecting an address costs more than success, because dispatch scans the whole table first.
             .within(&[Limit::Over("none", 1000.0)]),
         )+];
     };
@@ -177,7 +177,7 @@ refusals! {
 }
 
 const fn call(
-    (port, service, group, offset, read_length): (u16, Service, u32, u32, u32),
+    (port, service, group, offset, read_length): (u16, AdsService, u32, u32, u32),
     data: &'static [u8],
 ) -> Call<'static> {
     let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
@@ -223,8 +223,8 @@ mod tests {
     #[test]
     fn data_is_refused() {
         for (call, data, _) in BY_HAND {
-            let refusal = Call { data, ..*call }.dispatch().unwrap_err();
-            assert!(matches!(refusal, DispatchError::Stream(_)), "{call:?}: {refusal}");
+            let error_of = Call { data, ..*call }.dispatch().unwrap_err();
+            assert!(matches!(error_of, DispatchError::Stream(_)), "{call:?}: {error_of}");
         }
     }
 }

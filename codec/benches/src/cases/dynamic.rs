@@ -6,7 +6,7 @@ use ads_cnc::streaming::{ProgramStream, ProgramStreamRef};
 use ads_cnc::{Decode, Encode};
 
 use super::stream::{Entry, stream};
-use crate::hand::{self, Hand};
+use crate::hand::{self, HandWritten};
 
 pub(super) const STREAMS: &[Entry] = &[
     stream!("dynamic count", DynamicCount, DynamicCount, by hand hand::Number),

@@ -5,7 +5,7 @@ use ads_cnc::sda::*;
 use ads_cnc::{Decode, Encode};
 
 use super::stream::{Entry, stream};
-use crate::hand::{self, Hand};
+use crate::hand::{self, HandWritten};
 
 pub(super) const STREAMS: &[Entry] = &[
     stream!("object address query", ObjectAddressQuery, ObjectAddressQuery, by hand hand::Pair),

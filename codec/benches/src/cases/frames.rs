@@ -4,7 +4,7 @@ use ads_cnc::ads::FrameRef;
 use ads_cnc::{Decode, Encode, NoData};
 
 use crate::case::{Case, Limit, each};
-use crate::hand::{self, Hand};
+use crate::hand::{self, HandWritten};
 
 const ENCODE: &[Limit] = &[Limit::Instructions("encode by hand", 3.0)];
 const MAX: u32 = 1024;
@@ -60,7 +60,7 @@ fn frame(at: u32, data_length: u32) -> Vec<u8> {
     bytes
 }
 
-/// Each of the three possible faults of a header, and too much data.
+/// Frames with one fault each: `reserved` is not 0, a wrong length, too much data, a wrong `data_length`.
 fn refused() -> Vec<Vec<u8>> {
     let broken = |(at, mut bytes): (usize, Vec<u8>)| {
         bytes[[0, 2, 4, 26][at % 4]] = 7;

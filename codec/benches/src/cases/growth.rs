@@ -1,21 +1,22 @@
-//! The cost of a record among few and among many.
+//! The cost of a record in a short and in a long list.
 
 use ads_cnc::{Decode, Description, DescriptionRef, Descriptors, DescriptorsRef, Encode};
 
 use super::descriptors::{last_offset, lists};
 use crate::case::{Case, Limit, Work, each};
 
-/// Each of many costs hardly more than each of few, which precede it in the list.
+/// Declares cases with increasing numbers of records. A record may cost little more than in the case that
+/// `after` names.
 macro_rules! grows {
-    ($subject:literal: $($who:literal $(after $less:literal)?, $work:expr;)+) => {
+    ($subject:literal: $($implementation:literal $(after $less:literal)?, $work:expr;)+) => {
         &[$(
-            Case::new($subject, $who, || $work)
+            Case::new($subject, $implementation, || $work)
                 $(.within(&[Limit::Instructions($less, 1.05)]))?,
         )+]
     };
 }
 
-/// The maximum number of descriptors in a reply; a million is split into lists of this length.
+/// The number of descriptors in a long reply; a million descriptors are split into lists of this length.
 const LIST: u64 = 40_000;
 
 pub(super) const CASES: &[&[Case]] = &[
@@ -40,14 +41,14 @@ pub(super) const CASES: &[&[Case]] = &[
         "10,000" after "100", encode(10_000, 1);
         "1,000,000" after "10,000", encode(LIST, 25);
     },
-    // The whole description.
+    // These figures are per description.
     grows! {
         "dimensions, borrowed":
         "0", each!(descriptions(0), |bytes| DescriptionRef::decode(bytes));
         "50" after "0", each!(descriptions(50), |bytes| DescriptionRef::decode(bytes));
         "500" after "50", each!(descriptions(500), |bytes| DescriptionRef::decode(bytes));
     },
-    // One dimension.
+    // These figures are per dimension.
     grows! {
         "dimensions, owned":
         "5", each!(descriptions(5), 5, |bytes| Description::decode(bytes));
@@ -66,7 +67,7 @@ fn records(count: u64) -> Vec<u8> {
     lists(count).swap_remove(0)
 }
 
-/// Repeats the same list, which saves the memory for a million.
+/// Decodes the same list repeatedly, which needs less memory than a million records.
 fn borrowed(count: u64, times: usize) -> Work {
     let bytes = records(count);
     each!(vec![(); times], count, |_again| {

@@ -29,12 +29,12 @@ pub fn all() -> impl Iterator<Item = Case> {
     all.copied()
 }
 
-/// The cases with limits, and their references.
+/// The cases with limits, and the cases with which the limits compare them.
 pub fn gate() -> impl Iterator<Item = Case> {
     all().filter(Case::is_gated)
 }
 
-/// The references of these cases.
+/// All cases without limits, except those with which a limit compares.
 pub fn others() -> impl Iterator<Item = Case> {
     all().filter(|case| !case.is_gated())
 }
@@ -61,7 +61,7 @@ mod tests {
         }
     }
 
-    /// Compared cases do the same work.
+    /// Codec and handwritten code do the same work for every stream.
     #[test]
     fn codec_and_hand_agree_on_every_stream() {
         streams().for_each(|entry| (entry.alike)());
@@ -69,11 +69,16 @@ mod tests {
 
     #[test]
     fn names_differ_and_limits_refer_to_cases_there_are() {
-        let names: HashSet<_> = all().map(|case| (case.subject, case.who)).collect();
+        let names: HashSet<_> = all().map(|case| (case.subject, case.implementation)).collect();
         assert_eq!(names.len(), all().count());
         for case in all() {
             for other in case.limits.iter().map(crate::Limit::against) {
-                assert!(names.contains(&(case.subject, other)), "{}/{}", case.subject, case.who);
+                assert!(
+                    names.contains(&(case.subject, other)),
+                    "{}/{}",
+                    case.subject,
+                    case.implementation
+                );
             }
         }
     }
@@ -83,7 +88,7 @@ mod tests {
     fn every_case_runs() {
         for case in all() {
             let mut work = (case.prepare)();
-            assert!(work.units > 0, "{}/{}", case.subject, case.who);
+            assert!(work.units > 0, "{}/{}", case.subject, case.implementation);
             (work.run)();
             (work.run)();
         }

@@ -7,7 +7,7 @@ use ads_cnc::{
 };
 
 use super::stream::{Entry, stream};
-use crate::hand::{self, Hand};
+use crate::hand::{self, HandWritten};
 
 const MAX: usize = 0x40_0000;
 

@@ -9,12 +9,13 @@ pub(crate) struct Entry {
     #[cfg_attr(not(test), expect(dead_code, reason = "the tests see that none is missing"))]
     pub(crate) stream: Stream,
     pub(crate) cases: &'static [Case],
-    /// Fails if codec and handwritten code differ.
+    /// Panics if the codec and the handwritten code have different results.
     #[cfg(test)]
     pub(crate) alike: fn(),
 }
 
-/// The inputs are the samples of the codec. The owned or only type of a stream is encoded.
+/// Declares the cases of a stream. The inputs are the samples of the codec. The cases encode the owned
+/// type, or the only type of the stream.
 macro_rules! stream {
     ($subject:literal, $stream:ident, $both:ty, by hand $hand:ty) => {
         $crate::cases::stream::Entry {
@@ -56,15 +57,15 @@ macro_rules! stream {
             },
         }
     };
-    (@decode $subject:literal, $stream:ident, $who:literal, $reading:ty) => {
-        $crate::Case::new($subject, $who, || {
+    (@decode $subject:literal, $stream:ident, $implementation:literal, $reading:ty) => {
+        $crate::Case::new($subject, $implementation, || {
             $crate::case::each!($crate::inputs::many(Stream::$stream), |bytes| {
                 <$reading>::decode(bytes)
             })
         })
     };
-    (@refuse $subject:literal, $stream:ident, $who:literal, $reading:ty, $than:literal) => {
-        $crate::Case::new($subject, $who, || {
+    (@refuse $subject:literal, $stream:ident, $implementation:literal, $reading:ty, $than:literal) => {
+        $crate::Case::new($subject, $implementation, || {
             let accepts = |bytes: &[u8]| <$reading>::decode(bytes).is_ok();
             $crate::case::each!($crate::inputs::refused(Stream::$stream, accepts), |bytes| {
                 <$reading>::decode(bytes)
@@ -77,11 +78,11 @@ macro_rules! stream {
             $crate::Limit::Instructions("encode by hand", 3.0),
         ])
     };
-    (@encode $subject:literal, $stream:ident, $who:literal, $reading:ty) => {
-        $crate::cases::stream::stream!(@encoding $subject, $stream, $who, $reading)
+    (@encode $subject:literal, $stream:ident, $implementation:literal, $reading:ty) => {
+        $crate::cases::stream::stream!(@encoding $subject, $stream, $implementation, $reading)
     };
-    (@encoding $subject:literal, $stream:ident, $who:literal, $reading:ty) => {
-        $crate::Case::new($subject, $who, || {
+    (@encoding $subject:literal, $stream:ident, $implementation:literal, $reading:ty) => {
+        $crate::Case::new($subject, $implementation, || {
             let samples = $crate::inputs::many(Stream::$stream);
             let mut buf = [0; 4096];
             $crate::case::each!(
@@ -95,7 +96,8 @@ macro_rules! stream {
     };
 }
 
-/// Both accept and reject the same bytes, and encode accepted bytes to the same bytes.
+/// Checks that codec and handwritten code accept and reject the same bytes, and encode accepted bytes to
+/// the same bytes.
 #[cfg(test)]
 macro_rules! alike {
     ($stream:ident, $codec:ty, $hand:ty) => {{

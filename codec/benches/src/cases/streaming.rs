@@ -4,7 +4,7 @@ use ads_cnc::streaming::{Ack, Checker, NcText, Sender};
 
 use crate::case::{Case, Limit, Work};
 
-/// A text of a hundred times the length costs the same per byte.
+/// Cases for a text and for a text of a hundred times its length, which may cost at most as much per byte.
 macro_rules! texts {
     ($($subject:literal: $lines:expr;)+) => {
         pub(super) const PACKETS: &[&[Case]] = &[$(
@@ -57,8 +57,8 @@ checks! {
     "names": |at| format!("V.E.NAME_{at}.M30 = V.P.M2_{at} + _M30");
 }
 
-/// A text of a hundred times the length may cost 10^(2 × 1.1) times the instructions, which is 1.58
-/// per byte: the labels are in a sorted tree.
+/// Cases for texts whose labels are stored in a sorted tree. A text of a hundred times the length may cost
+/// 10^(2 × 1.1) times the instructions, which is 1.58 times the instructions per byte.
 macro_rules! grows {
     ($($subject:literal: $lines:expr;)+) => {
         pub(super) const GROWTH: &[Case] = &[$(
@@ -72,7 +72,7 @@ macro_rules! grows {
     };
 }
 
-// A line by its number and the number of lines.
+// Each function creates a line from its number and the number of lines.
 grows! {
     "labels": |at, _| format!("N{at}: X1");
     "jumps to lines above": |at, _| format!("N{at}: $GOTO N{}", at / 2);
@@ -112,7 +112,7 @@ grows! {
     "open quotes": |_, _| "\"(".repeat(400);
 }
 
-/// A typical program: motion, comments, subroutines, conditions, labels and jumps.
+/// A line of a typical program: motion, comments, subroutines, conditions, labels and jumps.
 fn program(at: usize) -> String {
     let number = at * 10;
     match at % 40 {
@@ -140,7 +140,7 @@ fn program(at: usize) -> String {
     }
 }
 
-/// The given number of bytes of these lines, extended to the end of the last line.
+/// A text of these lines that has at least `size` bytes and ends after a line.
 fn text(line: &dyn Fn(usize) -> String, end: &str, size: usize) -> Vec<u8> {
     let mut text = Vec::with_capacity(size + 1000);
     for at in 0.. {
@@ -177,7 +177,7 @@ fn sent(text: Vec<u8>) -> Work {
     })
 }
 
-/// In parts like those in the interface of the CNC.
+/// Checks the text in parts as large as the interface of the CNC, by a `Checker`.
 fn checked(text: Vec<u8>) -> Work {
     let mut packets = NcText::new(&text).unwrap().packets();
     let mut lots = Vec::new();
@@ -194,9 +194,9 @@ fn checked(text: Vec<u8>) -> Work {
     })
 }
 
-/// About the given number of bytes.
+/// Checks a whole text of about `size` bytes.
 fn whole(size: usize, line: fn(usize, usize) -> String) -> Work {
-    // The longest line is near the end.
+    // Estimate the number of lines from the length of a line near the end, where line numbers are longest.
     let lines = size / (line(size / 16, size).len() + 1);
     findings(text(&|at| line(at, lines), "\n", size))
 }

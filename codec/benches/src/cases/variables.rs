@@ -4,7 +4,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc::*;
 
 use super::stream::{Entry, stream};
-use crate::hand::{self, Hand};
+use crate::hand::{self, HandWritten};
 
 pub(super) const STREAMS: &[Entry] = &[
     stream!(

@@ -1,6 +1,6 @@
 //! Headers and services of ADS.
 
-use super::{Fault, Hand, Held, at_least, at_most, exactly, room, u16_at, u32_at};
+use super::{ByteStorage, Fault, HandWritten, at_least, at_most, exactly, room, u16_at, u32_at};
 
 const DATA_MAX: usize = 0x40_0000;
 
@@ -10,7 +10,7 @@ pub(crate) struct TcpHeader {
     length: u32,
 }
 
-impl<'a> Hand<'a> for TcpHeader {
+impl<'a> HandWritten<'a> for TcpHeader {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let bytes: &[u8; 6] = exactly(bytes)?;
         Ok(Self { reserved: u16_at(bytes, 0), length: u32_at(bytes, 2) })
@@ -66,7 +66,7 @@ impl Header {
     }
 }
 
-impl<'a> Hand<'a> for Header {
+impl<'a> HandWritten<'a> for Header {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let bytes: &[u8; 32] = exactly(bytes)?;
         Ok(Self {
@@ -87,7 +87,7 @@ impl<'a> Hand<'a> for Header {
     }
 }
 
-/// Both headers, and the data.
+/// A frame: the AMS/TCP header, the AMS header and the data.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame<'a> {
     header: Header,
@@ -95,7 +95,7 @@ pub(crate) struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    /// The first received frame and its length, if it is complete.
+    /// The first received frame and its length; `None` if the frame is not complete.
     pub(crate) fn split(received: &'a [u8], max: u32) -> Result<Option<(Self, usize)>, Fault> {
         if received.len() < 6 {
             return Ok(None);
@@ -141,7 +141,7 @@ pub(crate) struct ReadRequest {
     length: u32,
 }
 
-impl<'a> Hand<'a> for ReadRequest {
+impl<'a> HandWritten<'a> for ReadRequest {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let bytes: &[u8; 12] = exactly(bytes)?;
         Ok(Self {
@@ -160,7 +160,7 @@ impl<'a> Hand<'a> for ReadRequest {
     }
 }
 
-/// All remaining bytes, which must have the length given before them.
+/// The bytes after the length at offset `at`, whose number must be this length.
 fn data(bytes: &[u8], at: usize) -> Result<&[u8], Fault> {
     let expected = u32_at(bytes, at);
     let data = &bytes[at + 4..];
@@ -182,7 +182,7 @@ pub(crate) struct WriteRequest<B> {
     data: B,
 }
 
-impl<'a, B: Held<'a>> Hand<'a> for WriteRequest<B> {
+impl<'a, B: ByteStorage<'a>> HandWritten<'a> for WriteRequest<B> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(12 + DATA_MAX, bytes.len())?;
         at_least(12, bytes)?;
@@ -213,7 +213,7 @@ pub(crate) struct ReadWriteRequest<B> {
     data: B,
 }
 
-impl<'a, B: Held<'a>> Hand<'a> for ReadWriteRequest<B> {
+impl<'a, B: ByteStorage<'a>> HandWritten<'a> for ReadWriteRequest<B> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(16 + DATA_MAX, bytes.len())?;
         at_least(16, bytes)?;
@@ -245,7 +245,7 @@ pub(crate) struct Reply<B> {
     data: Option<B>,
 }
 
-impl<'a, B: Held<'a>> Hand<'a> for Reply<B> {
+impl<'a, B: ByteStorage<'a>> HandWritten<'a> for Reply<B> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(8 + DATA_MAX, bytes.len())?;
         at_least(4, bytes)?;

@@ -1,13 +1,15 @@
 //! Bytes without a structure.
 
-use super::{Fault, Hand, Held, at_least, at_most, room};
+use super::{ByteStorage, Fault, HandWritten, at_least, at_most, room};
 
 #[derive(Clone, Debug)]
 pub(crate) struct Bytes<B, const MIN: usize, const MAX: usize> {
     bytes: B,
 }
 
-impl<'a, B: Held<'a>, const MIN: usize, const MAX: usize> Hand<'a> for Bytes<B, MIN, MAX> {
+impl<'a, B: ByteStorage<'a>, const MIN: usize, const MAX: usize> HandWritten<'a>
+    for Bytes<B, MIN, MAX>
+{
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_least(MIN, bytes)?;
         at_most(MAX, bytes.len())?;

@@ -1,6 +1,6 @@
 //! Object descriptors.
 
-use super::{Fault, Hand, exactly, room, u16_at, u32_at};
+use super::{Fault, HandWritten, exactly, room, u16_at, u32_at};
 
 #[derive(Clone, Debug)]
 pub(crate) struct Descriptor {
@@ -46,7 +46,7 @@ impl Descriptor {
     }
 }
 
-impl<'a> Hand<'a> for Descriptor {
+impl<'a> HandWritten<'a> for Descriptor {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         exactly(bytes).map(Self::read)
     }
@@ -61,7 +61,7 @@ impl<'a> Hand<'a> for Descriptor {
 #[derive(Clone, Debug)]
 pub(crate) struct Descriptors(Vec<Descriptor>);
 
-impl<'a> Hand<'a> for Descriptors {
+impl<'a> HandWritten<'a> for Descriptors {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         if bytes.len() > MAX {
             return Err(Fault::TooLong { max: MAX as u32, found: bytes.len() as u32 });

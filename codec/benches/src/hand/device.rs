@@ -1,6 +1,6 @@
 //! Device information and state.
 
-use super::{Fault, Hand, exactly, room, u16_at, u32_at};
+use super::{Fault, HandWritten, exactly, room, u16_at, u32_at};
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DeviceInfo {
@@ -11,7 +11,7 @@ pub(crate) struct DeviceInfo {
     name: [u8; 16],
 }
 
-impl<'a> Hand<'a> for DeviceInfo {
+impl<'a> HandWritten<'a> for DeviceInfo {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let bytes: &[u8; 24] = exactly(bytes)?;
         let mut name = [0; 16];
@@ -38,7 +38,7 @@ pub(crate) struct DeviceState {
     device_state: u16,
 }
 
-impl<'a> Hand<'a> for DeviceState {
+impl<'a> HandWritten<'a> for DeviceState {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let bytes: &[u8; 8] = exactly(bytes)?;
         Ok(Self {

@@ -1,11 +1,11 @@
 //! Streams of one or two numbers.
 
-use super::{Fault, Hand, exactly, room, u16_at, u32_at};
+use super::{Fault, HandWritten, exactly, room, u16_at, u32_at};
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Number(u32);
 
-impl<'a> Hand<'a> for Number {
+impl<'a> HandWritten<'a> for Number {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         Ok(Self(u32::from_le_bytes(*exactly(bytes)?)))
     }
@@ -30,7 +30,7 @@ impl NonZero {
     }
 }
 
-impl<'a> Hand<'a> for NonZero {
+impl<'a> HandWritten<'a> for NonZero {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         Self(u32::from_le_bytes(*exactly(bytes)?)).check()
     }
@@ -46,7 +46,7 @@ impl<'a> Hand<'a> for NonZero {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair(u32, u32);
 
-impl<'a> Hand<'a> for Pair {
+impl<'a> HandWritten<'a> for Pair {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let bytes: &[u8; 8] = exactly(bytes)?;
         Ok(Self(u32_at(bytes, 0), u32_at(bytes, 4)))
@@ -63,7 +63,7 @@ impl<'a> Hand<'a> for Pair {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Real(f64);
 
-impl<'a> Hand<'a> for Real {
+impl<'a> HandWritten<'a> for Real {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         Ok(Self(f64::from_le_bytes(*exactly(bytes)?)))
     }
@@ -78,7 +78,7 @@ impl<'a> Hand<'a> for Real {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flag(u8);
 
-impl<'a> Hand<'a> for Flag {
+impl<'a> HandWritten<'a> for Flag {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let [flag] = *exactly(bytes)?;
         Ok(Self(flag))
@@ -98,7 +98,7 @@ pub(crate) struct Length {
     width: usize,
 }
 
-impl<'a> Hand<'a> for Length {
+impl<'a> HandWritten<'a> for Length {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         let length = match bytes.len() {
             1 => bytes[0].into(),
@@ -118,7 +118,7 @@ impl<'a> Hand<'a> for Length {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nothing;
 
-impl<'a> Hand<'a> for Nothing {
+impl<'a> HandWritten<'a> for Nothing {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         exactly::<0>(bytes).map(|[]| Self)
     }

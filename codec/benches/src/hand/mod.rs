@@ -21,7 +21,7 @@ pub(crate) use variable::{
     Description, DescriptionByName, Extended, HandleRead, HandleWrite, IndexKind, NameWrite,
 };
 
-/// The fault and its position, which users need to find it.
+/// A fault and its position, which users need to find the fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Truncated { at: u32, expected: u32, found: u32 },
@@ -34,15 +34,15 @@ pub(crate) enum Fault {
 }
 
 /// A stream that is decoded from all of its bytes and encoded to the front of a buffer.
-pub(crate) trait Hand<'a>: Sized {
+pub(crate) trait HandWritten<'a>: Sized {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault>;
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Fault>;
 }
 
 /// Borrowed or owned bytes.
-pub(crate) trait Held<'a>: From<&'a [u8]> + AsRef<[u8]> {}
+pub(crate) trait ByteStorage<'a>: From<&'a [u8]> + AsRef<[u8]> {}
 
-impl<'a, B: From<&'a [u8]> + AsRef<[u8]>> Held<'a> for B {}
+impl<'a, B: From<&'a [u8]> + AsRef<[u8]>> ByteStorage<'a> for B {}
 
 pub(crate) fn u16_at(bytes: &[u8], at: usize) -> u16 {
     u16::from_le_bytes([bytes[at], bytes[at + 1]])
@@ -52,7 +52,7 @@ pub(crate) fn u32_at(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }
 
-/// All bytes of a stream of fixed length.
+/// Checks that a stream of fixed length has exactly `N` bytes.
 pub(crate) fn exactly<const N: usize>(bytes: &[u8]) -> Result<&[u8; N], Fault> {
     let (expected, found) = (N as u32, bytes.len() as u32);
     bytes.try_into().map_err(|_| match found < expected {
@@ -69,7 +69,7 @@ pub(crate) fn at_most(max: usize, len: usize) -> Result<(), Fault> {
     }
 }
 
-/// The numbers at the start of a stream that may be longer.
+/// Checks that a stream has at least `min` bytes, those of the numbers at its start.
 pub(crate) fn at_least(min: usize, bytes: &[u8]) -> Result<(), Fault> {
     match bytes.len() < min {
         true => Err(Fault::Truncated { at: 0, expected: min as u32, found: bytes.len() as u32 }),
@@ -77,7 +77,7 @@ pub(crate) fn at_least(min: usize, bytes: &[u8]) -> Result<(), Fault> {
     }
 }
 
-/// The given number of bytes of the buffer.
+/// The first `needed` bytes of a buffer.
 pub(crate) fn room(buf: &mut [u8], needed: usize) -> Result<&mut [u8], Fault> {
     let found = buf.len() as u32;
     buf.get_mut(..needed).ok_or(Fault::BufferTooSmall { expected: needed as u32, found })

@@ -13,7 +13,7 @@ pub(crate) enum Service {
     ReadWrite = 9,
 }
 
-/// The data is sent unchanged.
+/// An encoded call; its data would be sent unchanged.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(not(test), expect(dead_code, reason = "nothing here sends it"))]
 pub(crate) struct Call<'b> {
@@ -25,7 +25,7 @@ pub(crate) struct Call<'b> {
     pub(crate) data: &'b [u8],
 }
 
-/// Objects and elements are addressed by group; all others by the channel number.
+/// A request. Objects and elements have an index group; all other requests have a channel number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Request<'a> {
     CountObjects { group: u32 },

@@ -1,15 +1,15 @@
 //! Text fields: the text, and the bytes after its NUL.
 
-use super::{Fault, Hand, Held, at_least, at_most, room};
+use super::{ByteStorage, Fault, HandWritten, at_least, at_most, room};
 
-/// The text never has a NUL, because it is only created by decoding.
+/// A text field. `text` never contains a NUL, because it is only created by decoding.
 #[derive(Clone, Debug)]
 pub(crate) struct Text<B> {
     text: B,
     tail: Option<B>,
 }
 
-impl<'a, B: Held<'a>> Text<B> {
+impl<'a, B: ByteStorage<'a>> Text<B> {
     pub(crate) fn split(field: &'a [u8]) -> Self {
         match field.iter().position(|&byte| byte == 0) {
             Some(nul) => Self { text: field[..nul].into(), tail: Some(field[nul + 1..].into()) },
@@ -17,7 +17,7 @@ impl<'a, B: Held<'a>> Text<B> {
         }
     }
 
-    /// Text with a NUL, followed only by NULs.
+    /// Decodes a text that must end in one or more NULs.
     pub(crate) fn terminated(field: &'a [u8], at: u32, max: usize) -> Result<Self, Fault> {
         let found = field.len() as u32;
         if field.len() > max {
@@ -41,7 +41,7 @@ impl<'a, B: Held<'a>> Text<B> {
         self.text.as_ref().len() + tail.map_or(0, |tail| tail.as_ref().len() + 1)
     }
 
-    /// The values that [`terminated`](Self::terminated) would reject.
+    /// Rejects the values that [`terminated`](Self::terminated) would reject.
     pub(crate) fn check_terminated(&self, at: u32, max: usize) -> Result<(), Fault> {
         at_most(max, self.len())?;
         match self.tail {
@@ -91,7 +91,7 @@ impl<'a, B: Held<'a>> Text<B> {
 #[derive(Clone, Debug)]
 pub(crate) struct Name<B>(Text<B>);
 
-impl<'a, B: Held<'a>> Hand<'a> for Name<B> {
+impl<'a, B: ByteStorage<'a>> HandWritten<'a> for Name<B> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         Text::terminated(bytes, 0, 256).map(Self)
     }
@@ -102,11 +102,11 @@ impl<'a, B: Held<'a>> Hand<'a> for Name<B> {
     }
 }
 
-/// The same, or no bytes.
+/// Text that must end in a NUL, or no bytes.
 #[derive(Clone, Debug)]
 pub(crate) struct Kind<B>(Text<B>);
 
-impl<'a, B: Held<'a>> Hand<'a> for Kind<B> {
+impl<'a, B: ByteStorage<'a>> HandWritten<'a> for Kind<B> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         if bytes.is_empty() {
             return Ok(Self(Text { text: bytes.into(), tail: None }));
@@ -126,7 +126,9 @@ impl<'a, B: Held<'a>> Hand<'a> for Kind<B> {
 #[derive(Clone, Debug)]
 pub(crate) struct Open<B, const MIN: usize, const MAX: usize>(Text<B>);
 
-impl<'a, B: Held<'a>, const MIN: usize, const MAX: usize> Hand<'a> for Open<B, MIN, MAX> {
+impl<'a, B: ByteStorage<'a>, const MIN: usize, const MAX: usize> HandWritten<'a>
+    for Open<B, MIN, MAX>
+{
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_least(MIN, bytes)?;
         at_most(MAX, bytes.len())?;
@@ -143,7 +145,7 @@ impl<'a, B: Held<'a>, const MIN: usize, const MAX: usize> Hand<'a> for Open<B, M
 #[derive(Clone, Debug)]
 pub(crate) struct Padded<B, const MAX: usize>(Text<B>);
 
-impl<'a, B: Held<'a>, const MAX: usize> Hand<'a> for Padded<B, MAX> {
+impl<'a, B: ByteStorage<'a>, const MAX: usize> HandWritten<'a> for Padded<B, MAX> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_least(1, bytes)?;
         at_most(MAX, bytes.len())?;

@@ -1,7 +1,7 @@
 //! Streams of variables.
 
 use super::text::Text;
-use super::{Fault, Hand, Held, at_least, at_most, exactly, room, u32_at};
+use super::{ByteStorage, Fault, HandWritten, at_least, at_most, exactly, room, u32_at};
 
 const MAX: usize = 2048;
 
@@ -43,7 +43,7 @@ impl<'a> U32List<'a> for Vec<u32> {
     }
 }
 
-/// A list of numbers and the bytes after it; the count is at `at`, before the list.
+/// Decodes the list of numbers after the count at offset `at`; returns the list and the bytes after it.
 fn numbers<'a, N: U32List<'a>>(
     bytes: &'a [u8],
     at: usize,
@@ -66,7 +66,7 @@ fn check_count<'a>(numbers: &impl U32List<'a>, at: u32, max: usize) -> Result<us
     }
 }
 
-/// The five numbers at the start of both descriptions.
+/// The five numbers at the start of a description, with or without the name.
 #[derive(Clone, Copy, Debug)]
 struct Head {
     handle: u32,
@@ -101,7 +101,7 @@ pub(crate) struct Description<B, N> {
     name: Text<B>,
 }
 
-impl<'a, B: Held<'a>, N: U32List<'a>> Hand<'a> for Description<B, N> {
+impl<'a, B: ByteStorage<'a>, N: U32List<'a>> HandWritten<'a> for Description<B, N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(20, bytes)?;
@@ -134,7 +134,7 @@ pub(crate) struct DescriptionByName<N> {
     dimensions: N,
 }
 
-impl<'a, N: U32List<'a>> Hand<'a> for DescriptionByName<N> {
+impl<'a, N: U32List<'a>> HandWritten<'a> for DescriptionByName<N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(20, bytes)?;
@@ -161,7 +161,7 @@ pub(crate) struct HandleRead<N> {
     indices: N,
 }
 
-impl<'a, N: U32List<'a>> Hand<'a> for HandleRead<N> {
+impl<'a, N: U32List<'a>> HandWritten<'a> for HandleRead<N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(8, bytes)?;
@@ -190,7 +190,7 @@ pub(crate) struct HandleWrite<B, N> {
     value: B,
 }
 
-impl<'a, B: Held<'a>, N: U32List<'a>> Hand<'a> for HandleWrite<B, N> {
+impl<'a, B: ByteStorage<'a>, N: U32List<'a>> HandWritten<'a> for HandleWrite<B, N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(8, bytes)?;
@@ -217,7 +217,7 @@ pub(crate) struct NameWrite<B> {
     value: B,
 }
 
-impl<'a, B: Held<'a>> Hand<'a> for NameWrite<B> {
+impl<'a, B: ByteStorage<'a>> HandWritten<'a> for NameWrite<B> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         let field = &bytes[..bytes.len().min(256)];
@@ -246,7 +246,7 @@ pub(crate) struct IndexKind<B> {
     kind: Text<B>,
 }
 
-impl<'a, B: Held<'a>> Hand<'a> for IndexKind<B> {
+impl<'a, B: ByteStorage<'a>> HandWritten<'a> for IndexKind<B> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_least(4, bytes)?;
         Ok(Self { index: u32_at(bytes, 0), kind: Text::terminated(&bytes[4..], 4, 256)? })
@@ -261,11 +261,11 @@ impl<'a, B: Held<'a>> Hand<'a> for IndexKind<B> {
     }
 }
 
-/// Synchronisation and validity of a variable that has an extended description.
+/// An extended description: synchronisation and validity; `None` for a variable without one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extended(Option<(u32, u32)>);
 
-impl<'a> Hand<'a> for Extended {
+impl<'a> HandWritten<'a> for Extended {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         if bytes.is_empty() {
             return Ok(Self(None));

@@ -1,4 +1,4 @@
-//! binrw, with its own cursor.
+//! The streams declared with binrw, which reads from its own cursor.
 
 use binrw::io::Cursor;
 use binrw::{BinRead, BinResult, binread, helpers::until_eof};

@@ -1,4 +1,4 @@
-//! deku, with its own reader.
+//! The streams declared with deku, which reads from its own reader.
 
 use deku::prelude::*;
 

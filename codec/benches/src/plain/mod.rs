@@ -1,4 +1,4 @@
-//! Declarations as in the documentation of the libraries, without code of this project.
+//! Declarations of streams as the documentation of binrw and deku shows them, without the codec.
 
 pub(crate) mod binrw;
 pub(crate) mod deku;

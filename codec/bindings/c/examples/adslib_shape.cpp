@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// The same as in AdsDef.h.
+// The same types as in AdsDef.h of AdsLib.
 struct AmsNetId {
     uint8_t b[6];
 };
@@ -75,7 +75,7 @@ static bool handle_of(Send send, const AmsAddr &cnc, const std::string &name, ui
         fault = "ADS error " + std::to_string(result);
         return false;
     }
-    // The received length, not the length of the buffer.
+    // Pass the received length, not the length of the buffer.
     if (!ads_cnc_decode_reply(&request, reply.data(), bytes_read, &field, 1, &count, &error))
         return failed();
     handle = field.number;

@@ -68,7 +68,7 @@ typedef struct AdsCncError {
 } AdsCncError;
 
 typedef enum AdsCncErrorKind {
-    /* errors of a stream or value; comments are: expected, found */
+    /* errors of a stream or value; each comment lists `expected` and `found`, in this order */
     ADS_CNC_OTHER_ERROR = 0,
     ADS_CNC_TRUNCATED = 1,     /* bytes that the field needs, bytes found */
     ADS_CNC_TRAILING = 2,      /* length of the stream, length of the input */
@@ -82,7 +82,7 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_UNEXPECTED = 10,   /* 0, code point */
     ADS_CNC_MISSING = 11,
     ADS_CNC_OUT_OF_RANGE = 12, /* nearest permitted value, value */
-    ADS_CNC_MISMATCH = 13,     /* the other value, this value */
+    ADS_CNC_MISMATCH = 13,     /* required value, value found */
     ADS_CNC_CONTENT = 14,      /* 0, index offset of a function instead of content */
     ADS_CNC_BUFFER = 15,       /* bytes needed, bytes available */
     /* errors of the caller */
@@ -93,7 +93,7 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_ARGUMENT = 36,     /* value that the function does not accept; name is the argument */
     ADS_CNC_ROOM = 37,         /* items or bytes needed, room available */
     ADS_CNC_NOT_STARTED = 38,  /* sender or host that was never started */
-    ADS_CNC_LINE = 39,         /* line, characters or byte found; offset is the column */
+    ADS_CNC_LINE = 39,         /* line; number of characters, or byte; `offset` is the column */
     /* errors of a received call */
     ADS_CNC_NO_PORT = 40,      /* 0, the port */
     ADS_CNC_NO_GROUP = 41,     /* 0, the index group */
@@ -104,7 +104,7 @@ typedef enum AdsCncErrorKind {
 /* The arguments of any function. Set the arguments that ads_cnc_function_info lists for the function; the
  * others must be zero: `AdsCncRequest request = {0};`. */
 typedef struct AdsCncRequest {
-    uint32_t function;      /* ads_cnc_function */
+    uint32_t function;      /* number from ads_cnc_function */
     uint32_t channel;       /* from 1; 0 is the platform, for lists of objects and object addresses */
     uint32_t by_index;      /* 1: `channel` counts the active channels */
     uint32_t axis;          /* axis of the channel, from 1; a platform axis for lists of objects with channel 0 */
@@ -253,7 +253,7 @@ typedef struct AdsCncFieldInfo {
     uint32_t kind;        /* AdsCncFieldKind */
     uint32_t size;        /* size of the field or of one item in bytes; 0 if it varies */
     uint32_t is_count;    /* 1: counts the items or bytes of the next field */
-    uint32_t is_list;     /* 1: has one item for each number */
+    uint32_t is_list;     /* 1: a list, with one item for each number */
 } AdsCncFieldInfo;
 
 typedef enum AdsCncTypeKind {
@@ -279,13 +279,13 @@ uint32_t ads_cnc_function(const char *name, uint32_t length);
 uint32_t ads_cnc_stream(const char *name, uint32_t length);
 uint32_t ads_cnc_field(uint32_t stream, const char *name, uint32_t length);
 
-/* The function, stream, field or type with this number, from 0; false if there is none. */
+/* The function, stream, field or type with this number, from 0; false if no entry has this number. */
 bool ads_cnc_function_info(uint32_t number, AdsCncFunctionInfo *info);
 bool ads_cnc_stream_info(uint32_t number, AdsCncStreamInfo *info);
 bool ads_cnc_field_info(uint32_t stream, uint32_t number, AdsCncFieldInfo *info);
 bool ads_cnc_type(uint32_t number, AdsCncType *info);
 
-/* The name of an AdsCncArgument, from 1; false if there is none. */
+/* The name of an AdsCncArgument, from 1; false if no argument has this number. */
 bool ads_cnc_argument_name(uint32_t number, AdsCncBytes *name);
 
 /* ---------------------------------------------------------------------- addresses and names */
@@ -299,7 +299,7 @@ typedef struct AdsCncGroup {
     AdsCncBytes object_class;  /* for SDA and GEO: "decoder" and so on */
     AdsCncBytes attribute;     /* for SDA and GEO: "content", "name", "type", "length", "unit", "write flag" or
                                   "object address" */
-    uint32_t instance;         /* channel, axis or spindle; 0 for none */
+    uint32_t instance;         /* number of the channel, axis or spindle; 0 if the group has none */
 } AdsCncGroup;
 
 /* Parses an index group; returns false if it is not documented. */
@@ -356,8 +356,8 @@ bool ads_cnc_call_read(const AdsCncFrame *frame, AdsCncCall *call, AdsCncError *
 
 /* ------------------------------------------------------------- sender of an NC program */
 
-/* A sender in memory of the caller; the contents are private to the library. It may be copied. Before the
- * start, the memory must be zero: the functions then return false. */
+/* A sender in memory of the caller; the contents are private to the library. A sender may be copied. Before
+ * ads_cnc_sender_start, the memory must be zero; the other functions then return false. */
 typedef struct AdsCncSender {
     uint64_t opaque[152];
 } AdsCncSender;
@@ -367,19 +367,19 @@ enum { ADS_CNC_ACCEPTED = 0, ADS_CNC_BUSY = 1, ADS_CNC_REJECTED = 2 };
 typedef enum AdsCncSenderState {
     ADS_CNC_SENDER_READY = 0,
     ADS_CNC_SENDER_IN_FLIGHT = 1,
-    ADS_CNC_SENDER_WAITING = 2,  /* busy: the same packet is returned again */
-    ADS_CNC_SENDER_STOPPED = 3,  /* rejected */
+    ADS_CNC_SENDER_WAITING = 2,  /* the CNC was busy: the same packet is returned again */
+    ADS_CNC_SENDER_STOPPED = 3,  /* a packet was rejected */
     ADS_CNC_SENDER_DONE = 4
 } AdsCncSenderState;
 
 typedef struct AdsCncProgress {
     uint32_t state;       /* AdsCncSenderState */
-    uint32_t packets;     /* accepted */
-    uint32_t lines;       /* accepted */
-    uint32_t bytes;       /* accepted, including CR LF after each line */
+    uint32_t packets;     /* number of accepted packets */
+    uint32_t lines;       /* number of accepted lines */
+    uint32_t bytes;       /* number of accepted bytes, including CR LF after each line */
     uint32_t left_lines;
     uint32_t left_bytes;
-    uint32_t busy_count;  /* for the current packet */
+    uint32_t busy_count;  /* number of ADS_CNC_BUSY for the current packet */
 } AdsCncProgress;
 
 /* Starts sending a text, which must stay in place unchanged while the sender is used. All lines are checked
@@ -400,7 +400,8 @@ bool ads_cnc_sender_progress(const AdsCncSender *sender, AdsCncProgress *progres
 
 /* ------------------------------------------------------------- host of services */
 
-/* A host, in memory like that of AdsCncSender. One host serves all services of a channel. */
+/* A host in memory of the caller, with the same rules as for AdsCncSender. One host serves all services of
+ * a channel. */
 typedef struct AdsCncHost {
     uint64_t opaque[72];
 } AdsCncHost;
@@ -419,7 +420,7 @@ typedef enum AdsCncStepKind {
 
 typedef struct AdsCncHostStep {
     uint32_t kind;           /* AdsCncStepKind */
-    uint32_t service;        /* index of the ID, from 0 */
+    uint32_t service;        /* index of the service in the IDs, from 0 */
     uint32_t request_state;
     AdsCncBytes variable;    /* name of a variable */
     AdsCncBytes data;        /* a value, or the text of a request in CP1252; valid until the next call */

@@ -26,11 +26,12 @@ pub struct AdsCncGroup {
     pub object_class: AdsCncBytes,
     /// For SDA and GEO: the attribute of the element.
     pub attribute: AdsCncBytes,
-    /// Channel, axis or spindle; 0 for none.
+    /// The number of the channel, axis or spindle; 0 if the group has none.
     pub instance: u32,
 }
 
-/// Names that the codec displays but does not return as `&str`; a test compares them.
+/// Names of attributes that the codec displays but does not return as `&str`. A test compares them with the
+/// displayed names.
 pub(crate) const ATTRIBUTES: [&str; 7] =
     ["content", "name", "type", "length", "unit", "write flag", "object address"];
 const ALL_ATTRIBUTES: [Attribute; 7] = Attribute::ALL;
@@ -48,7 +49,7 @@ fn name<T: PartialEq>(all: impl IntoIterator<Item = T>, names: &[&str], one: &T)
 /// Parses an index group; false if it is not documented.
 ///
 /// # Safety
-/// `parts` is null or points to room for them.
+/// `parts` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_group(index_group: u32, parts: *mut AdsCncGroup) -> bool {
     let Some(group) = IndexGroup::new(index_group).parts() else { return false };
@@ -143,8 +144,8 @@ pub unsafe extern "C" fn ads_cnc_offset_parts(
 /// Parses the name of a variable.
 ///
 /// # Safety
-/// `name` points to `length` bytes, `parts` to room for as many as `room`; `count` and `error` are null or
-/// point to room for one.
+/// `name` points to `length` bytes, `parts` to memory for `room` values; `count` and `error` are null or
+/// point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_path(
     name: *const u8,

@@ -11,7 +11,7 @@ use crate::tables::{field_number, stream_number};
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct AdsCncError {
-    /// The class: `ADS_CNC_TRUNCATED` and so on.
+    /// The class: one of the constants from `ADS_CNC_TRUNCATED` on.
     pub kind: u32,
     /// The number of the stream at fault, or `ADS_CNC_NONE`.
     pub stream: u32,
@@ -42,11 +42,11 @@ pub(crate) enum Fault {
     NoField,
     /// The name of an argument whose value the function does not accept.
     Argument(&'static str),
-    /// Too little room: the number of items needed, the number available.
+    /// The memory of the caller is too small: the numbers of items needed and available.
     Room(u32, u32),
-    /// A sender or host that was never started.
+    /// The sender or host was never started.
     NotStarted,
-    /// A line of an NC program: its number, column, the number found.
+    /// A line of an NC program that cannot be sent: line, column, the number found, and a description.
     Line(u32, u32, u32, &'static str),
     /// A received call that cannot be dispatched.
     Dispatch(DispatchError),
@@ -149,7 +149,7 @@ impl AdsCncError {
     }
 }
 
-/// The result for the caller: true, or false with the error in its memory.
+/// Converts a result for the caller: true, or false and the error in the memory of the caller.
 ///
 /// # Safety
 /// `out` is null, or points to memory for an error.

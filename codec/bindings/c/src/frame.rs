@@ -66,8 +66,8 @@ impl AdsCncFrame {
 /// Encodes a frame, including both lengths.
 ///
 /// # Safety
-/// `frame` points to a frame and that to its data, `buffer` to `room` bytes; `length` and `error` are null
-/// or point to room for one.
+/// `frame` points to a frame, and the frame to its data; `buffer` points to `room` bytes; `length` and
+/// `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_frame_write(
     frame: *const AdsCncFrame,
@@ -133,8 +133,8 @@ pub unsafe extern "C" fn ads_cnc_frame_read(
 /// Encodes the data of the frame for a call: a Read, Write or ReadWrite request.
 ///
 /// # Safety
-/// `call` points to a call and that to its data, `buffer` to `room` bytes; `length` and `error` are null or
-/// point to room for one.
+/// `call` points to a call, and the call to its data; `buffer` points to `room` bytes; `length` and `error`
+/// are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_call_write(
     call: *const AdsCncCall,
@@ -156,7 +156,8 @@ pub unsafe extern "C" fn ads_cnc_call_write(
 /// Decodes the call in a frame that is a Read, Write or ReadWrite request.
 ///
 /// # Safety
-/// `frame` points to a frame and that to its data; `call` and `error` are null or point to memory for one value.
+/// `frame` points to a frame, and the frame to its data; `call` and `error` are null or point to memory for
+/// one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_call_read(
     frame: *const AdsCncFrame,

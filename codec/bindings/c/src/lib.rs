@@ -55,16 +55,16 @@ const fn decimal(mut digits: &[u8]) -> u32 {
     number
 }
 
-/// A panic refers to an undefined symbol. No function can reach a panic, so a release build does not
-/// refer to the symbol; `codec/bindings/run` verifies this. If the linker reports the symbol, the
-/// build is optimised less than the proof requires.
+/// The panic handler refers to an undefined symbol. No function can reach a panic, so a release build does
+/// not contain this reference; `codec/bindings/run` verifies this. If the linker reports the symbol, the
+/// build is less optimised than the proof requires.
 #[cfg(not(any(test, debug_assertions)))]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     unsafe extern "C" {
         fn ads_cnc_panicked() -> !;
     }
-    // SAFETY: it is not defined, so a program that links never calls it.
+    // SAFETY: the function is not defined, so a program that links never calls it.
     unsafe { ads_cnc_panicked() }
 }
 

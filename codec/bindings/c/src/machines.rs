@@ -11,8 +11,8 @@ use codec::{CncStr, Error};
 use crate::error::{AdsCncError, Fault, told};
 use crate::memory::{AdsCncBytes, bytes, put, slice, to_u32};
 
-/// A state machine in memory of the caller, preceded by a number that marks it as started. C may copy
-/// it, because it has no pointer into itself.
+/// Declares a state machine in memory of the caller. A number before the state marks the machine as
+/// started. C may copy a machine, because it has no pointer into itself.
 macro_rules! machine {
     ($(#[$doc:meta])* $memory:ident, $words:literal, $state:ty, $started:literal) => {
         $(#[$doc])*
@@ -26,7 +26,8 @@ macro_rules! machine {
 
         impl $memory {
             /// # Safety
-            /// `it` is null, or points to memory for one that is not accessed elsewhere during the call.
+            /// `it` is null, or points to memory for a machine that is not accessed elsewhere during the
+            /// call.
             unsafe fn start(it: *mut Self, state: $state) -> Result<(), Fault> {
                 if it.is_null() {
                     return Err(Fault::Pointer);
@@ -40,7 +41,7 @@ macro_rules! machine {
             }
 
             /// # Safety
-            /// `it` is null, or points to initialised memory, which need not be a started one.
+            /// `it` is null, or points to initialised memory, which need not be a started machine.
             unsafe fn state(it: *const Self) -> Result<*mut $state, Fault> {
                 if it.is_null() {
                     return Err(Fault::Pointer);
@@ -54,14 +55,14 @@ macro_rules! machine {
             }
 
             /// # Safety
-            /// As for `state`; it is not written during `'a`.
+            /// As for `state`; the machine is not written during `'a`.
             unsafe fn get<'a>(it: *const Self) -> Result<&'a $state, Fault> {
                 // SAFETY: the caller's contract; `start` has written a state there.
                 unsafe { Ok(&*Self::state(it)?) }
             }
 
             /// # Safety
-            /// As for `state`; only the returned reference accesses it during `'a`.
+            /// As for `state`; only the returned reference accesses the machine during `'a`.
             unsafe fn get_mut<'a>(it: *mut Self) -> Result<&'a mut $state, Fault> {
                 // SAFETY: the caller's contract; `start` has written a state there.
                 unsafe { Ok(&mut *Self::state(it)?) }
@@ -155,11 +156,11 @@ fn line_fault(kind: LineErrorKind) -> (u32, &'static str) {
 }
 
 /// Starts sending an NC program. The text must stay in place while the sender is used. If a line
-/// cannot be sent, the error has the line in `expected` and the column in `offset`.
+/// cannot be sent, `expected` of the error is the line, and `offset` the column.
 ///
 /// # Safety
-/// `sender` points to room for one; `text` to `length` bytes, as long as the sender is used; `error` is null
-/// or points to room for one.
+/// `sender` points to memory for a sender; `text` points to `length` bytes, which stay valid as long as the
+/// sender is used; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_start(
     sender: *mut AdsCncSender,
@@ -180,12 +181,12 @@ pub unsafe extern "C" fn ads_cnc_sender_start(
     unsafe { told(start(), error) }
 }
 
-/// The packet to write now; false if all packets were accepted, one was rejected, or the sender was
-/// never started.
+/// Returns the packet to write now; false if all packets were accepted, a packet was rejected, or the
+/// sender was never started.
 ///
 /// # Safety
-/// `sender` points to one that was started, its text still there; `packet` is null or points to room for
-/// one.
+/// `sender` points to a sender that was started and whose text is still valid; `packet` is null or points
+/// to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_packet(
     sender: *mut AdsCncSender,
@@ -202,7 +203,7 @@ pub unsafe extern "C" fn ads_cnc_sender_packet(
 /// acknowledgement.
 ///
 /// # Safety
-/// `sender` points to one that was started, its text still there.
+/// `sender` points to a sender that was started and whose text is still valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_acknowledge(
     sender: *mut AdsCncSender,
@@ -231,7 +232,7 @@ pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
 /// The progress of a sender; false if it was never started.
 ///
 /// # Safety
-/// `sender` points to one that was started; `progress` is null or points to room for one.
+/// `sender` points to a sender that was started; `progress` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_progress(
     sender: *const AdsCncSender,
@@ -285,8 +286,8 @@ pub unsafe extern "C" fn ads_cnc_service_id(
 /// Starts a host of services on one channel.
 ///
 /// # Safety
-/// `host` points to room for one; `ids` to as many as `count`, as long as the host is used; `error` is null
-/// or points to room for one.
+/// `host` points to memory for a host; `ids` points to `count` IDs, which stay valid as long as the host is
+/// used; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_start(
     host: *mut AdsCncHost,
@@ -295,7 +296,8 @@ pub unsafe extern "C" fn ads_cnc_host_start(
     error: *mut AdsCncError,
 ) -> bool {
     let start = || -> Result<(), Fault> {
-        // SAFETY: the caller's contract: they last as long as the host, and are transparent.
+        // SAFETY: the caller's contract: the IDs last as long as the host. `AdsCncServiceId` is
+        // transparent.
         let ids = unsafe { slice(ids.cast::<ServiceId>(), count)? };
         // SAFETY: the caller's contract.
         unsafe { AdsCncHost::start(host, Services::new(ids)) }
@@ -308,7 +310,8 @@ pub unsafe extern "C" fn ads_cnc_host_start(
 /// started.
 ///
 /// # Safety
-/// `host` points to one that was started, its IDs still there; `step` is null or points to room for one.
+/// `host` points to a host that was started and whose IDs are still valid; `step` is null or points to
+/// memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_step(
     host: *const AdsCncHost,
@@ -350,8 +353,8 @@ pub unsafe extern "C" fn ads_cnc_host_step(
 /// Reports the value that was read.
 ///
 /// # Safety
-/// `host` points to one that was started, its IDs still there; `value` to `length` bytes; `error` is null
-/// or points to room for one.
+/// `host` points to a host that was started and whose IDs are still valid; `value` points to `length`
+/// bytes; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_read(
     host: *mut AdsCncHost,
@@ -368,12 +371,12 @@ pub unsafe extern "C" fn ads_cnc_host_read(
     unsafe { told(read(), error) }
 }
 
-/// Answers the request that the host has handed out, with CP1252 without a NUL and a state that is not
-/// 0.
+/// Answers the request that the host has handed out, with a CP1252 text without a NUL and a state that is
+/// not 0.
 ///
 /// # Safety
-/// `host` points to one that was started, its IDs still there; `response` to `length` bytes; `error` is
-/// null or points to room for one.
+/// `host` points to a host that was started and whose IDs are still valid; `response` points to `length`
+/// bytes; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_answer(
     host: *mut AdsCncHost,
@@ -395,7 +398,7 @@ pub unsafe extern "C" fn ads_cnc_host_answer(
 /// unknown event, or if the host was never started.
 ///
 /// # Safety
-/// `host` points to one that was started, its IDs still there.
+/// `host` points to a host that was started and whose IDs are still valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_event(host: *mut AdsCncHost, event: u32) -> bool {
     // SAFETY: the caller's contract.
@@ -413,7 +416,7 @@ pub unsafe extern "C" fn ads_cnc_host_event(host: *mut AdsCncHost, event: u32) -
 /// The outcome of the last answer: `ADS_CNC_NO_OUTCOME`, `ADS_CNC_ANSWERED` or `ADS_CNC_ABANDONED`.
 ///
 /// # Safety
-/// `host` points to one that was started.
+/// `host` points to a host that was started.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_outcome(host: *const AdsCncHost) -> u32 {
     // SAFETY: the caller's contract.

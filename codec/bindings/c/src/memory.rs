@@ -3,7 +3,7 @@
 
 use crate::error::Fault;
 
-/// Bytes of the caller; null for no bytes.
+/// Bytes in memory of the caller; the pointer may be null if there are no bytes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[cfg_attr(test, derive(Debug))]
@@ -110,7 +110,8 @@ pub(crate) unsafe fn fill(
     Ok(())
 }
 
-/// Writes to an item of an array; does nothing beyond its end.
+/// Writes to item `at` of an array of the caller; does nothing if the array is null or `at` is after its
+/// end.
 ///
 /// # Safety
 /// `array` is null, or points to aligned memory for `room` items.

@@ -23,11 +23,11 @@ pub struct AdsCncRequest {
     pub function: u32,
     /// The channel, from 1; 0 is the platform, for functions that support it.
     pub channel: u32,
-    /// 1 if the channel or spindle is counted among the active ones.
+    /// 1 if the number counts only the active channels or spindles (addressing by index).
     pub by_index: u32,
     /// An axis of the channel, from 1; for a list of objects with channel 0, a platform axis.
     pub axis: u32,
-    /// Index of a variable, from 0; of a parameter or an object, from 1.
+    /// The index of a variable, from 0, or of a parameter or an object, from 1.
     pub index: u32,
     /// The number of descriptors to read.
     pub count: u32,
@@ -39,7 +39,7 @@ pub struct AdsCncRequest {
     pub index_group: u32,
     /// Index offset of an element or object.
     pub index_offset: u32,
-    /// Kind of variables or parameters, such as "V.E" or "P"; class, such as "decoder".
+    /// The kind of variables or parameters, such as "V.E" or "P", or the class, such as "decoder".
     pub kind: AdsCncBytes,
     /// Name of a variable or parameter, CP1252, without a NUL.
     pub name: AdsCncBytes,
@@ -82,7 +82,7 @@ impl AdsCncCall {
     }
 
     /// # Safety
-    /// `data` points to its bytes.
+    /// The pointer in `data` points to the bytes of the call.
     pub(crate) unsafe fn call<'a>(&self) -> Result<Call<'a>, Fault> {
         Ok(Call {
             port: AmsPort(u16::try_from(self.port).map_err(|_| Fault::Argument("port"))?),
@@ -96,7 +96,8 @@ impl AdsCncCall {
     }
 }
 
-/// Names that the codec displays but does not return as `&str`; a test compares them.
+/// Names that the codec displays but does not return as `&str`. A test compares them with the displayed
+/// names.
 pub(crate) const KINDS: [&str; 4] = ["P", "V.L", "V.P", "V.S"];
 pub(crate) const CLASSES: [&str; 6] =
     ["position controller", "interpolator", "decoder", "HLD", "path preparation", "spindle"];
@@ -144,7 +145,7 @@ impl<'a> Arguments<'a> {
         Ok(Kind::from_field(CncStr::from_bytes(self.kind)?.into()))
     }
 
-    /// The item of `all` whose name is in `kind`.
+    /// The item of `all` whose name is the argument `kind`.
     fn one_of<T>(&self, all: impl IntoIterator<Item = T>, names: &[&str]) -> Result<T, Fault> {
         let named = all.into_iter().zip(names).find(|(_, name)| name.as_bytes() == self.kind);
         named.map(|(one, _)| one).ok_or(Fault::Argument("kind"))
@@ -184,7 +185,7 @@ impl<'a> Arguments<'a> {
     }
 }
 
-/// Builds each operation from the arguments. The tables of the codec define the arguments of a function.
+/// Builds each operation from its arguments. The tables of the codec define which arguments a function has.
 macro_rules! operations {
     ($all:ident: $( $how:ident $function:ident($( $argument:expr ),+); )+) => {
         fn made<'a>(function: Function, $all: &Arguments<'a>) -> Result<Request<'a>, Fault> {
@@ -241,7 +242,8 @@ operations! { all:
 }
 
 /// # Safety
-/// `it` points to a request, and its pointers to as many items as it states; none is written during `'a`.
+/// `it` points to a request, and each pointer of the request to the number of items that the request
+/// states; none of these items is written during `'a`.
 unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
     // SAFETY: the caller's contract.
     let it = unsafe { get(it)? };
@@ -261,8 +263,8 @@ unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
 /// Encodes the data of a request to `buffer`, and writes the call to send to `call`.
 ///
 /// # Safety
-/// The pointers of the request point to what they count, `buffer` to `room` bytes; `call` and `error` are
-/// null or point to memory for one value.
+/// Each pointer of the request points to the number of items that the request states; `buffer` points to
+/// `room` bytes; `call` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_encode(
     request: *const AdsCncRequest,
@@ -286,8 +288,9 @@ pub unsafe extern "C" fn ads_cnc_encode(
 /// Checks the data of the reply to a request, and returns its fields.
 ///
 /// # Safety
-/// The pointers of the request point to what they count, `data` to `length` bytes, `fields` to room for as
-/// many as `room`; `count` and `error` are null or point to memory for one value.
+/// Each pointer of the request points to the number of items that the request states; `data` points to
+/// `length` bytes, `fields` to memory for `room` values; `count` and `error` are null or point to memory
+/// for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_decode_reply(
     request: *const AdsCncRequest,
@@ -314,7 +317,7 @@ pub unsafe extern "C" fn ads_cnc_decode_reply(
     unsafe { told(decode(), error) }
 }
 
-/// The arguments in the address of a call.
+/// Sets the arguments that the address of a call contains.
 fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
     let spec = function.spec();
     let Some(group) = call.index_group.parts() else { return };
@@ -324,7 +327,7 @@ fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
     };
     let text = |text: &str| AdsCncBytes::of(text.as_bytes());
     match (spec.group, group) {
-        // The address of an element is that of its content.
+        // As an argument, the address of an element is the address of its content.
         (GroupRule::Elements(_), Group::Class(parts)) => {
             let content = ClassGroup { attribute: Attribute::Content, ..parts };
             (it.index_group, it.index_offset) =
@@ -362,10 +365,10 @@ fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
     }
 }
 
-/// The arguments in the data of a call.
+/// Sets the arguments that the data of a call contains.
 ///
 /// # Safety
-/// `indices` points to room for as many numbers as `room`.
+/// `indices` points to memory for `room` numbers.
 unsafe fn data(
     function: Function,
     call: &Call<'_>,
@@ -405,8 +408,8 @@ unsafe fn data(
 /// call; `indices` needs room for up to 510 indices.
 ///
 /// # Safety
-/// `call` points to a call and that to its data, `indices` to room for as many numbers as `room`; `request`,
-/// `ads_error` and `error` are null or point to memory for one value.
+/// `call` points to a call, and the call to its data; `indices` points to memory for `room` numbers;
+/// `request`, `ads_error` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_dispatch(
     call: *const AdsCncCall,

@@ -17,9 +17,9 @@ pub struct AdsCncField {
     pub record: u32,
     /// The index of the item in a list, from 0.
     pub item: u32,
-    /// The offset of its bytes in the stream.
+    /// The offset of the bytes of the field in the stream.
     pub offset: u32,
-    /// The number of its bytes.
+    /// The number of bytes of the field.
     pub length: u32,
     /// The value of a number of at most four bytes; otherwise 0.
     pub number: u32,
@@ -37,7 +37,7 @@ pub struct AdsCncPart {
 }
 
 /// # Safety
-/// `fields` points to room for as many as `room`; `count` is null or points to room for a number.
+/// `fields` points to memory for `room` values; `count` is null or points to memory for one value.
 pub(crate) unsafe fn walk(
     stream: Stream,
     data: &[u8],
@@ -69,7 +69,7 @@ pub(crate) unsafe fn walk(
     // SAFETY: the caller's contract.
     unsafe { put(count, found) };
     walked?;
-    // Without an array the fields are counted.
+    // Without an array, the fields are only counted.
     match found > room && !fields.is_null() {
         true => Err(Fault::Room(found, room)),
         false => Ok(()),
@@ -79,8 +79,8 @@ pub(crate) unsafe fn walk(
 /// Checks a stream and returns its fields.
 ///
 /// # Safety
-/// `data` points to `length` bytes, `fields` to room for as many as `room`; `count` and `error` are null or
-/// point to room for one.
+/// `data` points to `length` bytes, `fields` to memory for `room` values; `count` and `error` are null or
+/// point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_decode(
     stream: u32,
@@ -142,8 +142,8 @@ unsafe fn part<'a>(stream: Stream, part: &AdsCncPart) -> Result<(Field, Bytes<'a
 /// Builds a stream from its fields.
 ///
 /// # Safety
-/// `parts` points to as many as `count` and each to its data, `buffer` to `room` bytes; `length` and `error`
-/// are null or point to memory for one value.
+/// `parts` points to `count` parts, and each part to its data; `buffer` points to `room` bytes; `length`
+/// and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_build(
     stream: u32,
@@ -162,7 +162,7 @@ pub unsafe extern "C" fn ads_cnc_build(
             // SAFETY: the caller's contract.
             unsafe { self::part(stream, part)? };
         }
-        // The second pass: the first one has checked all parts.
+        // The second pass over the parts cannot fail, because the first pass has checked all parts.
         // SAFETY: the caller's contract.
         let parts = parts.iter().filter_map(|part| unsafe { self::part(stream, part).ok() });
         // SAFETY: the caller's contract.
@@ -172,7 +172,7 @@ pub unsafe extern "C" fn ads_cnc_build(
     unsafe { told(build(), error) }
 }
 
-/// Writes bytes, and also counts the bytes that do not fit.
+/// An output buffer that also counts the bytes that do not fit.
 struct Out<'b> {
     buffer: &'b mut [u8],
     length: usize,
@@ -194,8 +194,8 @@ impl Out<'_> {
 /// Converts a text, and writes the length of the result to `length`.
 ///
 /// # Safety
-/// `data` points to as many bytes as its number, `buffer` to room for as many; `length` is null or points to
-/// room for one.
+/// `data` points to `size` bytes, `buffer` to memory for `room` bytes; `length` is null or points to
+/// memory for one value.
 unsafe fn convert(
     (data, size): (*const u8, u32),
     (buffer, room): (*mut u8, u32),
@@ -215,8 +215,8 @@ unsafe fn convert(
 /// the result, even if it does not fit.
 ///
 /// # Safety
-/// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to room
-/// for one.
+/// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to
+/// memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_text_to_utf8(
     data: *const u8,
@@ -240,8 +240,8 @@ pub unsafe extern "C" fn ads_cnc_text_to_utf8(
 /// fit.
 ///
 /// # Safety
-/// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to room
-/// for one.
+/// `data` points to `size` bytes, `buffer` to `room` bytes; `length` and `error` are null or point to
+/// memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_text_from_utf8(
     data: *const u8,

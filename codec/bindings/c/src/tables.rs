@@ -1,7 +1,7 @@
 //! The tables: functions, streams, fields and types, by number and by name.
 
 use codec::layout::{Field, FieldSpec, Size, Stream, Type};
-use codec::operation::{Effect, Function, GroupRule, OffsetRule, Service};
+use codec::operation::{Effect, Function, GroupRule, OffsetRule, AdsService};
 use codec::value::DataType;
 
 use crate::ADS_CNC_NONE;
@@ -62,7 +62,7 @@ pub struct AdsCncFieldInfo {
     pub size: u32,
     /// 1 if the field counts the items or bytes of the next one.
     pub is_count: u32,
-    /// 1 if the field is a list, with one item for each number.
+    /// 1 if the field is a list: each number is a separate item.
     pub is_list: u32,
 }
 
@@ -196,10 +196,10 @@ fn field_info(row: &FieldSpec, next: Option<&FieldSpec>) -> AdsCncFieldInfo {
     }
 }
 
-/// Writes information to memory of the caller; returns whether there is any.
+/// Writes information, if there is any, to memory of the caller; returns whether there is any.
 ///
 /// # Safety
-/// Unless it is null, `out` points to room for a `T`.
+/// `out` is null or points to memory for one value.
 unsafe fn give<T>(info: Option<T>, out: *mut T) -> bool {
     let is_there = info.is_some();
     if let Some(info) = info {
@@ -209,7 +209,7 @@ unsafe fn give<T>(info: Option<T>, out: *mut T) -> bool {
     is_there
 }
 
-/// The number of the function with this name, in either form.
+/// The number of the function with this name, either its name in reports or its name in programs.
 ///
 /// # Safety
 /// `name` points to `length` bytes.
@@ -248,7 +248,7 @@ pub unsafe extern "C" fn ads_cnc_field(stream: u32, name: *const u8, length: u32
 /// The information about a function; false if no function has this number.
 ///
 /// # Safety
-/// `info` is null or points to room for the information.
+/// `info` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_function_info(number: u32, info: *mut AdsCncFunctionInfo) -> bool {
     let found = function(number).map(|function| {
@@ -277,7 +277,7 @@ pub unsafe extern "C" fn ads_cnc_function_info(number: u32, info: *mut AdsCncFun
 /// The name of an argument; false if no argument has this number.
 ///
 /// # Safety
-/// `name` is null or points to room for it.
+/// `name` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_argument_name(number: u32, name: *mut AdsCncBytes) -> bool {
     let at = to_usize(number).checked_sub(1);
@@ -288,7 +288,7 @@ pub unsafe extern "C" fn ads_cnc_argument_name(number: u32, name: *mut AdsCncByt
 /// The information about a stream; false if no stream has this number.
 ///
 /// # Safety
-/// `info` is null or points to room for the information.
+/// `info` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_stream_info(number: u32, info: *mut AdsCncStreamInfo) -> bool {
     let found = stream(number).map(|stream| {
@@ -308,7 +308,7 @@ pub unsafe extern "C" fn ads_cnc_stream_info(number: u32, info: *mut AdsCncStrea
 /// The information about a field; false if the stream has no field with this number.
 ///
 /// # Safety
-/// `info` is null or points to room for the information.
+/// `info` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_field_info(
     stream: u32,
@@ -326,7 +326,7 @@ pub unsafe extern "C" fn ads_cnc_field_info(
 /// The information about a type; false if no type has this number.
 ///
 /// # Safety
-/// `info` is null or points to room for the information.
+/// `info` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_type(number: u32, info: *mut AdsCncType) -> bool {
     let found = DataType::ALL.get(to_usize(number)).map(|it| AdsCncType {
@@ -346,8 +346,8 @@ pub unsafe extern "C" fn ads_cnc_type(number: u32, info: *mut AdsCncType) -> boo
     unsafe { give(found, info) }
 }
 
-pub(crate) fn service(command: u32) -> Option<Service> {
-    [Service::Read, Service::Write, Service::ReadWrite]
+pub(crate) fn service(command: u32) -> Option<AdsService> {
+    [AdsService::Read, AdsService::Write, AdsService::ReadWrite]
         .into_iter()
         .find(|it| u32::from(it.command().0) == command)
 }

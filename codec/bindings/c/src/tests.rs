@@ -1,4 +1,4 @@
-//! The functions as C calls them.
+//! Tests of the functions, called like from C.
 
 #![allow(clippy::as_conversions, clippy::indexing_slicing, clippy::unwrap_used, clippy::panic)]
 #![allow(clippy::arithmetic_side_effects, reason = "tests may fail")]
@@ -51,14 +51,14 @@ fn bytes(text: &str) -> AdsCncBytes {
 }
 
 fn number(name: &str) -> u32 {
-    // SAFETY: the name is a slice.
+    // SAFETY: pointer and length are those of a slice.
     unsafe { ads_cnc_function(name.as_ptr(), name.len() as u32) }
 }
 
 /// Encodes to a new buffer.
 fn encode(request: &AdsCncRequest, room: u32) -> Result<(AdsCncCall, Vec<u8>), String> {
     let (mut buffer, mut call, mut error) = (vec![0; to_usize(room)], zero::<AdsCncCall>(), zero());
-    // SAFETY: all of it is there.
+    // SAFETY: all pointers are valid.
     match unsafe { ads_cnc_encode(request, buffer.as_mut_ptr(), room, &mut call, &mut error) } {
         true => {
             buffer.truncate(to_usize(call.data.length));
@@ -71,7 +71,7 @@ fn encode(request: &AdsCncRequest, room: u32) -> Result<(AdsCncCall, Vec<u8>), S
 fn dispatch(call: &AdsCncCall, indices: &mut [u32]) -> Result<AdsCncRequest, (u32, String)> {
     let (mut request, mut number, mut error) = (zero(), 77, zero());
     let (room, count) = (indices.as_mut_ptr(), indices.len() as u32);
-    // SAFETY: all of it is there.
+    // SAFETY: all pointers are valid.
     match unsafe { ads_cnc_dispatch(call, room, count, &mut request, &mut number, &mut error) } {
         true => Ok(request),
         false => Err((number, text(&error))),
@@ -86,9 +86,9 @@ fn decode(stream: u32, data: &[u8]) -> Result<Vec<AdsCncField>, String> {
     let mut fields: Vec<MaybeUninit<AdsCncField>> = Vec::new();
     fields.resize_with(to_usize(count), MaybeUninit::uninit);
     let room = fields.as_mut_ptr().cast();
-    // SAFETY: all of it is there.
+    // SAFETY: all pointers are valid.
     match unsafe { ads_cnc_decode(stream, at, length, room, count, &mut count, &mut error) } {
-        // SAFETY: they were written.
+        // SAFETY: the function has written all fields.
         true => Ok(fields.into_iter().map(|it| unsafe { it.assume_init() }).collect()),
         false => Err(text(&error)),
     }
@@ -97,7 +97,7 @@ fn decode(stream: u32, data: &[u8]) -> Result<Vec<AdsCncField>, String> {
 fn build(stream: u32, parts: &[AdsCncPart], room: usize) -> Result<Vec<u8>, String> {
     let (mut buffer, mut length, mut error) = (vec![0; room], 0, zero());
     let (at, count) = (parts.as_ptr(), parts.len() as u32);
-    // SAFETY: all of it is there.
+    // SAFETY: all pointers are valid.
     let is_built = unsafe {
         ads_cnc_build(stream, at, count, buffer.as_mut_ptr(), room as u32, &mut length, &mut error)
     };
@@ -107,7 +107,7 @@ fn build(stream: u32, parts: &[AdsCncPart], room: usize) -> Result<Vec<u8>, Stri
 
 macro_rules! layouts {
     ($( $type:ident { $( $field:ident ),* } )+) => {
-        /// Size and offsets here, as rows of tests/layout.h.
+        /// The sizes and offsets of the structs in Rust, in the form of the rows of tests/layout.h.
         fn layouts() -> Vec<(String, usize)> {
             let mut rows = Vec::new();
             $(
@@ -148,7 +148,8 @@ layouts! {
     AdsCncHostStep { kind, service, request_state, variable, data }
 }
 
-/// The header is compiled against the same rows: `codec/bindings/run` compiles tests/layout.c.
+/// The structs in Rust have the layout in tests/layout.h. `codec/bindings/run` compiles tests/layout.c,
+/// which checks the structs of the C header against the same rows.
 #[test]
 fn layouts_of_structs_equal_those_of_the_header() {
     let rows: Vec<&str> = include_str!("../tests/layout.h").lines().collect();
@@ -177,13 +178,13 @@ fn names_equal_those_that_the_codec_displays() {
     assert!(header.contains(&format!("\n#define ADS_CNC_ABI {}\n", ads_cnc_abi())));
 }
 
-/// A function encodes with exactly the arguments in its row.
+/// A function needs exactly the arguments that its row in the table lists.
 #[test]
 fn functions_take_the_arguments_that_they_list() {
     let mut seen = Vec::new();
     for at in 0..30 {
         let mut info = zero::<AdsCncFunctionInfo>();
-        // SAFETY: `info` has room for the information.
+        // SAFETY: the last argument points to memory for one value.
         assert!(unsafe { ads_cnc_function_info(at, &mut info) });
         let mut request = AdsCncRequest { function: at, ..zero() };
         let operation = string(info.operation);
@@ -195,7 +196,7 @@ fn functions_take_the_arguments_that_they_list() {
                 4 => request.count = 1,
                 5 => request.size = 8,
                 6 => request.handle = 7,
-                // An object of COM, or an element of the HLD.
+                // The group of an object of COM, or of an element of the HLD.
                 7 => {
                     request.index_group =
                         if operation.ends_with("Object") { 0x12_0101 } else { 0x12_3301 }
@@ -241,7 +242,7 @@ fn functions_take_the_arguments_that_they_list() {
     seen.sort_unstable();
     seen.dedup();
     assert_eq!(seen, (1..=12).collect::<Vec<_>>());
-    // SAFETY: null is not written to.
+    // SAFETY: the functions do not write to a null pointer.
     unsafe {
         assert!(!ads_cnc_function_info(30, null_mut()) && ads_cnc_function_info(29, null_mut()));
         assert!(!ads_cnc_argument_name(0, null_mut()) && !ads_cnc_argument_name(13, null_mut()));
@@ -315,7 +316,7 @@ fn streams_are_decoded_and_built() {
     for (stream, samples) in SAMPLES {
         let number = stream_number(*stream);
         let name = stream.layout().name;
-        // SAFETY: the name is a slice.
+        // SAFETY: pointer and length are those of a slice.
         assert_eq!(unsafe { ads_cnc_stream(name.as_ptr(), name.len() as u32) }, number);
         for sample in *samples {
             let data = sample.bytes();
@@ -335,7 +336,7 @@ fn streams_are_decoded_and_built() {
                     .iter()
                     .filter_map(|it| {
                         let mut info = zero();
-                        // SAFETY: `info` has room for the information.
+                        // SAFETY: the last argument points to memory for one value.
                         assert!(unsafe { ads_cnc_field_info(number, it.field, &mut info) });
                         let is_number = by_number && [1, 2].contains(&info.kind) && info.size > 0;
                         let data =
@@ -382,7 +383,7 @@ fn replies_are_compared_with_their_request() {
     let reply = |request: &AdsCncRequest, data: &[u8]| {
         let (mut count, mut error) = (77, zero());
         let (at, length) = (data.as_ptr(), data.len() as u32);
-        // SAFETY: all of it is there.
+        // SAFETY: all pointers are valid.
         let is_one = unsafe {
             ads_cnc_decode_reply(request, at, length, null_mut(), 0, &mut count, &mut error)
         };
@@ -407,7 +408,7 @@ fn replies_are_compared_with_their_request() {
 fn addresses_are_parsed() {
     let words = |group| {
         let mut it = zero::<AdsCncGroup>();
-        // SAFETY: `info` has room for the information.
+        // SAFETY: the last argument points to memory for one value.
         let is_there = unsafe { ads_cnc_group(group, &mut it) };
         let all = [it.task, it.access, it.addressing, it.table, it.object_class, it.attribute];
         is_there.then(|| (all.map(string).join(" "), it.instance))
@@ -417,7 +418,7 @@ fn addresses_are_parsed() {
     assert_eq!(words(0x2_5403).unwrap().0, "SDA/GEO element index  spindle name");
     assert_eq!(words(0x13_3301), None);
     let (mut offset, mut axis, mut element, mut error) = (0, 0, 0, zero());
-    // SAFETY: there is room for them.
+    // SAFETY: all pointers are valid.
     unsafe {
         assert!(ads_cnc_offset(0x1_0000, 2, 5, &mut offset, null_mut()) && offset == 0x2_0005);
         assert!(ads_cnc_offset_parts(0x1000, offset, &mut axis, &mut element, null_mut()));
@@ -437,7 +438,7 @@ fn names_are_parsed() {
     let parts = |name: &[u8]| {
         let (mut parts, mut count, mut error) = ([0; 9].map(|_| zero::<AdsCncField>()), 0, zero());
         let (at, length) = (name.as_ptr(), name.len() as u32);
-        // SAFETY: all of it is there.
+        // SAFETY: all pointers are valid.
         match unsafe { ads_cnc_path(at, length, parts.as_mut_ptr(), 9, &mut count, &mut error) } {
             true => Ok(parts[..to_usize(count)]
                 .iter()
@@ -483,7 +484,7 @@ fn texts_are_converted_both_ways() {
     let convert = |by: Convert, text: &[u8], room: u32| {
         let (mut buffer, mut length, mut error) = (vec![0; to_usize(room)], 0, zero());
         let (at, size) = (text.as_ptr(), text.len() as u32);
-        // SAFETY: all of it is there.
+        // SAFETY: all pointers are valid.
         let is_done = unsafe { by(at, size, buffer.as_mut_ptr(), room, &mut length, &mut error) };
         buffer.truncate(to_usize(length));
         (is_done, length, buffer, error)
@@ -501,7 +502,7 @@ fn texts_are_converted_both_ways() {
     );
     let (is_done, .., error) = convert(ads_cnc_text_from_utf8, b"\xFF", 7);
     assert_eq!((is_done, error.kind), (false, 36));
-    // All bytes except NUL are converted and back.
+    // All bytes except NUL are converted to UTF-8 and back.
     let all: Vec<u8> = (1..=255).collect();
     let utf8 = convert(ads_cnc_text_to_utf8, &all, 1000).2;
     assert_eq!(convert(ads_cnc_text_from_utf8, &utf8, 1000).2, all);

@@ -1,4 +1,4 @@
-/* Type, field, offset with pointers of 64 and of 32 bits. */
+/* Type, field, and the size or offset with pointers of 64 bits and of 32 bits. */
 SIZE(AdsCncBytes, 16, 8)
 FIELD(AdsCncBytes, data, 0, 0)
 FIELD(AdsCncBytes, length, 8, 4)

@@ -25,7 +25,7 @@ const bytes = (at, size) => new Uint8Array(codec.memory.buffer, at, size);
 const taken = (at, size) => bytes(at, size).slice();
 const numbers = (at, count) => Array.from({ length: count }, (_, n) => u32(at + 4 * n));
 
-/** The address of a copy; not null, even for an empty one. */
+/** Copies data to the scratch memory; returns the address, which is not null even if the data is empty. */
 function put(data) {
   const at = room(data.length + 1);
   bytes(at, data.length).set(data);
@@ -53,7 +53,7 @@ export class AdsCncError extends Error {
         (expected || found ? `, expected ${expected}, found ${found}` : ''),
     );
     Object.assign(this, { name: 'AdsCncError', stream, field, offset, kind, expected, found, adsError: 0 });
-    // Its number is for this module.
+    // The number of the class, which only this module uses.
     Object.defineProperty(this, 'number', { value: u32(at) });
   }
 }
@@ -79,13 +79,13 @@ function sized(size, name, ...given) {
   }
 }
 
-/** Runs a function with all of the scratch memory. */
+/** Frees the scratch memory, then runs a function, which may use all of it. */
 function begin(work) {
   top = BASE;
   return work();
 }
 
-/** The rows of a table, from 0 on. */
+/** The rows of a table of the library, in the order of their numbers. */
 function each(name, size, read, ...before) {
   const rows = [],
     at = room(size);
@@ -274,7 +274,7 @@ const NUMBERS = 'function channel by_index axis index count size handle index_gr
 );
 const TEXTS = ['kind', 'name', 'value'];
 
-/** The address of an AdsCncRequest. Texts must be converted before, because that uses the same memory. */
+/** Writes an AdsCncRequest; returns its address. Convert texts first, because that uses the same memory. */
 function putRequest(number, given) {
   const plain = NUMBERS.map((name) => {
     const value = name === 'function' ? number : Number(given[name] ?? 0);
@@ -295,7 +295,7 @@ const callAt = (at) => ({
 });
 const putCall = (it) => putNumbers(...CALL.map((name) => it[name]), put(it.data), it.data.length);
 
-/** A function of this module for a function of the CNC. */
+/** Creates the function of this module for a function of the CNC. */
 function operation(number) {
   const it = FUNCTIONS[number];
   return (...values) => {
@@ -542,7 +542,7 @@ export function pack(type, value) {
   return data;
 }
 
-// The state machines. Every call copies their memory to the same address.
+// The state machines. Every call copies the memory of a machine to the same address, and back afterwards.
 
 class Machine {
   #memory;
@@ -552,7 +552,7 @@ class Machine {
     [this.#kept, this.#memory] = [kept, new Uint8Array(size)];
   }
 
-  /** Returns the addresses of the kept data and of the machine. */
+  /** Calls a function with the address of the machine and of the data that the machine points to. */
   use(work) {
     return begin(() => {
       const kept = put(this.#kept),

@@ -1,4 +1,4 @@
-// Compiled by tsc --strict: what a program writes has the types that it expects.
+// tsc --strict compiles this file, to check that results have the types that a program expects.
 import * as cnc from 'ads-cnc';
 
 const description: cnc.VariableDescription = cnc.describeByIndex(1, 2, 'V.E').decode(new Uint8Array());

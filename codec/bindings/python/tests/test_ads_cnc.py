@@ -12,7 +12,7 @@ PLACE = {"index_group": 0x120101, "index_offset": 3}
 
 
 def arguments(function):
-    """Arguments that a function takes."""
+    """Valid arguments for a function."""
     given = dict(
         channel=1, axis=1, index=1, count=1, size=8, handle=7, kind="P", name="V.E.a", indices=[4, 5]
     )

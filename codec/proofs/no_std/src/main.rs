@@ -8,7 +8,7 @@ use core::panic::PanicInfo;
 
 use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef};
-use ads_cnc::operation::{Call, Operation, ReadByName, Request, Service};
+use ads_cnc::operation::{Call, Operation, ReadByName, Request, AdsService};
 use ads_cnc::{Decode, DescriptionRef, DescriptorsRef, Encode, Error, HandleReadRef};
 
 #[cfg(feature = "alloc")]
@@ -17,7 +17,7 @@ mod bump;
 mod everything;
 mod memory;
 
-// The kernel does not align the stack as calls require.
+// Align the stack to 16 bytes, as calls require; the kernel does not guarantee this alignment.
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
 
 extern "C" fn main() -> ! {
@@ -41,7 +41,7 @@ fn prove() -> Result<bool, Error> {
     let op = ReadByName::new(Channel::new(1)?, "V.E.Testvar")?;
     let call = Call {
         port: AmsPort::SDA,
-        service: Service::ReadWrite,
+        service: AdsService::ReadWrite,
         index_group: op.index_group(),
         index_offset: op.index_offset(),
         read_length: op.read_length(),
@@ -63,7 +63,7 @@ fn prove() -> Result<bool, Error> {
     Ok(good)
 }
 
-/// Prevents the compiler from evaluating the bytes.
+/// Hides the bytes from the compiler, so that it cannot evaluate the decoding of constants.
 fn opaque(bytes: &[u8]) -> &[u8] {
     core::hint::black_box(bytes)
 }
@@ -81,7 +81,7 @@ unsafe extern "C" {
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
     #[cfg(feature = "no_panic")]
-    // SAFETY: never runs, because a program that could run it does not link.
+    // SAFETY: this call never runs, because a program that contains it does not link.
     unsafe {
         a_panic_is_left_in_the_codec()
     }

@@ -1,4 +1,5 @@
-//! Generic functions with the types that they are used with, and unnamed iterators, run to their end.
+//! Generic functions, instantiated with the types that programs use, and functions that return unnamed
+//! iterators, which are run to their end.
 
 pub(crate) mod views {
     use ads_cnc::{CncStr, DescriptorRef, DescriptorsRef, U32List};

@@ -1,5 +1,5 @@
-//! Keeps functions of the codec in a program as if they were called, and does nothing else, so that the size of
-//! the program is theirs. The script `run` generates the list of functions.
+//! Keeps functions of the codec in a program as if they were called, and does nothing else, so that the
+//! size of the program is theirs. The script `run` generates the list of functions.
 
 #![no_std]
 #![no_main]
@@ -15,13 +15,13 @@ mod generic;
 #[path = "../../no_std/src/memory.rs"]
 mod memory;
 
-/// The address of a function.
+/// The address of a function; a static with the address keeps the function in the program.
 struct Kept(#[allow(dead_code, reason = "the linker follows it")] *const ());
 
 // SAFETY: the address is never dereferenced.
 unsafe impl Sync for Kept {}
 
-/// Keeps functions. Their addresses are in a section that is not measured.
+/// Keeps functions in the program. Their addresses are in a section that is not measured.
 macro_rules! keep {
     ($( $function:expr ),* $(,)?) => {
         #[unsafe(link_section = ".kept")]
@@ -32,7 +32,7 @@ macro_rules! keep {
 
 use keep;
 
-/// The functions that are kept by their paths.
+/// The generated list of the functions that are kept by their paths.
 mod kept {
     #![allow(unused_imports, reason = "not every program keeps all of it")]
     use ads_cnc::operation::Operation;

@@ -150,9 +150,10 @@ impl<'a> VariablePath<'a> {
         }
         // Find the first character that differs; every kind has at least three.
         let mut wanted = Kind::V_A.text().chars();
-        let other = (0_u32..).zip(kind.chars()).find(|&(_, there)| wanted.next() != Some(there));
-        let (at, there) = other.map_or((0, 0), |(at, there)| (at, u32::from(there)));
-        Err(Error::new(ErrorKind::Unexpected, KIND, at, 0, there))
+        let other =
+            (0_u32..).zip(kind.chars()).find(|&(_, character)| wanted.next() != Some(character));
+        let (at, character) = other.map_or((0, 0), |(at, character)| (at, u32::from(character)));
+        Err(Error::new(ErrorKind::Unexpected, KIND, at, 0, character))
     }
 }
 

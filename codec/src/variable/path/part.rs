@@ -1,6 +1,7 @@
 //! The parts of a name.
 
 use core::fmt;
+use core::iter::FusedIterator;
 
 use super::super::U32List;
 use crate::text::CncStr;
@@ -72,3 +73,5 @@ impl<'a> Iterator for PathParts<'a> {
         Some(PathPart { name, indices: U32List::from_name(indices.raw()) })
     }
 }
+
+impl FusedIterator for PathParts<'_> {}

@@ -1,7 +1,7 @@
 //! Operations of a client, and the table of functions.
 
 use ads_cnc::address::{Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
-use ads_cnc::operation::{Request, Service, Task};
+use ads_cnc::operation::{AdsService, Request, Task};
 use ads_cnc::*;
 
 use super::{ROOM, any, seen, text};
@@ -137,18 +137,18 @@ pub(super) fn rules(bytes: &[u8]) -> Result<(), Error> {
         seen(operation::OffsetRule::contains(spec.offset, offset));
         seen(group.parts().map(|parts| operation::GroupRule::contains(spec.group, parts)));
     }
-    for service in [Service::Read, Service::Write, Service::ReadWrite] {
-        seen(operation::Service::command(service));
+    for service in [AdsService::Read, AdsService::Write, AdsService::ReadWrite] {
+        seen(operation::AdsService::command(service));
     }
     for task in [Task::Com, Task::Geo, Task::Sda].map(any) {
-        let (port, service) = (operation::Task::port(task), any(Service::ReadWrite));
+        let (port, service) = (operation::Task::port(task), any(AdsService::ReadWrite));
         seen(operation::Task::from_port(ads::AmsPort(any(port.0))));
         let (index_group, index_offset, read_length) = (group, offset, any(4));
         let call =
             operation::Call { port, service, index_group, index_offset, read_length, data: bytes };
         match operation::Call::dispatch(&call) {
             Ok(found) => request(found, bytes),
-            Err(refusal) => seen(operation::DispatchError::ads_error(refusal)),
+            Err(error_of) => seen(operation::DispatchError::ads_error(error_of)),
         }
     }
     Ok(())

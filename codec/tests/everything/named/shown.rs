@@ -48,7 +48,7 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     show::<ads::AmsNetId>(text(bytes, "1.2.3.4.5.6").parse().unwrap_or(net_id));
     show::<ads::AmsPort>(port);
     show::<dynamic::DynamicKind>(any(dynamic::DynamicKind::VS));
-    show::<operation::Service>(any(operation::Service::Write));
+    show::<operation::AdsService>(any(operation::AdsService::Write));
     show::<service::ServiceVariable>(any(service::ServiceVariable::Uuid));
     #[cfg(feature = "alloc")]
     show::<streaming::LoopWord>(any(streaming::LoopWord::For));
@@ -90,14 +90,14 @@ fn codes() {
 fn refusals(bytes: &[u8]) {
     let call = operation::Call {
         port: AmsPort(any(552)),
-        service: any(operation::Service::Write),
+        service: any(operation::AdsService::Write),
         index_group: IndexGroup::new(any(1)),
         index_offset: IndexOffset::new(any(1)),
         read_length: any(1),
         data: bytes,
     };
-    if let Err(refusal) = call.dispatch() {
-        show::<operation::DispatchError>(refusal);
+    if let Err(error_of) = call.dispatch() {
+        show::<operation::DispatchError>(error_of);
     }
 }
 

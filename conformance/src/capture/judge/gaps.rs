@@ -9,9 +9,9 @@ use ads_cnc_vectors::ids::*;
 
 use super::super::frames::{Span, is_cnc, is_reply};
 use super::super::observation::CapturedFrames;
-use super::super::table::{Ending, SegmentDirection};
+use super::super::table::{ConnectionEnd, SegmentDirection};
 use super::super::tally::count;
-use super::super::tcp::Mark;
+use super::super::tcp::CapturePosition;
 use super::pair::REORDERED_MAX;
 use super::{CapturedFrame, ConnectionLoss, REPLY_TIMEOUT, TrafficJudge, location};
 use crate::evidence::Describe;
@@ -24,41 +24,44 @@ impl TrafficJudge {
         &mut self,
         error: Error,
         bytes: &[u8],
-        way: &SegmentDirection,
+        direction: &SegmentDirection,
         span: Span,
     ) {
-        let observation = CapturedFrames::Bytes(bytes, location(way, Some(span), None));
-        let case = self.side(way);
+        let observation = CapturedFrames::Bytes(bytes, location(direction, Some(span), None));
+        let case = self.side(direction);
         self.rules.records.on(case, &observation).check(
             ADS_5,
             false,
             "the headers of a frame",
             error,
         );
-        self.lost.entry(way.connection).or_default().gap = Some(span.last.packet);
+        self.lost.entry(direction.connection).or_default().gap = Some(span.last.packet);
     }
 
     /// The side that sent the bytes, according to the ports.
-    fn side(&self, way: &SegmentDirection) -> Topic {
-        let asks = self.waiting.range((way.connection, 0)..=(way.connection, u32::MAX)).next();
+    fn side(&self, direction: &SegmentDirection) -> Topic {
+        let asks =
+            self.waiting.range((direction.connection, 0)..=(direction.connection, u32::MAX)).next();
         match asks.and_then(|(_, all)| all.front()) {
-            Some(asked) if asked.way.from == way.from => Topic::ClientFrames,
+            Some(request_frame) if request_frame.direction.from == direction.from => {
+                Topic::ClientFrames
+            }
             Some(_) => Topic::CncFrames,
             // The listener usually has the lower port.
-            None if way.to.port() < way.from.port() => Topic::ClientFrames,
+            None if direction.to.port() < direction.from.port() => Topic::ClientFrames,
             None => Topic::CncFrames,
         }
     }
 
     /// Handles the beginning of a frame whose rest was not captured.
-    pub(super) fn cut(&mut self, bytes: &[u8], way: &SegmentDirection, span: Span) {
-        let observation = CapturedFrames::Bytes(bytes, location(way, Some(span), None));
+    pub(super) fn cut(&mut self, bytes: &[u8], direction: &SegmentDirection, span: Span) {
+        let observation = CapturedFrames::Bytes(bytes, location(direction, Some(span), None));
         let there = bytes.len();
         let found = || format!("{} of a frame whose rest was not captured", plural(there, "byte"));
         let begin = FrameRef::HEADERS_LEN.saturating_sub(AMS_HEADER_LEN);
         let header = bytes.get(begin..FrameRef::HEADERS_LEN).map(AmsHeader::decode);
         let Some(Ok(header)) = header else {
-            let case = self.side(way);
+            let case = self.side(direction);
             self.rules.records.on(case, &observation).open(ADS_5, found);
             return;
         };
@@ -75,12 +78,13 @@ impl TrafficJudge {
             }
             return;
         }
-        let asked = self.forget((way.connection, header.invoke_id), 0);
-        let asked = asked.filter(|asked| is_cnc(asked.header.target.port));
-        let Some(asked) = asked else { return };
-        let rule = service_clause(asked.header.command);
+        let request_frame = self.forget((direction.connection, header.invoke_id), 0);
+        let request_frame =
+            request_frame.filter(|request_frame| is_cnc(request_frame.header.target.port));
+        let Some(request_frame) = request_frame else { return };
+        let rule = service_clause(request_frame.header.command);
         self.open_service(Topic::CncServices, Topic::CncFrames, &observation, rule, found);
-        self.open_function(&asked, &observation, found);
+        self.open_function(&request_frame, &observation, found);
     }
 
     fn open_service(
@@ -98,11 +102,11 @@ impl TrafficJudge {
     /// Makes the requirement of the requested function inconclusive after a lost reply.
     fn open_function(
         &mut self,
-        asked: &CapturedFrame,
+        request_frame: &CapturedFrame,
         observation: &dyn Observation,
         found: impl Describe,
     ) {
-        let Ok(Some((frame, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
+        let Ok(Some((frame, _))) = FrameRef::split(&request_frame.frame, u32::MAX) else { return };
         let Ok(Some(call)) = Call::from_frame(&frame) else { return };
         let Ok(request) = call.dispatch() else { return };
         let spec = request.function().spec();
@@ -112,19 +116,19 @@ impl TrafficJudge {
         }
     }
 
-    pub(super) fn gap(&mut self, length: u64, way: &SegmentDirection, mark: Mark) {
+    pub(super) fn gap(&mut self, length: u64, direction: &SegmentDirection, mark: CapturePosition) {
         count(&mut self.tally.gaps);
-        self.lost.entry(way.connection).or_default().gap = Some(mark.packet);
+        self.lost.entry(direction.connection).or_default().gap = Some(mark.packet);
         self.gap = self.gap.max(Some(mark.packet));
         self.rules.forget_cncs();
         let span = Span { first: mark, last: mark, end: 0 };
-        let observation = CapturedFrames::Bytes(&[], location(way, Some(span), None));
+        let observation = CapturedFrames::Bytes(&[], location(direction, Some(span), None));
         let found = || format!("{} missing before this packet", plural(length, "byte"));
-        let case = self.side(way);
+        let case = self.side(direction);
         self.rules.records.on(case, &observation).open(ADS_5, found);
     }
 
-    pub(super) fn ended(&mut self, ending: Ending) {
+    pub(super) fn ended(&mut self, ending: ConnectionEnd) {
         let connection = ending.connection;
         self.judge_all_unmatched(connection);
         let mut lost = self.lost.remove(&connection).unwrap_or_default();
@@ -135,12 +139,12 @@ impl TrafficJudge {
         let keys = self.waiting.range((connection, 0)..=(connection, u32::MAX));
         let keys: Vec<_> = keys.map(|(key, _)| *key).collect();
         let is_missed = !keys.is_empty() || (!lost.unasked.is_empty() && !lost.is_running);
-        if let Some(way) = ending.unseen.filter(|_| is_missed) {
-            self.one_sided(&way, !keys.is_empty());
+        if let Some(direction) = ending.unseen.filter(|_| is_missed) {
+            self.one_sided(&direction, !keys.is_empty());
         }
         for key in keys {
-            while let Some(asked) = self.forget(key, 0) {
-                self.unanswered(&asked, &lost, ending);
+            while let Some(request_frame) = self.forget(key, 0) {
+                self.unanswered(&request_frame, &lost, ending);
             }
         }
         // If the beginning of the connection was not captured, these replies may belong to requests
@@ -153,8 +157,8 @@ impl TrafficJudge {
     }
 
     /// Handles a connection of which one direction was not captured.
-    fn one_sided(&mut self, way: &SegmentDirection, is_cnc: bool) {
-        let observation = CapturedFrames::Bytes(&[], location(way, None, None));
+    fn one_sided(&mut self, direction: &SegmentDirection, is_cnc: bool) {
+        let observation = CapturedFrames::Bytes(&[], location(direction, None, None));
         let (case, found) = if is_cnc {
             (Topic::CncFrames, "no segment sent by the CNC was captured")
         } else {
@@ -163,16 +167,23 @@ impl TrafficJudge {
         self.rules.records.on(case, &observation).open(ADS_5, found);
     }
 
-    fn unanswered(&mut self, asked: &CapturedFrame, lost: &ConnectionLoss, ending: Ending) {
+    fn unanswered(
+        &mut self,
+        request_frame: &CapturedFrame,
+        lost: &ConnectionLoss,
+        ending: ConnectionEnd,
+    ) {
         count(&mut self.tally.unanswered);
-        let observation =
-            CapturedFrames::Bytes(&asked.frame, location(&asked.way, Some(asked.span), None));
-        let packet = asked.span.last.packet;
+        let observation = CapturedFrames::Bytes(
+            &request_frame.frame,
+            location(&request_frame.direction, Some(request_frame.span), None),
+        );
+        let packet = request_frame.span.last.packet;
         if lost.gap.is_some_and(|gap| gap.saturating_add(REORDERED_MAX) >= packet) {
-            self.open_function(asked, &observation, "the reply may be in a gap");
+            self.open_function(request_frame, &observation, "the reply may be in a gap");
             return;
         }
-        let waited = match (self.now, asked.span.last.time) {
+        let waited = match (self.now, request_frame.span.last.time) {
             (Some(now), Some(then)) => now.since(then),
             _ => return,
         };
@@ -180,7 +191,7 @@ impl TrafficJudge {
         // were captured.
         let followed = ending.unseen.is_none() && ending.last > packet;
         if waited > REPLY_TIMEOUT && !lost.joined && followed {
-            let rule = service_clause(asked.header.command);
+            let rule = service_clause(request_frame.header.command);
             let found = || format!("none within {} s", waited.as_secs());
             let case = if rule == ADS_5 { Topic::CncFrames } else { Topic::CncServices };
             self.rules.records.on(case, &observation).check(rule, false, "an answer", found);

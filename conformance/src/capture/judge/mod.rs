@@ -30,7 +30,7 @@ struct CapturedFrame {
     number: u64,
     frame: Vec<u8>,
     header: AmsHeader,
-    way: SegmentDirection,
+    direction: SegmentDirection,
     span: Span,
 }
 
@@ -83,8 +83,12 @@ pub(super) struct TrafficJudge {
     newest: u64,
 }
 
-fn location(way: &SegmentDirection, asked: Option<Span>, answered: Option<Span>) -> Location {
-    Location { from: way.from, to: way.to, asked, answered }
+fn location(
+    direction: &SegmentDirection,
+    request_frame: Option<Span>,
+    answered: Option<Span>,
+) -> Location {
+    Location { from: direction.from, to: direction.to, request: request_frame, reply: answered }
 }
 
 impl TrafficJudge {
@@ -128,13 +132,15 @@ impl TrafficJudge {
     /// Handles an event on a connection.
     pub(super) fn take(&mut self, event: ConnectionEvent, table: &ConnectionTable) {
         match event {
-            ConnectionEvent::Frame(frame, way, span) => self.frame(frame, way, span, table),
-            ConnectionEvent::Router => count(&mut self.tally.router),
-            ConnectionEvent::Broken(error, bytes, way, span) => {
-                self.broken(error, &bytes, &way, span)
+            ConnectionEvent::Frame(frame, direction, span) => {
+                self.frame(frame, direction, span, table)
             }
-            ConnectionEvent::Cut(bytes, way, span) => self.cut(&bytes, &way, span),
-            ConnectionEvent::Gap(length, way, mark) => self.gap(length, &way, mark),
+            ConnectionEvent::Router => count(&mut self.tally.router),
+            ConnectionEvent::Broken(error, bytes, direction, span) => {
+                self.broken(error, &bytes, &direction, span)
+            }
+            ConnectionEvent::Cut(bytes, direction, span) => self.cut(&bytes, &direction, span),
+            ConnectionEvent::Gap(length, direction, mark) => self.gap(length, &direction, mark),
             ConnectionEvent::Skipped(length) => {
                 let length = u64::try_from(length).unwrap_or(u64::MAX);
                 self.tally.skipped = self.tally.skipped.saturating_add(length);
@@ -155,7 +161,7 @@ impl TrafficJudge {
     fn frame(
         &mut self,
         frame: Vec<u8>,
-        way: SegmentDirection,
+        direction: SegmentDirection,
         span: Span,
         table: &ConnectionTable,
     ) {
@@ -163,34 +169,34 @@ impl TrafficJudge {
         let Ok(Some((whole, _))) = FrameRef::split(&frame, u32::MAX) else { return };
         let header = whole.header();
         self.newest = self.newest.max(span.last.packet);
-        let seen = CapturedFrame { number: self.tally.frames, header, way, span, frame };
+        let captured = CapturedFrame { number: self.tally.frames, header, direction, span, frame };
         if is_reply(&header) {
-            self.reply(seen)
+            self.reply(captured)
         } else {
-            self.request(seen, table)
+            self.request(captured, table)
         }
         self.judge_expired(table);
     }
 
-    fn request(&mut self, seen: CapturedFrame, table: &ConnectionTable) {
-        let header = seen.header;
+    fn request(&mut self, captured: CapturedFrame, table: &ConnectionTable) {
+        let header = captured.header;
         if !is_cnc(header.target.port) {
             count_of(&mut self.tally.other_ports, header.target.port.0);
             return;
         }
-        let Ok(Some((frame, _))) = FrameRef::split(&seen.frame, u32::MAX) else { return };
+        let Ok(Some((frame, _))) = FrameRef::split(&captured.frame, u32::MAX) else { return };
         let call = Call::from_frame(&frame);
         let exchange = call.as_ref().ok().copied().flatten().map(|call| Exchange {
-            sent: seen.frame.clone(),
+            sent: captured.frame.clone(),
             outcome: Err(ExchangeError::Unseen),
             ..Exchange::new(&call)
         });
-        let place = location(&seen.way, Some(seen.span), None);
+        let place = location(&captured.direction, Some(captured.span), None);
         let observation = match &exchange {
             Some(exchange) => CapturedFrames::Exchange(exchange, place),
-            None => CapturedFrames::Bytes(&seen.frame, place),
+            None => CapturedFrames::Bytes(&captured.frame, place),
         };
-        let again = self.is_repeated(&seen, table);
+        let again = self.is_repeated(&captured, table);
         self.rules.request_headers(&observation, &header, again);
         match call {
             Err(error) => {
@@ -212,29 +218,29 @@ impl TrafficJudge {
                 }
             }
         }
-        self.wait(seen);
+        self.wait(captured);
     }
 
-    fn exchange(&mut self, asked: &CapturedFrame, reply: &CapturedFrame) {
+    fn exchange(&mut self, request_frame: &CapturedFrame, reply: &CapturedFrame) {
         count(&mut self.tally.exchanges);
-        self.is_crossed |= asked.way.connection != reply.way.connection;
-        let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
+        self.is_crossed |= request_frame.direction.connection != reply.direction.connection;
+        let Ok(Some((sent, _))) = FrameRef::split(&request_frame.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
         // A request that does not belong to one of the services is not judged, and neither is its
         // reply.
         let Ok(Some(call)) = Call::from_frame(&sent) else { return };
         let exchange = Exchange {
-            sent: asked.frame.clone(),
+            sent: request_frame.frame.clone(),
             received: reply.frame.clone(),
-            outcome: answer(asked.header, reply.header, received.data())
+            outcome: answer(request_frame.header, reply.header, received.data())
                 .map(|answer| (answer, reply.header)),
             ..Exchange::new(&call)
         };
-        self.tally.list(asked.span.last.packet, &exchange);
-        let place = location(&asked.way, Some(asked.span), Some(reply.span));
+        self.tally.list(request_frame.span.last.packet, &exchange);
+        let place = location(&request_frame.direction, Some(request_frame.span), Some(reply.span));
         let observation = CapturedFrames::Exchange(&exchange, place);
-        let net_id = asked.header.target.net_id;
-        let violations = violations(&asked.header, &reply.header);
+        let net_id = request_frame.header.target.net_id;
+        let violations = violations(&request_frame.header, &reply.header);
         self.rules.reply(&observation, net_id, &call, &exchange, &violations);
         let Some(reply) = exchange.reply() else { return };
         if reply.success().is_none() {

@@ -36,7 +36,7 @@ impl EarlyReplies {
     fn push(&mut self, reply: CapturedFrame) {
         self.bytes = self.bytes.saturating_add(reply.frame.len());
         self.ids.insert((reply.header.invoke_id, reply.number));
-        self.connections.insert((reply.way.connection, reply.number));
+        self.connections.insert((reply.direction.connection, reply.number));
         self.all.insert(reply.number, reply);
     }
 
@@ -44,7 +44,7 @@ impl EarlyReplies {
         let reply = self.all.remove(&number)?;
         self.bytes = self.bytes.saturating_sub(reply.frame.len());
         self.ids.remove(&(reply.header.invoke_id, number));
-        self.connections.remove(&(reply.way.connection, number));
+        self.connections.remove(&(reply.direction.connection, number));
         Some(reply)
     }
 
@@ -84,30 +84,30 @@ impl CapturedFrame {
     /// packets were captured out of order.
     fn follows(&self, reply: &Self) -> bool {
         let got = self.span.last.acknowledged;
-        self.way.connection == reply.way.connection
-            && got.is_some_and(|place| place >= reply.span.end)
+        self.direction.connection == reply.direction.connection
+            && got.is_some_and(|index| index >= reply.span.end)
     }
 }
 
 impl TrafficJudge {
     /// Stores a request until its reply is captured, unless the reply was captured first.
-    pub(super) fn wait(&mut self, seen: CapturedFrame) {
-        let id = seen.header.invoke_id;
+    pub(super) fn wait(&mut self, captured: CapturedFrame) {
+        let id = captured.header.invoke_id;
         let answered = self.early.find(id, |reply| {
             let last = reply.span.last.packet.saturating_add(REORDERED_MAX);
-            reply.header.command == seen.header.command
-                && seen.mirrors(reply)
-                && !seen.follows(reply)
-                && seen.span.last.packet <= last
+            reply.header.command == captured.header.command
+                && captured.mirrors(reply)
+                && !captured.follows(reply)
+                && captured.span.last.packet <= last
         });
         if let Some(reply) = answered.and_then(|number| self.early.remove(number)) {
-            self.exchange(&seen, &reply);
+            self.exchange(&captured, &reply);
             return;
         }
-        let connection = seen.way.connection;
+        let connection = captured.direction.connection;
         let numbers = self.waiting_of.entry(connection).or_default();
-        numbers.insert(seen.number, id);
-        self.waiting_bytes = self.waiting_bytes.saturating_add(seen.memory());
+        numbers.insert(captured.number, id);
+        self.waiting_bytes = self.waiting_bytes.saturating_add(captured.memory());
         while let Some(oldest) = self.oldest_beyond(connection) {
             count(&mut self.tally.unanswered);
             count(&mut self.tally.forgotten);
@@ -115,13 +115,13 @@ impl TrafficJudge {
             if self.forget((connection, oldest), 0).is_none() {
                 // The new request itself is the oldest one of its connection, because the requests
                 // of other connections use all the memory.
-                self.waiting_bytes = self.waiting_bytes.saturating_sub(seen.memory());
-                self.waiting_of.entry(connection).or_default().remove(&seen.number);
+                self.waiting_bytes = self.waiting_bytes.saturating_sub(captured.memory());
+                self.waiting_of.entry(connection).or_default().remove(&captured.number);
                 return;
             }
         }
         self.waiting_ids.insert((id, connection));
-        self.waiting.entry((connection, id)).or_default().push_back(seen);
+        self.waiting.entry((connection, id)).or_default().push_back(captured);
     }
 
     /// The invoke ID of the oldest waiting request of a connection; `None` if no limit is exceeded.
@@ -133,9 +133,9 @@ impl TrafficJudge {
 
     /// Removes and returns the waiting request with this key (connection and invoke ID) and this
     /// index among the requests with the same key.
-    pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<CapturedFrame> {
+    pub(super) fn forget(&mut self, key: (u64, u32), index: usize) -> Option<CapturedFrame> {
         let all = self.waiting.get_mut(&key)?;
-        let one = all.remove(place)?;
+        let one = all.remove(index)?;
         self.waiting_bytes = self.waiting_bytes.saturating_sub(one.memory());
         if all.is_empty() {
             self.waiting.remove(&key);
@@ -151,64 +151,75 @@ impl TrafficJudge {
     /// `None` if the capture may lack the reply to the earlier request.
     pub(super) fn is_repeated(
         &self,
-        seen: &CapturedFrame,
+        captured: &CapturedFrame,
         table: &ConnectionTable,
     ) -> Option<bool> {
-        let lost = self.lost.get(&seen.way.connection);
-        let back = SegmentDirection { from: seen.way.to, to: seen.way.from, ..seen.way };
-        let got = seen.span.last.acknowledged?;
+        let lost = self.lost.get(&captured.direction.connection);
+        let back = SegmentDirection {
+            from: captured.direction.to,
+            to: captured.direction.from,
+            ..captured.direction
+        };
+        let got = captured.span.last.acknowledged?;
         let is_whole = lost.is_none_or(|lost| !lost.joined && lost.gap.is_none());
         let known = is_whole && table.has(&back, got);
         known.then(|| {
             // Several clients may share a connection between two routers.
-            let alike = self.waiting.get(&(seen.way.connection, seen.header.invoke_id));
+            let alike =
+                self.waiting.get(&(captured.direction.connection, captured.header.invoke_id));
             let mut alike = alike.into_iter().flatten().take(ALIKE_MAX);
-            alike.any(|asked| asked.header.source == seen.header.source)
+            alike.any(|request_frame| request_frame.header.source == captured.header.source)
         })
     }
 
     pub(super) fn reply(&mut self, reply: CapturedFrame) {
         match self.request_of(&reply) {
-            Some(asked) => self.exchange(&asked, &reply),
+            Some(request_frame) => self.exchange(&request_frame, &reply),
             None => self.early.push(reply),
         }
     }
 
     /// Removes and returns the request that a reply answers.
     fn request_of(&mut self, reply: &CapturedFrame) -> Option<CapturedFrame> {
-        let key = (reply.way.connection, reply.header.invoke_id);
+        let key = (reply.direction.connection, reply.header.invoke_id);
         let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
-        let matches = |asked: &CapturedFrame| asked.mirrors(reply) && !asked.follows(reply);
-        let here = self.waiting.get(&key).and_then(|all| {
+        let matches = |request_frame: &CapturedFrame| {
+            request_frame.mirrors(reply) && !request_frame.follows(reply)
+        };
+        let index = self.waiting.get(&key).and_then(|all| {
             // A client reuses an invoke ID only after it has received the reply to the earlier
             // request. That reply was lost in the gap, so this reply belongs to the latest request.
             if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
-                latest.into_iter().find(|&place| all.get(place).is_some_and(matches))
+                latest.into_iter().find(|&index| all.get(index).is_some_and(matches))
             } else {
                 let mut first = all.iter().take(ALIKE_MAX);
                 let mirrored = || all.iter().take(ALIKE_MAX).position(|one| one.mirrors(reply));
                 first.position(matches).or_else(mirrored)
             }
         });
-        if let Some(place) = here {
-            return self.forget(key, place);
+        if let Some(index) = index {
+            return self.forget(key, index);
         }
         // Two routers may send a request and its reply on different connections.
         let id = reply.header.invoke_id;
         let others = self.waiting_ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let mut others = others.map(|(id, connection)| (*connection, *id));
-        let (key, place) = others.find_map(|key| {
+        let (key, index) = others.find_map(|key| {
             let all = self.waiting.get(&key)?;
             Some((key, all.iter().take(ALIKE_MAX).position(matches)?))
         })?;
-        self.forget(key, place)
+        self.forget(key, index)
     }
 
     /// Judges replies whose requests can no longer follow in the capture.
     pub(super) fn judge_expired(&mut self, table: &ConnectionTable) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
-            let back = SegmentDirection { from: first.way.to, to: first.way.from, ..first.way };
+            let back = SegmentDirection {
+                from: first.direction.to,
+                to: first.direction.from,
+                ..first.direction
+            };
             let last = first.span.last.packet.saturating_add(REORDERED_MAX);
             let late = last < self.newest && !table.waits(&back);
             if !late && !self.early.is_full() {
@@ -230,18 +241,18 @@ impl TrafficJudge {
     /// Judges a reply for which no request with matching addresses was captured.
     fn judge_unmatched(&mut self, reply: CapturedFrame) {
         let header = reply.header;
-        let connection = reply.way.connection;
+        let connection = reply.direction.connection;
         let key = (connection, header.invoke_id);
         let is_whole = self.lost.get(&connection).is_none_or(|lost| lost.gap.is_none());
         // A reply with wrong addresses still belongs to a request with the same invoke ID and
         // command.
-        let place = self.waiting.get(&key).filter(|_| is_whole).and_then(|all| {
-            all.iter()
-                .take(ALIKE_MAX)
-                .position(|asked| asked.header.command == header.command && !asked.follows(&reply))
+        let index = self.waiting.get(&key).filter(|_| is_whole).and_then(|all| {
+            all.iter().take(ALIKE_MAX).position(|request_frame| {
+                request_frame.header.command == header.command && !request_frame.follows(&reply)
+            })
         });
-        if let Some(asked) = place.and_then(|place| self.forget(key, place)) {
-            self.exchange(&asked, &reply);
+        if let Some(request_frame) = index.and_then(|index| self.forget(key, index)) {
+            self.exchange(&request_frame, &reply);
         } else if !is_cnc(header.source.port) {
             count_of(&mut self.tally.other_ports, header.source.port.0);
         } else if service_clause(header.command) == ADS_5 {
@@ -261,7 +272,7 @@ impl TrafficJudge {
     /// Judges a reply without a request, once the connection has ended.
     pub(super) fn unasked(&mut self, reply: &CapturedFrame, is_open: bool) {
         let observation =
-            CapturedFrames::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));
+            CapturedFrames::Bytes(&reply.frame, location(&reply.direction, None, Some(reply.span)));
         let mut record = self.rules.records.on(Topic::CncFrames, &observation);
         let found = || format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
         if is_open {

@@ -2,7 +2,7 @@
 
 use super::*;
 
-const MARK: Mark = Mark { packet: 1, time: None, acknowledged: None };
+const MARK: CapturePosition = CapturePosition { packet: 1, time: None, acknowledged: None };
 
 /// The bytes emitted for segments, with `_` for each byte of a gap.
 fn joined(half: &mut DirectionState, parts: &[(u32, &[u8])], end: bool) -> String {

@@ -10,7 +10,7 @@ use crate::cli::message::print_error;
 use crate::cli::progress::Watch;
 use crate::cli::report_output::show;
 use crate::cli::run_dry;
-use crate::faults::{Faulty, Seed};
+use crate::faults::{Faulty, SeededDefect};
 use crate::judge::{
     Case, CaseOutcome, CaseSubject, Needs, Plan, RequirementVerdict, Verdict, Waivers,
 };
@@ -95,7 +95,7 @@ impl Run {
         seed: u32,
         waivers: Waivers,
         profile: Profile,
-        defect: Option<Seed>,
+        defect: Option<SeededDefect>,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
         let internal = |error| ToolError::Internal(format!("the default model: {error}"));
@@ -125,7 +125,7 @@ impl Run {
         &self,
         plan: Plan,
         mut session: TargetState,
-        defect: Option<&Seed>,
+        defect: Option<&SeededDefect>,
         about: RunInfo,
     ) -> Result<Report, Stopped> {
         let (client, allow) = (&session.client, self.target.has_file());

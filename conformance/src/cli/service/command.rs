@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 
-use super::response::{Ended, STDOUT_MAX, ServiceResponse, answer};
+use super::response::{CommandEnd, STDOUT_MAX, ServiceResponse, answer};
 use crate::process::RunningCommand;
 use crate::process::interrupt::Interrupt;
 
@@ -43,7 +43,7 @@ impl ServiceCommand<'_> {
     pub(super) fn run(&self, uuid: ServiceId, request: CncStr<'_>, state: u32) -> ServiceResponse {
         let started = Instant::now();
         match self.start(uuid, state) {
-            Err(why) => answer(&Ended::NotStarted(why), &[]),
+            Err(why) => answer(&CommandEnd::NotStarted(why), &[]),
             Ok(child) => {
                 let stdout = CapturedOutput::start(&child, &self.readers);
                 if let Some(mut stdin) = child.take_stdin() {
@@ -52,7 +52,7 @@ impl ServiceCommand<'_> {
                     let _unread = writeln!(stdin, "{}", utf8(request));
                 }
                 let ended = self.wait(&child, started);
-                let closed = !matches!(ended, Ended::Exited(_)) || stdout.closes();
+                let closed = !matches!(ended, CommandEnd::Exited(_)) || stdout.closes();
                 // This ends the child and all processes that it started.
                 drop(child);
                 stdout.closes();
@@ -87,19 +87,19 @@ impl ServiceCommand<'_> {
         RunningCommand::start(command).map_err(|error| format!("{program}: {error}"))
     }
 
-    fn wait(&self, child: &RunningCommand, started: Instant) -> Ended {
+    fn wait(&self, child: &RunningCommand, started: Instant) -> CommandEnd {
         loop {
             match child.try_wait() {
-                Ok(Some(status)) => return Ended::Exited(status),
+                Ok(Some(status)) => return CommandEnd::Exited(status),
                 Ok(None) => {}
-                Err(error) => return Ended::NotStarted(error.to_string()),
+                Err(error) => return CommandEnd::NotStarted(error.to_string()),
             }
             let left = self.limit.saturating_sub(started.elapsed());
             if left.is_zero() {
-                return Ended::TimeOver(self.limit);
+                return CommandEnd::TimeOver(self.limit);
             }
             if self.interrupt.sleep(left.min(POLL_INTERVAL)) {
-                return Ended::Interrupted;
+                return CommandEnd::Interrupted;
             }
         }
     }

@@ -40,7 +40,7 @@ const FAILED_WRITES_MAX: u32 = 5;
 /// the response state.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
-pub(super) struct ServiceArguments {
+pub(super) struct ServiceArgs {
     /// UUID of the service; comma-separated UUIDs share the command
     #[arg(long, value_name = "UUID", required = true, value_delimiter = ',', value_parser = uuid)]
     uuid: Vec<ServiceId>,
@@ -119,7 +119,7 @@ fn uuid(text: &str) -> Result<ServiceId, String> {
     })
 }
 
-impl ServiceArguments {
+impl ServiceArgs {
     /// Serves, and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let done = if self.target.is_dry() { self.show() } else { self.serve() };
@@ -159,7 +159,7 @@ impl ServiceArguments {
             [(Response, &b"\0"[..]), (RequestState, &[0; 4]), (ResponseState, &[1, 0, 0, 0])]
         {
             match session.call(&write(channel, variable, value)?).map(drop) {
-                Err(error @ ToolError::Refused(_)) => refused = Some(error),
+                Err(error @ ToolError::NotPermitted(_)) => refused = Some(error),
                 other => other?,
             }
         }

@@ -29,7 +29,7 @@ pub(super) struct ServiceResponse {
 
 /// How a command ended.
 #[derive(Debug)]
-pub(super) enum Ended {
+pub(super) enum CommandEnd {
     /// The command exited by itself, or a signal ended it.
     Exited(ExitStatus),
     /// The command exceeded this time limit.
@@ -40,7 +40,7 @@ pub(super) enum Ended {
     NotStarted(String),
 }
 
-impl Ended {
+impl CommandEnd {
     /// The response state; never 0.
     fn state(&self) -> u32 {
         match self {
@@ -70,11 +70,13 @@ impl Ended {
 }
 
 /// The response for a command that ended in this way with this stdout.
-pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> ServiceResponse {
+pub(super) fn answer(ended: &CommandEnd, stdout: &[u8]) -> ServiceResponse {
     let mut warnings = Vec::new();
     match ended {
-        Ended::NotStarted(why) => warnings.push(format!("the command could not be started: {why}")),
-        Ended::TimeOver(limit) => {
+        CommandEnd::NotStarted(why) => {
+            warnings.push(format!("the command could not be started: {why}"))
+        }
+        CommandEnd::TimeOver(limit) => {
             warnings.push(format!("the command ran longer than {limit:?} and was ended"));
         }
         _ => {}
@@ -137,7 +139,7 @@ mod tests {
 
     fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
         // With `Interrupted`, `answer` adds nothing to stdout.
-        let ServiceResponse { response, warnings, .. } = answer(&Ended::Interrupted, stdout);
+        let ServiceResponse { response, warnings, .. } = answer(&CommandEnd::Interrupted, stdout);
         (response.as_bytes().to_vec(), warnings)
     }
 
@@ -166,9 +168,9 @@ mod tests {
     #[test]
     fn the_state_is_never_0_and_only_success_is_1() {
         let all = [
-            (Ended::TimeOver(Duration::from_secs(1)), TIME_OVER),
-            (Ended::Interrupted, ENDED),
-            (Ended::NotStarted("not there".to_owned()), NOT_STARTED),
+            (CommandEnd::TimeOver(Duration::from_secs(1)), TIME_OVER),
+            (CommandEnd::Interrupted, ENDED),
+            (CommandEnd::NotStarted("not there".to_owned()), NOT_STARTED),
         ];
         for (ended, state) in all {
             let answer = answer(&ended, b"");
@@ -183,10 +185,13 @@ mod tests {
         use std::os::unix::process::ExitStatusExt as _;
 
         for (raw, state) in [(0, 1), (1 << 8, 1001), (2 << 8, 2), (255 << 8, 255), (9, 1003)] {
-            assert_eq!(Ended::Exited(ExitStatus::from_raw(raw)).state(), state);
+            assert_eq!(CommandEnd::Exited(ExitStatus::from_raw(raw)).state(), state);
         }
         assert!(
-            answer(&Ended::Exited(ExitStatus::from_raw(0)), b"").response.as_bytes().is_empty()
+            answer(&CommandEnd::Exited(ExitStatus::from_raw(0)), b"")
+                .response
+                .as_bytes()
+                .is_empty()
         );
     }
 }

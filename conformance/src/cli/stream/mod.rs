@@ -41,7 +41,7 @@ const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 /// runs the lines that it has received. A packet that the CNC rejects as busy is sent again.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
-pub(super) struct StreamArguments {
+pub(super) struct StreamArgs {
     /// The NC program; - reads it from stdin
     #[arg(value_name = "FILE.nc")]
     file: PathBuf,
@@ -97,7 +97,7 @@ Exit codes: 0 all lines accepted; 1 the text is invalid, or the CNC rejects it; 
 Once the command has sent a packet, stdout shows which lines were accepted and, if it ends early,
 which were not.";
 
-impl StreamArguments {
+impl StreamArgs {
     /// Sends the program and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         self.target.end(self.run(), |_| None)
@@ -138,7 +138,7 @@ impl StreamArguments {
         while let Some(packet) = sender.packet() {
             let shown = session.call(&WriteProgramStream::new(self.channel.channel, packet));
             match shown.map(drop) {
-                Err(error @ ToolError::Refused(_)) => refused = Some(error),
+                Err(error @ ToolError::NotPermitted(_)) => refused = Some(error),
                 other => other?,
             }
             send::acknowledge(&mut sender, ads_cnc::streaming::Ack::Accepted)?;
@@ -157,7 +157,7 @@ impl StreamArguments {
             sender: Sender::new(text),
             channel: self.channel.channel,
             retry: Retry { after: self.retry_after, times: self.retries },
-            refusals: 0,
+            busy_rejections: 0,
             out: 0,
         };
         let mut progress = StreamProgress::new(text, self.quiet);

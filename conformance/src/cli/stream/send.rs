@@ -39,7 +39,7 @@ pub(super) struct Sending<'a> {
     pub(super) channel: Channel,
     pub(super) retry: Retry,
     /// Number of times that a packet was rejected as busy.
-    pub(super) refusals: u64,
+    pub(super) busy_rejections: u64,
     /// Number of lines in the last packet sent.
     pub(super) out: usize,
 }
@@ -71,7 +71,7 @@ impl Sending<'_> {
             match error {
                 None => progress.show(self.sender.sent(), None),
                 Some(ToolError::Ads { error, .. }) if ack == Ack::Busy => {
-                    self.refusals = self.refusals.saturating_add(1);
+                    self.busy_rejections = self.busy_rejections.saturating_add(1);
                     let times = self.sender.busy_count();
                     if times > self.retry.times {
                         return SendEnd::GivenUp(error);
@@ -116,7 +116,7 @@ impl Sending<'_> {
                 )
             }
         };
-        let refused = match self.refusals {
+        let refused = match self.busy_rejections {
             0 => String::new(),
             times => format!(", after {}", plural(times, "temporary rejection")),
         };

@@ -2,10 +2,10 @@
 
 use ads_cnc::address::{Access, Class, ComTable};
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{AdsService, Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, LOGICAL, class, com_group, group, is, offset, row};
+use super::{CncDefect, LOGICAL, class, com_group, group, is, offset, row};
 
 /// Whether the low byte of the index group is a channel number or rank.
 fn of_channel(call: &Call<'_>) -> bool {
@@ -21,7 +21,7 @@ fn by_index(call: &Call<'_>) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.adr.logical-as-index", &[ADR_1], "a channel addressed logically is the one of that rank",
         |cnc, call| if of_channel(call) {
             cnc.at(call, group(call) & !LOGICAL, offset(call))
@@ -154,7 +154,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                 if com.table == ComTable::Axis
                     && com.access == Access::Element
                     && (1..=3).contains(&com.instance)
-                    && call.service == Service::Read =>
+                    && call.service == AdsService::Read =>
             {
                 let place = u32::from(com.instance) << 16;
                 cnc.at(call, 0x12_0101, place | offset(call) & 0xFFFF)
@@ -169,7 +169,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                     && com.access == Access::Element
                     && com.instance == 1
                     && (0x1_0000..0x4_0000).contains(&offset(call))
-                    && call.service == Service::Read =>
+                    && call.service == AdsService::Read =>
             {
                 let axis = offset(call) >> 16;
                 cnc.at(call, 0x12_0200 | axis, offset(call) & 0xFFFF)

@@ -1,21 +1,21 @@
 //! Defects of the ADS services (ADS).
 
 use ads_cnc::ads::{AdsError, Command};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc_vectors::ids::*;
 
 use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
-use super::{CncSeed, row, set_u32};
+use super::{CncDefect, row, set_u32};
 
 const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.ads.read-padded", &[ADS_1], "the data of a Read is padded with zeros to the length asked for",
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
             cnc.answer(call).map(|mut bytes| {
-                if call.service == Service::Read {
+                if call.service == AdsService::Read {
                     bytes.resize(bytes.len().max(len), 0);
                 }
                 bytes
@@ -26,7 +26,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
             cnc.answer(call).map(|mut bytes| {
-                if call.service == Service::ReadWrite {
+                if call.service == AdsService::ReadWrite {
                     bytes.resize(bytes.len().max(len), 0);
                 }
                 bytes
@@ -37,12 +37,12 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.ads.service-any", &[ADS_7], "a Write is taken for a ReadWrite and the other way round",
         |cnc, call| match cnc.answer(call) {
             Err(AdsError::SERVICE_NOT_SUPPORTED) => match call.service {
-                Service::ReadWrite => {
-                    cnc.answer(&Call { service: Service::Write, read_length: 0, ..*call })
+                AdsService::ReadWrite => {
+                    cnc.answer(&Call { service: AdsService::Write, read_length: 0, ..*call })
                 }
                 _ => cnc
-                    .answer(&Call { service: Service::ReadWrite, read_length: 2048, ..*call })
-                    .map(|bytes| if call.service == Service::Write { Vec::new() } else { bytes }),
+                    .answer(&Call { service: AdsService::ReadWrite, read_length: 2048, ..*call })
+                    .map(|bytes| if call.service == AdsService::Write { Vec::new() } else { bytes }),
             },
             answer => answer,
         }),

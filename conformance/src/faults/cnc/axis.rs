@@ -3,7 +3,7 @@
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, ReplyData, Upstream, function, group, of_decoder, offset, row};
+use super::{CncDefect, ReplyData, Upstream, function, group, of_decoder, offset, row};
 
 /// The axis that a call to the axis interface addresses, and the function; `None` for other calls.
 fn of_axis(call: &Call<'_>) -> Option<(u32, u32)> {
@@ -21,7 +21,7 @@ fn other_axis(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(u32) -> u3
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.axis-of-channel-1", &[VAR_26], "the axis interface is that of channel 1",
         |cnc, call| match of_axis(call) {
             Some(_) => cnc.at(call, 0x12_2301, offset(call)),

@@ -7,7 +7,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::lookup::{indexed, instance, with_indices};
 use super::{
-    CncSeed, DESCRIPTIONS, after_nul, dimensions, group, is, number, offset, on, records, reply,
+    CncDefect, DESCRIPTIONS, after_nul, dimensions, group, is, number, offset, on, records, reply,
     row, text, u32_at, within_length,
 };
 
@@ -16,7 +16,7 @@ const STREAM: &[Function] = &[Function::WriteProgramStream];
 const UUID: &str = ServiceVariable::UUID;
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.adr.platform-axis-last", &[ADR_3],
         "the contents of the last platform axis are rejected, its descriptors are not",
         |cnc, call| {

@@ -3,14 +3,14 @@
 use super::{ReplyData, text};
 
 /// The UNS32 at an offset.
-pub(in crate::faults) fn u32_at(bytes: &[u8], place: usize) -> Option<u32> {
-    let four = bytes.get(place..)?.first_chunk::<4>()?;
+pub(in crate::faults) fn u32_at(bytes: &[u8], offset: usize) -> Option<u32> {
+    let four = bytes.get(offset..)?.first_chunk::<4>()?;
     Some(u32::from_le_bytes(*four))
 }
 
 /// Writes an UNS32 at an offset, if it is within the bytes.
-pub(in crate::faults) fn set_u32(bytes: &mut [u8], place: usize, number: u32) {
-    if let Some(four) = bytes.get_mut(place..).and_then(<[u8]>::first_chunk_mut::<4>) {
+pub(in crate::faults) fn set_u32(bytes: &mut [u8], offset: usize, number: u32) {
+    if let Some(four) = bytes.get_mut(offset..).and_then(<[u8]>::first_chunk_mut::<4>) {
         *four = number.to_le_bytes();
     }
 }
@@ -18,12 +18,12 @@ pub(in crate::faults) fn set_u32(bytes: &mut [u8], place: usize, number: u32) {
 /// The reply with the UNS32 at an offset changed by `other`.
 pub(in crate::faults) fn number(
     answer: ReplyData,
-    place: usize,
+    offset: usize,
     other: fn(u32) -> u32,
 ) -> ReplyData {
     answer.map(|mut bytes| {
-        if let Some(number) = u32_at(&bytes, place) {
-            set_u32(&mut bytes, place, other(number));
+        if let Some(number) = u32_at(&bytes, offset) {
+            set_u32(&mut bytes, offset, other(number));
         }
         bytes
     })

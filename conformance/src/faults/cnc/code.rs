@@ -2,10 +2,10 @@
 
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, DESCRIPTIONS, number, on, reply, row, set_u32, u32_at};
+use super::{CncDefect, DESCRIPTIONS, number, on, reply, row, set_u32, u32_at};
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.var.types-unsigned-first", &[VAR_5],
         "UNS08, UNS16, UNS32 stand before SGN08, SGN16, SGN32 among the types",
         DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 4, |code| match code {

@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, ReplyData, Upstream, com_group, group, is, number, offset, on, records, records_mut,
+    CncDefect, ReplyData, Upstream, com_group, group, is, number, offset, on, records, records_mut,
     row, u32_at,
 };
 
@@ -36,7 +36,7 @@ pub(super) fn set(record: &mut [u8; 84], place: usize, bytes: &[u8]) {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.com.count-one-less", &[COM_1, OBJ_1],
         "the number of objects is that of the last, counted from 0: the last is not counted",
         &[Function::CountObjects], |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_sub(1))),

@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, Key, ReplyData, Upstream, class, group, is, number, offset, on, row, set_u32, text,
+    CncDefect, Key, ReplyData, Upstream, class, group, is, number, offset, on, row, set_u32, text,
     u32_at, within_length,
 };
 
@@ -59,15 +59,15 @@ fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
 /// Executes a write, and then the same write at another address, where it succeeds only if the content
 /// has the same length.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
-    let done = cnc.answer(call);
-    if done.is_ok() {
+    let reply = cnc.answer(call);
+    if reply.is_ok() {
         let _also = cnc.at(call, group, offset);
     }
-    done
+    reply
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.address-of-channel-1", &[SDA_1],
         "whichever channel is asked for, the address is that of channel 1",
         |cnc, call| with_number(cnc, call, 0, |channel| channel.min(1))),

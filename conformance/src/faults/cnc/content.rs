@@ -2,10 +2,10 @@
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule, Service};
+use ads_cnc::operation::{AdsService, Call, Function, GroupRule, OffsetRule};
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, at, class, function, functions, group, is, is_at, offset, row};
+use super::{CncDefect, at, class, function, functions, group, is, is_at, offset, row};
 
 const WRITE: &[Function] = &[Function::WriteElement];
 const FUNCTIONS: &[Function] = functions!(|spec| matches!(
@@ -27,14 +27,14 @@ fn empty_place(call: &Call<'_>) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.write-read-only", &[SDA_9], "a write of an element that is read-only succeeds",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
     row("cnc.sda.feedhold-2", &[SDA_10], "the content of feedhold.enable is 2",
-        |cnc, call| if feedhold(call, 0x300) && call.service == Service::Read {
+        |cnc, call| if feedhold(call, 0x300) && call.service == AdsService::Read {
             cnc.answer(call).map(|_| vec![2])
         } else {
             cnc.answer(call)

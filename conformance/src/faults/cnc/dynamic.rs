@@ -5,7 +5,7 @@ use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, group, is, number, of_decoder, offset, on, row, set_u32, text, u32_at, within_length,
+    CncDefect, group, is, number, of_decoder, offset, on, row, set_u32, text, u32_at, within_length,
 };
 
 const COUNT: &[Function] = &[Function::CountDynamic];
@@ -14,7 +14,7 @@ const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.dyn.count-one-more", &[DYN_1], "numbers of parameters are one more",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
     row("cnc.dyn.index-0", &[DYN_5], "index 0 is taken for 1",

@@ -3,13 +3,13 @@
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, reply, row, text};
+use super::{CncDefect, reply, row, text};
 
 const TYPE: &[Function] = &[Function::ReadElementType];
 const FLAG: &[Function] = &[Function::ReadElementWriteFlag];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.types-of-com", &[SDA_7], "types are named as in COM: BOOL, DWORD, LREAL",
         |cnc, call| reply(cnc, call, TYPE, |bytes| {
             let other: &[u8] = match text(&bytes) {

@@ -10,10 +10,10 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Call;
 
 use super::{CncFault, Memory, ReplyData, Upstream, is};
+use crate::ads_service::{reply_stream, request_stream, service_of};
 use crate::faults::field::FieldDefect;
-use crate::faults::seed::{How, Seed};
+use crate::faults::seeded_defect::{Mechanism, SeededDefect};
 use crate::simulator::{Cnc, Frames, Model, Responder, respond};
-use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// A simulated CNC with at most one seed, or with several field defects.
 ///
@@ -22,7 +22,7 @@ use crate::wire_service::{reply_stream, request_stream, service_of};
 #[derive(Debug)]
 pub struct Faulty {
     cnc: Arc<Cnc>,
-    how: Option<How>,
+    how: Option<Mechanism>,
     /// The field defects.
     fields: Vec<FieldDefect>,
     memory: Mutex<Memory>,
@@ -32,20 +32,20 @@ pub struct Faulty {
 
 impl Faulty {
     /// Adds a defect or a variant to a CNC that has processed no request.
-    pub fn new(cnc: Cnc, seed: Option<&Seed>) -> Self {
+    pub fn new(cnc: Cnc, seed: Option<&SeededDefect>) -> Self {
         let how = seed.map(|seed| seed.how.clone());
         let cnc = match &how {
-            Some(How::Cnc(CncFault::Model(model))) => {
+            Some(Mechanism::Cnc(CncFault::Model(model))) => {
                 match Model::from_toml(model, "the model of a variant") {
                     Ok(model) => cnc.with_model(model),
                     Err(_) => cnc,
                 }
             }
-            Some(How::Cnc(CncFault::Program(policy))) => cnc.with_policy(*policy),
+            Some(Mechanism::Cnc(CncFault::Program(policy))) => cnc.with_policy(*policy),
             _ => cnc,
         };
         let fields = match &how {
-            Some(How::Field(defect)) => vec![defect.clone()],
+            Some(Mechanism::Field(defect)) => vec![defect.clone()],
             _ => Vec::new(),
         };
         let (cnc, memory, shown) = (Arc::new(cnc), Mutex::default(), AtomicBool::new(false));
@@ -108,8 +108,8 @@ impl Faulty {
 impl Responder for Faulty {
     fn answer(&self, call: &Call<'_>) -> ReplyData {
         match &self.how {
-            Some(How::Cnc(CncFault::Answer(answer))) => answer(&self.upstream(), call),
-            Some(How::Cnc(CncFault::Function(functions, answer))) if is(call, functions) => {
+            Some(Mechanism::Cnc(CncFault::Answer(answer))) => answer(&self.upstream(), call),
+            Some(Mechanism::Cnc(CncFault::Function(functions, answer))) if is(call, functions) => {
                 answer(&self.upstream(), call)
             }
             _ if !self.fields.is_empty() => {
@@ -128,11 +128,11 @@ impl Responder for Faulty {
         let misread = self.change(service_of(command).map(request_stream), frame.data());
         let misread = misread.as_deref().and_then(|data| FrameRef::new(frame.header(), data).ok());
         respond(&mut |call| self.answer(call), net_id, misread.as_ref().unwrap_or(frame), answers);
-        if let Some(How::Cnc(CncFault::Frame(sent))) = self.how
+        if let Some(Mechanism::Cnc(CncFault::Frame(sent))) = self.how
             && answers.len() > start
         {
-            let right = answers.split_off(start);
-            answers.extend(sent(&self.upstream(), frame, right));
+            let correct = answers.split_off(start);
+            answers.extend(sent(&self.upstream(), frame, correct));
         }
         self.change_frame(command, answers.get_mut(start..).unwrap_or_default());
     }
@@ -148,7 +148,7 @@ impl Responder for Faulty {
 
     fn piece(&self) -> usize {
         match self.how {
-            Some(How::Cnc(CncFault::Pieces(len))) => len.max(1),
+            Some(Mechanism::Cnc(CncFault::Pieces(len))) => len.max(1),
             _ => usize::MAX,
         }
     }

@@ -4,7 +4,7 @@ use ads_cnc::ads::{Command, FrameRef};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::{CncFault, CncSeed, Upstream, fault, set_u32, u32_at};
+use super::{CncDefect, CncFault, Upstream, fault, set_u32, u32_at};
 
 /// The offsets of fields in a frame, from the start of the AMS/TCP header.
 pub(super) const TCP_LENGTH: usize = 2;
@@ -23,7 +23,7 @@ pub(super) const fn sent(
     breaks: &'static [ClauseId],
     what: &'static str,
     frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
-) -> CncSeed {
+) -> CncDefect {
     fault(id, breaks, what, CncFault::Frame(frame))
 }
 
@@ -36,8 +36,8 @@ pub(in crate::faults) fn measured(mut bytes: Vec<u8>) -> Vec<u8> {
 }
 
 /// The frame with the bytes at an offset replaced by `new`.
-pub(super) fn set(mut bytes: Vec<u8>, place: usize, new: &[u8]) -> Vec<u8> {
-    bytes.iter_mut().skip(place).zip(new).for_each(|(old, new)| *old = *new);
+pub(super) fn set(mut bytes: Vec<u8>, offset: usize, new: &[u8]) -> Vec<u8> {
+    bytes.iter_mut().skip(offset).zip(new).for_each(|(old, new)| *old = *new);
     bytes
 }
 
@@ -51,7 +51,7 @@ pub(super) fn is(request: &FrameRef<'_>, commands: &[Command]) -> bool {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     sent("cnc.ads.invoke-id-of-before", &[ADS_5],
         "the invoke ID of a response is that of the request before",
         |cnc, request, bytes| {
@@ -62,9 +62,9 @@ pub(super) const ROWS: &[CncSeed] = &[
     sent("cnc.ads.header-big-endian", &[ADS_5, GEN_1],
         "data length, error and invoke ID have the most significant byte first",
         |_, _, mut bytes| {
-            for place in [DATA_LENGTH, ERROR, INVOKE_ID] {
-                let number = u32_at(&bytes, place).unwrap_or_default();
-                set_u32(&mut bytes, place, number.swap_bytes());
+            for offset in [DATA_LENGTH, ERROR, INVOKE_ID] {
+                let number = u32_at(&bytes, offset).unwrap_or_default();
+                set_u32(&mut bytes, offset, number.swap_bytes());
             }
             bytes
         }),

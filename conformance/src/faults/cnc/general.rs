@@ -7,7 +7,7 @@ use ads_cnc::text::cp1252_to_char;
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, DESCRIPTIONS, NAMED, ReplyData, Upstream, VALUES, WRITES, after_nul, dimensions,
+    CncDefect, DESCRIPTIONS, NAMED, ReplyData, Upstream, VALUES, WRITES, after_nul, dimensions,
     first, function, functions, number, on, records, row, set_u32, text, u32_at, within_length,
 };
 
@@ -59,7 +59,7 @@ fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.gen.numbers-big-endian", &[GEN_1],
         "counts and handles are answered with the most significant byte first",
         NUMBERS, |cnc, call| number(cnc.answer(call), 0, u32::swap_bytes)),

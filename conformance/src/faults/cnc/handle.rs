@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, ReplyData, Upstream, fours, function, group, number, on, row, set_u32, text, u32_at,
+    CncDefect, ReplyData, Upstream, fours, function, group, number, on, row, set_u32, text, u32_at,
 };
 
 /// The parts of a request by handle: handle, indices, value.
@@ -33,7 +33,7 @@ fn with_handle(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Re
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.handle-not-understood", &[VAR_10],
         "the handle by name is another than the one that is understood",
         |cnc, call| with_handle(cnc, call, |handle| handle ^ 0x5A00_0000)),

@@ -6,13 +6,13 @@ use ads_cnc_vectors::ids::*;
 
 use super::handle::{joined, parts};
 use super::variable::described;
-use super::{CncSeed, is, of_decoder, row, u32_at, within_length};
+use super::{CncDefect, is, of_decoder, row, u32_at, within_length};
 
 const READ: &[Function] = &[Function::ReadByHandle];
 const WRITE: &[Function] = &[Function::WriteByHandle];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.handle-unknown", &[VAR_11], "a handle of no variable reads as 0",
         |cnc, call| match (is(call, READ), cnc.answer(call)) {
             (true, Err(_)) if described(cnc, call).is_none() => within_length(call, Ok(vec![0; 4])),

@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, LOGICAL, ReplyData, Upstream, class, group, is, offset, reply, row, set_u32, u32_at,
+    CncDefect, LOGICAL, ReplyData, Upstream, class, group, is, offset, reply, row, set_u32, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -43,7 +43,7 @@ fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> b
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.address-swapped", &[SDA_1], "an instance is answered as index offset and index group",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             bytes.rotate_left(4);

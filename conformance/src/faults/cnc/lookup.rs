@@ -1,7 +1,7 @@
 //! Looks up channels, types and descriptions for defects.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 
 use super::{Key, Upstream, dimensions, group, offset, records, text, u32_at};
 
@@ -24,7 +24,7 @@ pub(super) fn over(new: &[u8], old: &[u8]) -> Vec<u8> {
 pub(super) fn descriptor(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<[u8; 84]> {
     let all = cnc.answer(&Call {
         port: call.port,
-        service: Service::Read,
+        service: AdsService::Read,
         index_group: IndexGroup::new(group(call) | 0x01_0000),
         index_offset: IndexOffset::new(1),
         read_length: 84 * 512,

@@ -47,7 +47,7 @@ pub(in crate::faults) use self::request::{
     first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
 };
 pub(crate) use self::row::CncFault;
-pub(in crate::faults) use self::row::{CncSeed, fault, on, program, row};
+pub(in crate::faults) use self::row::{CncDefect, fault, on, program, row};
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;
 pub(in crate::faults) use self::upstream::{
@@ -58,8 +58,8 @@ pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;
 
 /// The rows of all tables of defects.
-pub(super) fn rows() -> impl Iterator<Item = &'static CncSeed> {
-    let areas: [&'static [CncSeed]; 29] = [
+pub(super) fn rows() -> impl Iterator<Item = &'static CncDefect> {
+    let areas: [&'static [CncDefect]; 29] = [
         variable_consistency::ROWS,
         address::ROWS,
         ads::ROWS,

@@ -6,19 +6,19 @@ use ads_cnc_vectors::ids::*;
 
 use super::variable::without_indices;
 use super::{
-    CncSeed, NAMED, after_nul, at, function, group, is, is_at, is_lookup, of_decoder, on, row,
+    CncDefect, NAMED, after_nul, at, function, group, is, is_at, is_lookup, of_decoder, on, row,
     text, u32_at,
 };
 use crate::edition::Edition;
 
 /// A row whose defect is detectable in the German edition only.
-const fn german(mut row: CncSeed) -> CncSeed {
+const fn german(mut row: CncDefect) -> CncDefect {
     row.edition = Some(Edition::German);
     row
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.name-of-200", &[VAR_9], "names of more than 200 characters are rejected",
         |cnc, call| if is(call, NAMED) && text(call.data).len() > 200 {
             Err(AdsError::INVALID_SIZE)

@@ -4,7 +4,9 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, INDEXED, ReplyData, Upstream, group, is, offset, row, set_u32, text, u32_at};
+use super::{
+    CncDefect, INDEXED, ReplyData, Upstream, group, is, offset, row, set_u32, text, u32_at,
+};
 
 const COUNT: &[Function] = &[Function::CountVariables];
 
@@ -28,7 +30,7 @@ pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.sum-refused", &[VAR_1], "the empty kind is rejected",
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
             Err(AdsError::SYMBOL_NOT_FOUND)

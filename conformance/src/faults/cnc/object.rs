@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::com::set;
-use super::{CncSeed, LOGICAL, at, com_group, group, is, offset, records_mut, row};
+use super::{CncDefect, LOGICAL, at, com_group, group, is, offset, records_mut, row};
 
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
@@ -21,7 +21,7 @@ fn content(call: &Call<'_>) -> Option<ComGroup> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.com.content-big-endian", &[GEN_1, COM_5],
         "contents are read and written with the most significant byte first",
         |cnc, call| match (is(call, READ), is(call, WRITE)) {
@@ -66,13 +66,13 @@ pub(super) const ROWS: &[CncSeed] = &[
     }),
     row("cnc.com.write-two", &[COM_5], "a write to an object of one axis is one to that of every axis",
         |cnc, call| if is(call, WRITE) && offset(call) >= 0x1_0000 && offset(call) & 0xFFFF != 3 {
-            let done = cnc.answer(call);
-            if done.is_ok() {
+            let reply = cnc.answer(call);
+            if reply.is_ok() {
                 for axis in 1..=3 {
                     let _ = cnc.at(call, group(call), offset(call) & 0xFFFF | axis << 16);
                 }
             }
-            done
+            reply
         } else {
             cnc.answer(call)
         }),

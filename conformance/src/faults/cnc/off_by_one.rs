@@ -7,8 +7,8 @@ use ads_cnc_vectors::ids::*;
 use super::handle::{joined, parts};
 use super::lookup::{described, instance, is_string, name_of};
 use super::{
-    CncSeed, LOGICAL, after_nul, function, group, is, offset, on, records_mut, reply, row, set_u32,
-    text, u32_at,
+    CncDefect, LOGICAL, after_nul, function, group, is, offset, on, records_mut, reply, row,
+    set_u32, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -29,7 +29,7 @@ fn run_on(records: &mut [[u8; 84]], field: usize) {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.adr.spindle-written-first", &[ADR_2, SDA_9],
         "what is written to the second spindle is written to the first",
         |cnc, call| match (is(call, WRITE), group(call)) {
@@ -66,14 +66,14 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.com.write-first-channel-too", &[COM_5],
         "what is written to an object of channel 2 is written to that of channel 1 too",
         |cnc, call| {
-            let done = cnc.answer(call);
-            if done.is_ok()
+            let reply = cnc.answer(call);
+            if reply.is_ok()
                 && is(call, &[Function::WriteObject])
                 && group(call) | LOGICAL == 0x12_0102
             {
                 let _ = cnc.at(call, 0x12_0101, offset(call));
             }
-            done
+            reply
         }),
     on("cnc.dyn.names-sorted", &[DYN_4, DYN_2],
         "names by index are sorted by the alphabet, values by index are not",
@@ -90,14 +90,14 @@ pub(super) const ROWS: &[CncSeed] = &[
         "elements of an array of STRING, by handle, are a byte less apart than they are long",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
             (true, Some((handle, indices, _))) if indices.len() == 1 => {
-                let right = cnc.answer(call)?;
+                let correct = cnc.answer(call)?;
                 let name = name_of(cnc, group(call), handle).unwrap_or_default();
                 let described = described(cnc, group(call), &name).unwrap_or_default();
                 let whole = cnc.whole(&Call { data: &joined(handle, &[], &[]), ..*call })?;
                 let index = indices.first().and_then(|one| usize::try_from(*one).ok());
-                let start = right.len().saturating_sub(1).saturating_mul(index.unwrap_or_default());
-                let part = whole.get(start..start.saturating_add(right.len()));
-                if is_string(&described) { Ok(part.map_or(right, <[u8]>::to_vec)) } else { Ok(right) }
+                let start = correct.len().saturating_sub(1).saturating_mul(index.unwrap_or_default());
+                let part = whole.get(start..start.saturating_add(correct.len()));
+                if is_string(&described) { Ok(part.map_or(correct, <[u8]>::to_vec)) } else { Ok(correct) }
             }
             _ => cnc.answer(call),
         }),
@@ -117,9 +117,9 @@ pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.stm.room-of-all", &[STM_3],
         "what the interfaces of all channels hold counts against the 4094 bytes of each",
         STREAM, |cnc, call| {
-            let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.buffered());
-            let held: usize = cnc.channels().into_iter().filter_map(|one| held(one).ok()).sum();
-            if held.saturating_add(call.data.len()) > 4094 {
+            let total = |channel: u8| cnc.cnc.with_program(channel, |program| program.buffered());
+            let total: usize = cnc.channels().into_iter().filter_map(|one| total(one).ok()).sum();
+            if total.saturating_add(call.data.len()) > 4094 {
                 Err(AdsError::INVALID_DATA)
             } else {
                 cnc.answer(call)
@@ -133,10 +133,10 @@ pub(super) const ROWS: &[CncSeed] = &[
                 Some(Function::AxisWriteByName) => {
                     let name = [text(call.data), &[0]].concat();
                     let old = cnc.ask(group(call), offset(call).wrapping_sub(1), &name);
-                    let done = cnc.answer(call)?;
+                    let reply = cnc.answer(call)?;
                     cnc.memory().store(key, after_nul(call.data).to_vec());
                     let _ = cnc.with(call, &[&name[..], &old?].concat());
-                    Ok(done)
+                    Ok(reply)
                 }
                 Some(Function::AxisReadByName) => {
                     let kept = cnc.memory().get(&key);

@@ -7,7 +7,7 @@ use ads_cnc_vectors::ids::*;
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    CncSeed, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, dimensions, function, group, is, number,
+    CncDefect, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, dimensions, function, group, is, number,
     of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at, within_length,
 };
 
@@ -34,10 +34,10 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     match (group(call) | LOGICAL == 0x12_3301 && offset(call) >= 0x1_0000, function(call)) {
         (true, Some(Function::WriteElement)) => {
             let old = cnc.read(call.port, group(call), offset(call));
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             cnc.memory().store(key, call.data.to_vec());
             let _ = cnc.with(call, &old?);
-            Ok(done)
+            Ok(reply)
         }
         (true, Some(Function::ReadElement)) => {
             let kept = cnc.memory().get(&key);
@@ -48,7 +48,7 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.adr.spindles-without-flag", &[ADR_6, ADR_5],
         "spindles have no write flag: 0x25800 is rejected",
         |cnc, call| match group(call) & 0xFF_FF00 {

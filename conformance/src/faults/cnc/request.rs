@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{ClassGroup, ComGroup, Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Effect, Function, OffsetRule, Service};
+use ads_cnc::operation::{AdsService, Call, Effect, Function, OffsetRule};
 
 /// A constant list of the functions whose row has a property.
 macro_rules! functions {
@@ -114,5 +114,5 @@ pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool 
 
 /// Whether a call looks up a name: a ReadWrite at the offset of a function whose request has a name.
 pub(in crate::faults) fn is_lookup(call: &Call<'_>) -> bool {
-    is_at(call, NAMED) && call.service == Service::ReadWrite
+    is_at(call, NAMED) && call.service == AdsService::ReadWrite
 }

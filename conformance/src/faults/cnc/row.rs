@@ -27,7 +27,7 @@ pub(crate) enum CncFault {
 }
 
 /// A row of the tables of defects.
-pub(in crate::faults) struct CncSeed {
+pub(in crate::faults) struct CncDefect {
     pub(in crate::faults) id: &'static str,
     pub(in crate::faults) breaks: &'static [ClauseId],
     pub(in crate::faults) what: &'static str,
@@ -44,7 +44,7 @@ pub(in crate::faults) const fn row(
     breaks: &'static [ClauseId],
     what: &'static str,
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
-) -> CncSeed {
+) -> CncDefect {
     fault(id, breaks, what, CncFault::Answer(answer))
 }
 
@@ -55,7 +55,7 @@ pub(in crate::faults) const fn on(
     what: &'static str,
     functions: &'static [Function],
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
-) -> CncSeed {
+) -> CncDefect {
     fault(id, breaks, what, CncFault::Function(functions, answer))
 }
 
@@ -65,8 +65,8 @@ pub(in crate::faults) const fn fault(
     breaks: &'static [ClauseId],
     what: &'static str,
     fault: CncFault,
-) -> CncSeed {
-    CncSeed { id, breaks, what, fault, edition: None, printed: true }
+) -> CncDefect {
+    CncDefect { id, breaks, what, fault, edition: None, printed: true }
 }
 
 /// A row that changes the execution of NC programs.
@@ -75,6 +75,6 @@ pub(in crate::faults) const fn program(
     breaks: &'static [ClauseId],
     what: &'static str,
     policy: Policy,
-) -> CncSeed {
+) -> CncDefect {
     fault(id, breaks, what, CncFault::Program(policy))
 }

@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, ReplyData, Upstream, after_nul, dimensions, function, group, is, number, offset, on,
+    CncDefect, ReplyData, Upstream, after_nul, dimensions, function, group, is, number, offset, on,
     program, row, text, u32_at, within_length,
 };
 use crate::simulator::program::Policy;
@@ -45,7 +45,7 @@ fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.svc.missing", &[SVC_1, SVC_11], "the variables of the Service Interface are not there",
         |cnc, call| if of_service(call) && super::of_decoder(call).is_some() {
             Err(AdsError::SYMBOL_NOT_FOUND)

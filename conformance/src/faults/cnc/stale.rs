@@ -8,7 +8,7 @@ use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
 use super::lookup::{instance, one, over};
 use super::{
-    CncSeed, ReplyData, Upstream, frame, function, group, is, offset, on, row, text, u32_at,
+    CncDefect, ReplyData, Upstream, frame, function, group, is, offset, on, row, text, u32_at,
     within_length,
 };
 
@@ -61,7 +61,7 @@ fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.sda.unit-runs-on", &[SDA_6],
         "a unit that is shorter than the one read before it runs on with the rest of that",
         UNIT, |cnc, call| {

@@ -7,7 +7,7 @@ use ads_cnc::streaming::{
 };
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, program};
+use super::{CncDefect, program};
 use crate::simulator::program::{
     Buffer, Policy, ProgramEvent, ProgramSegment, StreamingInterface, lines,
 };
@@ -235,7 +235,7 @@ fn subroutines(checker: &mut Checker, read: &[u8]) -> ProgramSegment {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     program("cnc.stm.room-8188", &[STM_3], "the interface holds up to 8188 bytes",
         Policy { buffer: || PacketBuffer::of(2 * STREAM_MAX, PacketBuffer::all), ..RIGHT }),
     program("cnc.stm.room-2048", &[STM_3], "the interface holds 2048 bytes",

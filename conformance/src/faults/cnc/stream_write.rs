@@ -5,14 +5,14 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncSeed, LOGICAL, ReplyData, Upstream, at, function, group, later, offset, records_mut, row,
+    CncDefect, LOGICAL, ReplyData, Upstream, at, function, group, later, offset, records_mut, row,
 };
 
 /// Whether a call writes to a program stream, with any length.
 fn stream(call: &Call<'_>) -> bool {
     group(call) & 0xEF_FF00 == 0x02_0100
         && offset(call) == 0x90
-        && call.service == ads_cnc::operation::Service::Write
+        && call.service == ads_cnc::operation::AdsService::Write
 }
 
 /// Changes the data of a write to a program stream with `other`.
@@ -21,7 +21,7 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> 
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.stm.object-renamed", &[STM_1], "the object of the stream is called mc_program_stream",
         |cnc, call| {
             let mut answer = cnc.answer(call)?;
@@ -125,12 +125,12 @@ pub(super) const ROWS: &[CncSeed] = &[
         }),
     row("cnc.stm.taken-refused", &[STM_6], "every fourth write is taken and acknowledged negatively",
         |cnc, call| if stream(call) {
-            let done = cnc.answer(call);
+            let reply = cnc.answer(call);
             let mut memory = cnc.memory();
             memory.count = memory.count.wrapping_add(1);
             match memory.count & 3 {
-                0 => done.and(Err(AdsError::INVALID_DATA)),
-                _ => done,
+                0 => reply.and(Err(AdsError::INVALID_DATA)),
+                _ => reply,
             }
         } else {
             cnc.answer(call)
@@ -201,9 +201,9 @@ pub(super) const ROWS: &[CncSeed] = &[
                     Ok(Vec::new())
                 }
                 Some(first) => {
-                    let done = cnc.answer(call);
+                    let reply = cnc.answer(call);
                     cnc.late(first)?;
-                    done
+                    reply
                 }
             }
         } else {

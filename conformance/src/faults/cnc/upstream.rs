@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort};
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{AdsService, Call, Function};
 
 use super::ReplyData;
 use super::request::{at, group, is, offset};
@@ -37,7 +37,7 @@ pub(crate) struct Memory {
 #[derive(Clone, Debug)]
 pub(in crate::faults) struct DelayedRequest {
     port: AmsPort,
-    service: Service,
+    service: AdsService,
     group: u32,
     offset: u32,
     data: Vec<u8>,
@@ -83,7 +83,7 @@ impl Upstream<'_> {
     pub(in crate::faults) fn ask(&self, group: u32, offset: u32, data: &[u8]) -> ReplyData {
         self.answer(&Call {
             port: AmsPort::SDA,
-            service: Service::ReadWrite,
+            service: AdsService::ReadWrite,
             index_group: IndexGroup::new(group),
             index_offset: IndexOffset::new(offset),
             read_length: u32::MAX,
@@ -95,7 +95,7 @@ impl Upstream<'_> {
     pub(in crate::faults) fn read(&self, port: AmsPort, group: u32, offset: u32) -> ReplyData {
         self.answer(&Call {
             port,
-            service: Service::Read,
+            service: AdsService::Read,
             index_group: IndexGroup::new(group),
             index_offset: IndexOffset::new(offset),
             read_length: u32::MAX,

@@ -4,11 +4,11 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::variable::{described, element, first_element};
-use super::{CncSeed, VALUES, function, group, is, on, reply, row, text, u32_at, within_length};
+use super::{CncDefect, VALUES, function, group, is, on, reply, row, text, u32_at, within_length};
 
 const EXTENDED: &[Function] = &[Function::DescribeExtended];
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.value-first", &[VAR_14], "a read by name without an index gives the first element",
         |cnc, call| match (is(call, &[Function::ReadByName]), text(call.data).ends_with(b"]")) {
             (true, false) => first_element(cnc, call),

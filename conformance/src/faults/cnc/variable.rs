@@ -5,7 +5,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::number::count;
 use super::{
-    CncSeed, DESCRIPTIONS, ReplyData, Upstream, dimensions, function, group, reply, row, set_u32,
+    CncDefect, DESCRIPTIONS, ReplyData, Upstream, dimensions, function, group, reply, row, set_u32,
     text, u32_at,
 };
 
@@ -57,7 +57,7 @@ pub(super) fn element(description: &[u8]) -> usize {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.description-dimensions-reversed", &[VAR_4],
         "the dimensions of a description come in reverse order",
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {

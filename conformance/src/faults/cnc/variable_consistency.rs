@@ -1,19 +1,19 @@
 //! Defects with which functions return contradictory data about the same variable (VAR).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{AdsService, Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::handle::parts;
 use super::number::count;
 use super::{
-    CncSeed, NAMED, Upstream, WRITES, after_nul, dimensions, function, group, is, of_decoder,
+    CncDefect, NAMED, Upstream, WRITES, after_nul, dimensions, function, group, is, of_decoder,
     offset, on, reply, row, text, u32_at, within_length,
 };
 
 /// Whether a call is a query that names a variable: its value, its handle or its description.
 fn is_query(call: &Call<'_>) -> bool {
-    is(call, NAMED) && call.service == Service::ReadWrite
+    is(call, NAMED) && call.service == AdsService::ReadWrite
 }
 
 /// The names of all V.E variables and then all V.G variables, in the order of their indices.
@@ -52,7 +52,7 @@ fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.name-compared-8", &[VAR_9],
         "names are compared by their first 8 characters if there is none that is the same",
         |cnc, call| match (is_query(call), cnc.answer(call)) {
@@ -124,11 +124,11 @@ pub(super) const ROWS: &[CncSeed] = &[
     on("cnc.var.axis-write-all", &[VAR_26],
         "a write on the axis interface is one to all axes of the channel",
         &[Function::AxisWriteByName], |cnc, call| {
-            let done = cnc.answer(call);
-            for axis in (1..=3).filter(|_| done.is_ok()) {
+            let reply = cnc.answer(call);
+            for axis in (1..=3).filter(|_| reply.is_ok()) {
                 let _ = cnc.at(call, group(call), axis << 16 | offset(call) & 0xFFFF);
             }
-            done
+            reply
         }),
     row("cnc.var.axis-name-optional", &[VAR_26],
         "on the channel interface a name without its axis is that of the first",

@@ -4,12 +4,12 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 
-use super::{CncSeed, WRITES, after_nul, function, group, is, of_decoder, row, text};
+use super::{CncDefect, WRITES, after_nul, function, group, is, of_decoder, row, text};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.write-read-only-accepted", &[VAR_6],
         "a write of what is READ_ONLY succeeds, and changes nothing",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
@@ -59,11 +59,11 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.var.write-other-channels", &[VAR_13],
         "a write to a variable of channel 2 is one to that of channel 6 too",
         |cnc, call| if is(call, BY_NAME) && group(call) == 0x12_2302 {
-            let done = cnc.answer(call);
-            if done.is_ok() {
+            let reply = cnc.answer(call);
+            if reply.is_ok() {
                 let _ = cnc.at(call, 0x12_2306, super::offset(call));
             }
-            done
+            reply
         } else {
             cnc.answer(call)
         }),

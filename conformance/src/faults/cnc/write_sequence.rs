@@ -8,7 +8,7 @@ use ads_cnc_vectors::ids::*;
 use super::lookup::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
 use super::{
-    CncSeed, ReplyData, Upstream, after_nul, function, group, is, offset, on, row, text, u32_at,
+    CncDefect, ReplyData, Upstream, after_nul, function, group, is, offset, on, row, text, u32_at,
 };
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
@@ -52,7 +52,7 @@ fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.com.string-runs-on", &[COM_5],
         "a STRING that is written over a longer one runs on with the rest of that",
         |cnc, call| if is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {
@@ -81,9 +81,9 @@ pub(super) const ROWS: &[CncSeed] = &[
             if cnc.memory().get(&key).is_some() {
                 return Err(AdsError::INVALID_ACCESS);
             }
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             cnc.memory().store(key, Vec::new());
-            Ok(done)
+            Ok(reply)
         }),
     row("cnc.sda.blank-written", &[SDA_11],
         "what is written at a place without an axis is taken and read there",
@@ -109,9 +109,9 @@ pub(super) const ROWS: &[CncSeed] = &[
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
             }
-            let done = cnc.answer(call);
-            cnc.memory().count = u32::from(done.is_err());
-            done
+            let reply = cnc.answer(call);
+            cnc.memory().count = u32::from(reply.is_err());
+            reply
         }),
     on("cnc.stm.same-ignored", &[STM_4, STM_15],
         "a packet that is the same as the one before is taken for its repetition and ignored",
@@ -119,9 +119,9 @@ pub(super) const ROWS: &[CncSeed] = &[
             if cnc.memory().get(&one(instance(call))).as_deref() == Some(call.data) {
                 return Ok(Vec::new());
             }
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             cnc.memory().store(one(instance(call)), call.data.to_vec());
-            Ok(done)
+            Ok(reply)
         }),
     on("cnc.stm.again-lost", &[STM_6],
         "after a write that was rejected for now, the next one is acknowledged and lost",
@@ -129,9 +129,9 @@ pub(super) const ROWS: &[CncSeed] = &[
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
             }
-            let done = cnc.answer(call);
-            cnc.memory().count = u32::from(done == Err(AdsError::INVALID_DATA));
-            done
+            let reply = cnc.answer(call);
+            cnc.memory().count = u32::from(reply == Err(AdsError::INVALID_DATA));
+            reply
         }),
     row("cnc.stm.full-in-part", &[STM_6],
         "of a write that there is no room for the first line is taken, and the whole is rejected",
@@ -148,10 +148,10 @@ pub(super) const ROWS: &[CncSeed] = &[
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
             }
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             let ends = call.data.windows(3).any(|part| part == b"M30");
             cnc.memory().count = u32::from(ends);
-            Ok(done)
+            Ok(reply)
         }),
     row("cnc.svc.resets-once", &[SVC_3],
         "the first write of REQUEST_STATE in a channel sets RESPONSE_STATE to 0, no other does",
@@ -192,7 +192,7 @@ pub(super) const ROWS: &[CncSeed] = &[
     row("cnc.svc.finished-everywhere", &[SVC_4, SVC_1],
         "an answer in one channel ends the requests of all: their REQUEST_STATE becomes 0",
         |cnc, call| {
-            let done = cnc.answer(call)?;
+            let reply = cnc.answer(call)?;
             if writes(call, RESPONSE_STATE) {
                 let state = [REQUEST_STATE.as_bytes(), &[0; 5]].concat();
                 for channel in cnc.channels() {
@@ -204,7 +204,7 @@ pub(super) const ROWS: &[CncSeed] = &[
                     }
                 }
             }
-            Ok(done)
+            Ok(reply)
         }),
     row("cnc.svc.request-by-handle-20", &[SVC_1], "REQUEST is read by its handle up to its 20th character",
         |cnc, call| if by_handle(cnc, call, Function::ReadByHandle, REQUEST) {

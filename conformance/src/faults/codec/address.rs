@@ -4,10 +4,10 @@ use ads_cnc_vectors::ids::*;
 use serde_json::Value as Json;
 
 use super::json::{lists, numbers, words};
-use super::row::{CodecFault, CodecSeed, row};
+use super::row::{CodecDefect, CodecFault, row};
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CodecSeed] = &[
+pub(super) const ROWS: &[CodecDefect] = &[
     row("codec.address.index-logical", &[ADR_1],
         "groups with the bit of logical addressing are by index, those without logical",
         CodecFault::Value(|_, value| words(value, "addressing", &[("logical", "index")]))),
@@ -45,16 +45,16 @@ pub(super) const ROWS: &[CodecSeed] = &[
             }
         })),
     row("codec.address.stride-10000", &[ADR_8], "the stride is 0x10000 whatever is said",
-        CodecFault::Around(|right, question| {
+        CodecFault::Around(|correct, question| {
             let mut other = question.clone();
             other.context.stride = question.context.stride.as_ref().map(|_| "0x10000".to_owned());
-            right(&other)
+            correct(&other)
         })),
     row("codec.address.stride-1000", &[ADR_7], "the stride is 0x1000 whatever is said",
-        CodecFault::Around(|right, question| {
+        CodecFault::Around(|correct, question| {
             let mut other = question.clone();
             other.context.stride = question.context.stride.as_ref().map(|_| "0x1000".to_owned());
-            right(&other)
+            correct(&other)
         })),
     row("codec.address.axis-swapped", &[ADR_7, ADR_8],
         "the axis of an index offset is taken for the element",

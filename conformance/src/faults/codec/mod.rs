@@ -18,16 +18,29 @@ use ads_cnc::layout::Stream;
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{Expect, Vector, vectors};
 
-use super::seed::{How, Seed, SeedKind};
+use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 use super::{FieldChange, FieldDefect};
 use crate::codec;
 
-fn seed(id: String, requirements: Vec<&'static str>, what: String, fault: CodecFault) -> Seed {
-    let how = How::Codec(fault);
-    Seed { id, requirements, what, kind: SeedKind::Codec, edition: None, printed: true, how }
+fn seed(
+    id: String,
+    requirements: Vec<&'static str>,
+    what: String,
+    fault: CodecFault,
+) -> SeededDefect {
+    let how = Mechanism::Codec(fault);
+    SeededDefect {
+        id,
+        requirements,
+        what,
+        kind: DefectKind::Codec,
+        edition: None,
+        printed: true,
+        how,
+    }
 }
 
-pub(super) fn seeds() -> Vec<Seed> {
+pub(super) fn seeds() -> Vec<SeededDefect> {
     let mut seeds = forgotten_checks();
     seeds.extend(too_strict());
     seeds.extend(swapped());
@@ -58,7 +71,7 @@ fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
 }
 
 /// The defects that lack one check: one for each error class and stream with a rejecting vector.
-fn forgotten_checks() -> Vec<Seed> {
+fn forgotten_checks() -> Vec<SeededDefect> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
         if let Expect::Reject(reject) = &vector.expect {
@@ -74,7 +87,7 @@ fn forgotten_checks() -> Vec<Seed> {
             &vector.context,
             &vector.bytes(),
         ) {
-            Err(codec::Refused::Error(error)) => Some(codec::class(&error)),
+            Err(codec::CodecError::Error(error)) => Some(codec::class(&error)),
             _ => None,
         };
         let called = those.iter().find_map(refusal)?;
@@ -89,7 +102,7 @@ fn forgotten_checks() -> Vec<Seed> {
 }
 
 /// The defects that reject a stream of maximum length: one for each stream that has such a vector.
-fn too_strict() -> Vec<Seed> {
+fn too_strict() -> Vec<SeededDefect> {
     let longest = |stream: &Stream| -> Vec<&'static Vector> {
         let layout = stream.layout();
         let all = vectors().iter().filter(|vector| vector.is_accepted());
@@ -113,7 +126,7 @@ fn too_strict() -> Vec<Seed> {
 }
 
 /// The defects that exchange two fields: one for each pair of adjacent fields of the same type.
-fn swapped() -> Vec<Seed> {
+fn swapped() -> Vec<SeededDefect> {
     let fields = Stream::all().filter(|stream| !stream.layout().repeats).flat_map(|stream| {
         let layout = stream.layout();
         let pairs = layout.fields.iter().zip(layout.fields.iter().skip(1));
@@ -148,7 +161,7 @@ fn swapped() -> Vec<Seed> {
 }
 
 /// The big-endian defects: one for each stream with numbers of several bytes.
-fn turned() -> Vec<Seed> {
+fn turned() -> Vec<SeededDefect> {
     let each = |stream: Stream| {
         let layout = stream.layout();
         let all = FieldDefect::of_stream(stream);

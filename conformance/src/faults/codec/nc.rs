@@ -3,7 +3,7 @@
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::row::{CodecFault, CodecSeed, RightAnswer, accepted, refused, row};
+use super::row::{CodecDefect, CodecFault, CorrectAnswer, accepted, refused, row};
 use crate::codec::message::{Answer, Output, Question, Rejection};
 
 /// The text with every line changed.
@@ -34,24 +34,29 @@ fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
 }
 
 /// Rejects NC text that contains this word, which is in upper case; lower case in the text matches too.
-fn refuses(right: RightAnswer<'_>, question: &Question, word: &[u8], clause: ClauseId) -> Answer {
+fn refuses(
+    correct: CorrectAnswer<'_>,
+    question: &Question,
+    word: &[u8],
+    clause: ClauseId,
+) -> Answer {
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();
     if question.op == "check" && text.windows(word.len()).any(|part| part == word) {
         refused(clause.as_str())
     } else {
-        right(question)
+        correct(question)
     }
 }
 
 /// Accepts the text if the correct answer rejects it with this error class.
 pub(super) fn accepts(
-    right: RightAnswer<'_>,
+    correct: CorrectAnswer<'_>,
     question: &Question,
     op: &str,
     class: &str,
 ) -> Answer {
-    match right(question) {
+    match correct(question) {
         Answer::Reject(Rejection { class: Some(found), .. })
             if question.op == op && found == class =>
         {
@@ -69,7 +74,7 @@ pub(super) fn accepts(
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CodecSeed] = &[
+pub(super) const ROWS: &[CodecDefect] = &[
     row("codec.nc.blind-for", &[STM_8], "$FOR is overlooked",
         CodecFault::Text(|text| without(text, "$FOR", "XFOR"))),
     row("codec.nc.blind-endfor", &[STM_8], "$ENDFOR is overlooked",
@@ -89,10 +94,10 @@ pub(super) const ROWS: &[CodecSeed] = &[
     row("codec.nc.blind-jump", &[STM_8], "$GOTO is overlooked",
         CodecFault::Text(|text| without(text, "$GOTO", "XGOTO"))),
     row("codec.nc.blind-jump-packets", &[STM_8], "a jump back into a packet before is overlooked",
-        CodecFault::Around(|right, question| {
+        CodecFault::Around(|correct, question| {
             let packets = question.packets.clone().unwrap_or_default();
             let alone = |packet: Vec<u8>| {
-                right(&Question { packets: Some(vec![packet]), ..question.clone() })
+                correct(&Question { packets: Some(vec![packet]), ..question.clone() })
             };
             match question.op.as_str() {
                 "check" if packets.len() > 1 => {
@@ -100,17 +105,17 @@ pub(super) const ROWS: &[CodecSeed] = &[
                     let first = packets.into_iter().map(alone).find(refused);
                     first.unwrap_or_else(|| Answer::Ok(Output::default()))
                 }
-                _ => right(question),
+                _ => correct(question),
             }
         })),
     row("codec.nc.jumps-refused", &[STM_19], "every $GOTO is rejected",
-        CodecFault::Around(|right, question| refuses(right, question, b"$GOTO", STM_8))),
+        CodecFault::Around(|correct, question| refuses(correct, question, b"$GOTO", STM_8))),
     row("codec.nc.branches-refused", &[STM_19, STM_8], "$IF is rejected",
-        CodecFault::Around(|right, question| refuses(right, question, b"$IF", STM_8))),
+        CodecFault::Around(|correct, question| refuses(correct, question, b"$IF", STM_8))),
     row("codec.nc.switch-refused", &[STM_19, STM_8], "$SWITCH is rejected",
-        CodecFault::Around(|right, question| refuses(right, question, b"$SWITCH", STM_8))),
+        CodecFault::Around(|correct, question| refuses(correct, question, b"$SWITCH", STM_8))),
     row("codec.nc.subroutine-refused", &[STM_18], "a call of a subroutine is rejected",
-        CodecFault::Around(|right, question| refuses(right, question, b" L ", STM_18))),
+        CodecFault::Around(|correct, question| refuses(correct, question, b" L ", STM_18))),
     row("codec.nc.comment-parentheses", &[STM_9], "comments in parentheses are looked through",
         CodecFault::Text(|text| bytes(text, b"()", b' '))),
     row("codec.nc.comment-semicolon", &[STM_9], "comments after a semicolon are looked through",
@@ -131,7 +136,7 @@ pub(super) const ROWS: &[CodecSeed] = &[
                 .collect()
         })),
     row("codec.nc.comment-block-open", &[STM_9], "a comment that is never ended is not told",
-        CodecFault::Around(|right, question| accepts(right, question, "check", STM_9.as_str()))),
+        CodecFault::Around(|correct, question| accepts(correct, question, "check", STM_9.as_str()))),
     row("codec.nc.end-m2", &[STM_10], "M2 is overlooked",
         CodecFault::Text(|text| without(text, "M2", "M9"))),
     row("codec.nc.end-m30", &[STM_10], "M30 is overlooked",

@@ -3,7 +3,7 @@
 use ads_cnc_vectors::ids::*;
 
 use super::nc::{accepts, lines};
-use super::row::{CodecFault, CodecSeed, refused, row};
+use super::row::{CodecDefect, CodecFault, refused, row};
 
 /// The text of these packets, split into packets of whole lines with at most `most` bytes each. A
 /// longer line has its own packet.
@@ -20,7 +20,7 @@ fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CodecSeed] = &[
+pub(super) const ROWS: &[CodecDefect] = &[
     row("codec.nc.cut-992", &[STM_4], "NC text is cut every 992 bytes, wherever that is",
         CodecFault::Packets(|packets| packets.concat().chunks(992).map(<[u8]>::to_vec).collect())),
     row("codec.nc.cut-in-line-end", &[STM_4], "packets end between CR and LF",
@@ -115,20 +115,20 @@ pub(super) const ROWS: &[CodecSeed] = &[
             packed(&[text.collect()], 992)
         })),
     row("codec.nc.takes-cp1252", &[STM_7], "characters beyond ASCII are written as they are",
-        CodecFault::Around(|right, question| accepts(right, question, "packets", "not-ascii"))),
+        CodecFault::Around(|correct, question| accepts(correct, question, "packets", "not-ascii"))),
     row("codec.nc.takes-nul", &[STM_7], "NULs in NC text are written as they are",
-        CodecFault::Around(|right, question| accepts(right, question, "packets", "nul"))),
+        CodecFault::Around(|correct, question| accepts(correct, question, "packets", "nul"))),
     row("codec.nc.takes-long-lines", &[STM_20], "lines of more than 990 characters are written as they are",
-        CodecFault::Around(|right, question| accepts(right, question, "packets", "too-long"))),
+        CodecFault::Around(|correct, question| accepts(correct, question, "packets", "too-long"))),
     row("codec.nc.cuts-long-lines", &[STM_20], "a line of 990 characters is rejected",
-        CodecFault::Around(|right, question| {
+        CodecFault::Around(|correct, question| {
             let text = question.hex.as_deref().unwrap_or_default();
             let long =
                 |line: &[u8]| line.iter().filter(|byte| !b"\r\n".contains(byte)).count() == 990;
             if question.op == "packets" && text.split(|byte| *byte == b'\n').any(long) {
                 refused("too-long")
             } else {
-                right(question)
+                correct(question)
             }
         })),
 ];

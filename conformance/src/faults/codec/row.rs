@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::codec::message::{Answer, Output, Question, Rejection};
 use crate::faults::{FieldChange, FieldDefect};
 
-pub(super) type RightAnswer<'a> = &'a dyn Fn(&Question) -> Answer;
+pub(super) type CorrectAnswer<'a> = &'a dyn Fn(&Question) -> Answer;
 
 /// How a defect of a codec works.
 #[derive(Clone, Copy, Debug)]
@@ -29,14 +29,14 @@ pub(crate) enum CodecFault {
     /// Changes NC text before it is processed.
     Text(fn(&[u8]) -> Vec<u8>),
     /// Any other change; arguments are the correct codec and the question.
-    Around(fn(RightAnswer<'_>, &Question) -> Answer),
+    Around(fn(CorrectAnswer<'_>, &Question) -> Answer),
 }
 
 impl CodecFault {
-    pub(crate) fn answer(self, right: RightAnswer<'_>, question: &Question) -> Answer {
+    pub(crate) fn answer(self, correct: CorrectAnswer<'_>, question: &Question) -> Answer {
         let stream = question.stream.as_str();
         match self {
-            Self::Accepts(class, of) => match right(question) {
+            Self::Accepts(class, of) => match correct(question) {
                 Answer::Reject(reject)
                     if of == stream && reject.class.as_deref() == Some(class) =>
                 {
@@ -50,31 +50,31 @@ impl CodecFault {
                 if of == stream && question.op == "decode" && len == longest {
                     refused("too-long")
                 } else {
-                    right(question)
+                    correct(question)
                 }
             }
             Self::Swaps(of, one, other) => {
                 if of == stream {
-                    around_value(right, question, |value| swap(value, one, other))
+                    around_value(correct, question, |value| swap(value, one, other))
                 } else {
-                    right(question)
+                    correct(question)
                 }
             }
             Self::BigEndian(of) => {
                 if of.layout().name == stream {
-                    big_endian(right, question, of)
+                    big_endian(correct, question, of)
                 } else {
-                    right(question)
+                    correct(question)
                 }
             }
-            Self::Value(change) => around_value(right, question, |value| change(stream, value)),
-            Self::Bytes(change) => match right(question) {
+            Self::Value(change) => around_value(correct, question, |value| change(stream, value)),
+            Self::Bytes(change) => match correct(question) {
                 Answer::Ok(Output { hex: Some(bytes), .. }) if question.op == "encode" => {
                     Answer::Ok(Output { hex: Some(change(stream, bytes)), ..Output::default() })
                 }
                 answer => answer,
             },
-            Self::Packets(change) => match right(question) {
+            Self::Packets(change) => match correct(question) {
                 Answer::Ok(Output { packets: Some(packets), .. }) => {
                     Answer::Ok(Output { packets: Some(change(packets)), ..Output::default() })
                 }
@@ -88,9 +88,9 @@ impl CodecFault {
                 for packet in other.packets.iter_mut().flatten() {
                     *packet = change(packet);
                 }
-                right(&other)
+                correct(&other)
             }
-            Self::Around(change) => change(right, question),
+            Self::Around(change) => change(correct, question),
         }
     }
 }
@@ -106,7 +106,11 @@ pub(super) fn refused(class: &str) -> Answer {
 }
 
 /// The answer to a question, with the value changed after `decode` and before `encode`.
-fn around_value(right: RightAnswer<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
+fn around_value(
+    correct: CorrectAnswer<'_>,
+    question: &Question,
+    change: impl Fn(&mut Json),
+) -> Answer {
     let mut other = question.clone();
     if let Some(fields) = &question.value
         && let Ok(mut value) = serde_json::to_value(fields)
@@ -117,7 +121,7 @@ fn around_value(right: RightAnswer<'_>, question: &Question, change: impl Fn(&mu
             Err(error) => return Answer::Error { message: error.to_string() },
         }
     }
-    match right(&other) {
+    match correct(&other) {
         Answer::Ok(Output { value: Some(mut value), .. }) => {
             change(&mut value);
             Answer::Ok(Output { value: Some(value), ..Output::default() })
@@ -141,13 +145,13 @@ fn swap(value: &mut Json, one: &str, other: &str) {
     }
 }
 
-fn big_endian(right: RightAnswer<'_>, question: &Question, stream: Stream) -> Answer {
+fn big_endian(correct: CorrectAnswer<'_>, question: &Question, stream: Stream) -> Answer {
     let all = FieldDefect::of_stream(stream);
     let numbers = all.iter().filter(|one| one.change == FieldChange::SwapBytes && is_number(one));
     let turn = |bytes: &[u8]| numbers.clone().fold(bytes.to_vec(), |bytes, one| one.apply(&bytes));
     let mut other = question.clone();
     other.hex = question.hex.as_deref().map(turn);
-    match right(&other) {
+    match correct(&other) {
         Answer::Ok(Output { hex: Some(bytes), .. }) => {
             Answer::Ok(Output { hex: Some(turn(&bytes)), ..Output::default() })
         }
@@ -163,7 +167,7 @@ pub(super) fn is_number(defect: &FieldDefect) -> bool {
 }
 
 /// A row of the tables of defects.
-pub(super) struct CodecSeed {
+pub(super) struct CodecDefect {
     pub(super) id: &'static str,
     pub(super) breaks: &'static [ClauseId],
     pub(super) what: &'static str,
@@ -175,6 +179,6 @@ pub(super) const fn row(
     breaks: &'static [ClauseId],
     what: &'static str,
     fault: CodecFault,
-) -> CodecSeed {
-    CodecSeed { id, breaks, what, fault }
+) -> CodecDefect {
+    CodecDefect { id, breaks, what, fault }
 }

@@ -4,7 +4,7 @@ use ads_cnc::text::cp1252_to_char;
 use ads_cnc_vectors::ids::*;
 
 use super::json::{numbers, texts};
-use super::row::{CodecFault, CodecSeed, row};
+use super::row::{CodecDefect, CodecFault, row};
 
 const NAMES: [&str; 4] =
     ["variable-kind", "variable-index-kind", "variable-name", "dynamic-name-request"];
@@ -18,7 +18,7 @@ fn nul(stream: &str, of: &str, mut bytes: Vec<u8>) -> Vec<u8> {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CodecSeed] = &[
+pub(super) const ROWS: &[CodecDefect] = &[
     row("codec.text.question-marks", &[GEN_3],
         "characters beyond ASCII are read and written as question marks",
         CodecFault::Value(|_, value| {

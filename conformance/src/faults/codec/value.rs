@@ -4,10 +4,10 @@ use ads_cnc_vectors::ids::*;
 use serde_json::Value as Json;
 
 use super::json::{each, lists, numbers};
-use super::row::{CodecFault, CodecSeed, row};
+use super::row::{CodecDefect, CodecFault, row};
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CodecSeed] = &[
+pub(super) const ROWS: &[CodecDefect] = &[
     row("codec.element.flag-inverted", &[SDA_9], "the write flag is inverted",
         CodecFault::Value(|stream, value| {
             if stream == "element-write-flag" {

@@ -1,7 +1,7 @@
 //! Wrong replies: the reply to a request with another argument, or a changed reply.
 
 use ads_cnc::address::{Class, IndexOffset};
-use ads_cnc::operation::{Call, Function, OffsetRule, Service};
+use ads_cnc::operation::{AdsService, Call, Function, OffsetRule};
 
 use self::Argument::{Axis, Channel, Index};
 use super::super::cnc::{
@@ -78,7 +78,7 @@ pub(super) fn mistaken(
     argument: Argument,
     other: impl Fn(u32) -> u32,
 ) -> ReplyData {
-    if call.service != Service::Write {
+    if call.service != AdsService::Write {
         cnc.answer(call)?;
     }
     asked(cnc, call, argument, other).filter(Result::is_ok).unwrap_or_else(|| cnc.answer(call))
@@ -131,15 +131,15 @@ pub(super) fn rewritten(
 ) -> ReplyData {
     let (head, new) = call.data.split_at_checked(value_at(call)).unwrap_or_default();
     let (service, back) = match function(call) {
-        Some(Function::WriteByHandle | Function::WriteByName) => (Service::ReadWrite, 2),
-        Some(Function::AxisWriteByName) => (Service::ReadWrite, 1),
-        _ => (Service::Read, 0),
+        Some(Function::WriteByHandle | Function::WriteByName) => (AdsService::ReadWrite, 2),
+        Some(Function::AxisWriteByName) => (AdsService::ReadWrite, 1),
+        _ => (AdsService::Read, 0),
     };
     let index_offset = IndexOffset::new(offset(call).wrapping_sub(back));
     let old = cnc.whole(&Call { service, index_offset, data: head, ..*call });
-    let done = cnc.answer(call)?;
+    let reply = cnc.answer(call)?;
     let _ = cnc.with(call, &[head, &other(new, &old?)].concat());
-    Ok(done)
+    Ok(reply)
 }
 
 /// The key under which an operator stores a reply in the memory of the defect.

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 
 use crate::faults::{Faulty, by_id};
 use crate::simulator::{Cnc, NET_ID, Responder as _};
@@ -14,7 +14,7 @@ fn faulty(id: &str) -> Faulty {
 fn call(group: u32, offset: u32, read_length: u32, data: &[u8]) -> Call<'_> {
     Call {
         port: AmsPort::SDA,
-        service: Service::ReadWrite,
+        service: AdsService::ReadWrite,
         index_group: IndexGroup::new(group),
         index_offset: IndexOffset::new(offset),
         read_length,
@@ -43,14 +43,14 @@ fn a_defect_shows_in_its_stream_only() {
 /// Defects reach the streams inside requests for elements and writes too.
 #[test]
 fn a_defect_shows_in_elements_and_writes() {
-    let read = |group| Call { service: Service::Read, ..call(group, 1, 256, &[]) };
+    let read = |group| Call { service: AdsService::Read, ..call(group, 1, 256, &[]) };
     let length = faulty("element-length.length.flip").answer(&read(0x12_3601));
     assert_eq!(length, Ok(vec![0, 0, 0, 0]));
     assert_eq!(faulty("content.content.invert").answer(&read(0x12_3301)), Ok(vec![0xFE]));
     // The defect changes the written value from 0x7B to 0x7A.
     let cnc = faulty("variable-name-write.value.flip");
     let write = call(0x12_2301, 0x4A, 0, b"V.E.test[4]\0\x7B\0\0\0");
-    assert_eq!(cnc.answer(&Call { service: Service::Write, ..write }), Ok(vec![]));
+    assert_eq!(cnc.answer(&Call { service: AdsService::Write, ..write }), Ok(vec![]));
     let element = cnc.answer(&call(0x12_2301, 0x48, 4, b"V.E.test[4]\0"));
     assert_eq!(element, Ok(vec![0x7A, 0, 0, 0]));
 }

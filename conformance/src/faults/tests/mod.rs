@@ -9,13 +9,13 @@ use ads_cnc_vectors::{Level, clause, requirements};
 
 use self::transcript::Transcript;
 use super::cnc::CncFault;
-use super::seed::How;
+use super::seeded_defect::Mechanism;
 use super::*;
 use crate::edition::Edition;
 use crate::testee::{self, Answer, CodecTestee, Question};
-use crate::{clients, suite};
+use crate::{client_suite, suite};
 
-fn of_kind(kinds: &[SeedKind]) -> impl Iterator<Item = &'static Seed> {
+fn of_kind(kinds: &[DefectKind]) -> impl Iterator<Item = &'static SeededDefect> {
     let kinds = kinds.to_vec();
     all().iter().filter(move |seed| kinds.contains(&seed.kind) && seed.field().is_none())
 }
@@ -28,7 +28,7 @@ fn ids_are_unique_and_descriptions_not_empty() {
         assert_eq!(by_id(&seed.id).map(|one| &one.what), Some(&seed.what));
         assert!(seed.what.len() > 10 && !seed.what.ends_with('.'), "{}", seed.id);
         assert!(seed.id.bytes().all(|byte| byte.is_ascii_graphic()), "{}", seed.id);
-        assert_eq!(seed.requirements.is_empty(), seed.kind == SeedKind::Different, "{}", seed.id);
+        assert_eq!(seed.requirements.is_empty(), seed.kind == DefectKind::Different, "{}", seed.id);
         for id in &seed.requirements {
             let clause = clause(id).unwrap_or_else(|| panic!("{}: {id}", seed.id));
             assert!(clause.requirement.excluded.is_none(), "{}: {id} is excluded", seed.id);
@@ -39,7 +39,7 @@ fn ids_are_unique_and_descriptions_not_empty() {
 /// Each defect or variant of a CNC must change at least one reply of the transcript.
 #[test]
 fn every_defect_of_a_cnc_is_detectable() {
-    let seeds: Vec<&Seed> = of_kind(&[SeedKind::Cnc, SeedKind::Different]).collect();
+    let seeds: Vec<&SeededDefect> = of_kind(&[DefectKind::Cnc, DefectKind::Different]).collect();
     let hidden = std::thread::scope(|scope| {
         let parts = seeds.chunks(seeds.len().div_ceil(4));
         let parts: Vec<_> = parts.map(|part| scope.spawn(|| hidden(part))).collect();
@@ -50,18 +50,18 @@ fn every_defect_of_a_cnc_is_detectable() {
 }
 
 /// The IDs of the defects that change no reply of the transcript.
-fn hidden(seeds: &[&'static Seed]) -> Vec<&'static str> {
+fn hidden(seeds: &[&'static SeededDefect]) -> Vec<&'static str> {
     let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
     for &seed in seeds {
         // The transcript does not record the timing and the splitting of frames.
-        if matches!(seed.how, How::Cnc(CncFault::Pieces(_))) || seed.id == "different.slow" {
+        if matches!(seed.how, Mechanism::Cnc(CncFault::Pieces(_))) || seed.id == "different.slow" {
             continue;
         }
         let right = right.entry(seed.edition).or_insert_with(|| match seed.edition {
             None => Transcript::new(None, None),
             Some(_) => Transcript::new(
-                Some(&Seed { how: How::Cnc(CncFault::Pieces(0)), ..seed.clone() }),
+                Some(&SeededDefect { how: Mechanism::Cnc(CncFault::Pieces(0)), ..seed.clone() }),
                 None,
             ),
         });
@@ -96,7 +96,7 @@ fn every_defect_of_a_codec_is_detectable() {
 /// A requirement of level *must* has either a defect or a reason in `without` why no defect violates it.
 #[test]
 fn every_must_has_a_defect_or_a_reason() {
-    let clients = clients::defects().iter().map(|defect| defect.requirement);
+    let clients = client_suite::defects().iter().map(|defect| defect.requirement);
     let targets: BTreeSet<&str> =
         all().iter().flat_map(|seed| seed.requirements.iter().copied()).chain(clients).collect();
     let reasons: BTreeMap<&str, &str> =

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 
-use super::{Faulty, Seed};
+use super::{Faulty, SeededDefect};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 
 /// A CNC and its replies, up to the first difference from another transcript.
@@ -21,7 +21,7 @@ pub(super) struct Transcript<'t> {
 }
 
 impl<'t> Transcript<'t> {
-    pub(super) fn new(seed: Option<&Seed>, other: Option<&'t [Vec<u8>]>) -> Self {
+    pub(super) fn new(seed: Option<&SeededDefect>, other: Option<&'t [Vec<u8>]>) -> Self {
         let edition = seed.and_then(|seed| seed.edition);
         let settings = Settings { edition, version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "default", settings).unwrap();

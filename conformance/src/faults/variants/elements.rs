@@ -2,12 +2,12 @@
 
 use ads_cnc::address::{Attribute, Class};
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{AdsService, Call, Function};
 
 use super::row::unprinted;
 use crate::faults::cnc::{
-    CncFault, CncSeed, ReplyData, Upstream, class, fault, function, group, is, number, offset, on,
-    row, set_u32, text, u32_at, within_length,
+    CncDefect, CncFault, ReplyData, Upstream, class, fault, function, group, is, number, offset,
+    on, row, set_u32, text, u32_at, within_length,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -22,7 +22,7 @@ const ATTRIBUTES: &[Function] = &[
 /// same offset has other meanings at other groups.
 fn is_number(call: &Call<'_>) -> bool {
     let of_content = class(call).is_some_and(|at| at.attribute == Attribute::Content);
-    of_content && call.service == Service::Read && offset(call) & 0xFFF == 0
+    of_content && call.service == AdsService::Read && offset(call) & 0xFFF == 0
 }
 
 /// Replies with the object address (0, 0) to requests for the instances for which `is_absent` returns
@@ -67,7 +67,7 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     unprinted(row("different.number-counts-first", &[],
         "the number of elements counts the first, which says it",
         |cnc, call| if is_number(call) {

@@ -1,10 +1,10 @@
 //! Valid variants with other models: channels, axes, objects and variables.
 
 use super::row::{unprinted, with_names};
-use crate::faults::cnc::{CncFault, CncSeed, fault};
+use crate::faults::cnc::{CncDefect, CncFault, fault};
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     model("different.model", "the CNC is a small one, with things of its own", MODEL),
     model("different.model-bare", "the CNC has a channel, and next to nothing in it", BARE),
     model("different.model-channel-3", "the only channel has the number 3", THIRD),
@@ -13,7 +13,7 @@ pub(super) const ROWS: &[CncSeed] = &[
 ];
 
 /// A variant that uses another data model.
-const fn model(id: &'static str, what: &'static str, model: &'static str) -> CncSeed {
+const fn model(id: &'static str, what: &'static str, model: &'static str) -> CncDefect {
     unprinted(fault(id, &[], what, CncFault::Model(model)))
 }
 

@@ -9,22 +9,22 @@ use ads_cnc::service::ServiceVariable;
 
 use super::row::{sent, unprinted};
 use crate::faults::cnc::{
-    CncSeed, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, row, set_u32,
+    CncDefect, ELEMENT_TEXTS, function, group, is, measured, offset, on, or_short, row, set_u32,
     text, u32_at,
 };
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("different.request-over-early", &[],
         "REQUEST_STATE becomes 0 when RESPONSE is written, and not when RESPONSE_STATE is",
         |cnc, call| {
             let name = ServiceVariable::RESPONSE.as_bytes();
-            let done = cnc.answer(call);
-            if done.is_ok() && is(call, &[Function::WriteByName]) && text(call.data) == name {
+            let reply = cnc.answer(call);
+            if reply.is_ok() && is(call, &[Function::WriteByName]) && text(call.data) == name {
                 let state = [ServiceVariable::REQUEST_STATE.as_bytes(), &[0; 5]].concat();
                 cnc.with(call, &state)?;
             }
-            done
+            reply
         }),
     row("different.instances-named-alike", &[], "the name of element 0 of an axis is that of its channel",
         |cnc, call| if is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {

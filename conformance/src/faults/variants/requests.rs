@@ -2,11 +2,11 @@
 //! manuals do not specify which requests are rejected.
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Function, OffsetRule, Service};
+use ads_cnc::operation::{AdsService, Function, OffsetRule};
 
 use super::row::unprinted;
 use crate::faults::cnc::{
-    CncSeed, INDEXED, NAMED, WRITES, function, functions, group, is, is_at, is_lookup, number,
+    CncDefect, INDEXED, NAMED, WRITES, function, functions, group, is, is_at, is_lookup, number,
     of_decoder, offset, row, set_u32, text, u32_at,
 };
 
@@ -18,7 +18,7 @@ const OF_AXES: &[Function] = functions!(|spec| matches!(spec.offset, OffsetRule:
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     row("different.name-unended", &[], "names without a NUL are taken",
         |cnc, call| if is_at(call, NAMED) && !call.data.contains(&0) && !call.data.is_empty() {
             cnc.with(call, &[call.data, &[0]].concat())
@@ -38,7 +38,7 @@ pub(super) const ROWS: &[CncSeed] = &[
             cnc.answer(call)
         }),
     row("different.kind-unended", &[], "a kind without a NUL is taken", |cnc, call| match of_decoder(call) {
-        Some(0x44) if !call.data.contains(&0) && call.service == Service::ReadWrite => {
+        Some(0x44) if !call.data.contains(&0) && call.service == AdsService::ReadWrite => {
             cnc.with(call, &[call.data, &[0]].concat())
         }
         _ => cnc.answer(call),
@@ -68,8 +68,8 @@ pub(super) const ROWS: &[CncSeed] = &[
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) if !call.data.starts_with(b"V.G.SERVICE.") => {
                 let longer = (1..=8).map(|more| [call.data, &vec![0; more]].concat());
-                let done = longer.map(|data| cnc.with(call, &data)).find(Result::is_ok);
-                done.unwrap_or(Err(AdsError::INVALID_SIZE))
+                let reply = longer.map(|data| cnc.with(call, &data)).find(Result::is_ok);
+                reply.unwrap_or(Err(AdsError::INVALID_SIZE))
             }
             (_, answer) => answer,
         }),

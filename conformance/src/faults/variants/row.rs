@@ -2,10 +2,10 @@
 
 use ads_cnc::ads::FrameRef;
 
-use crate::faults::cnc::{CncFault, CncSeed, Upstream, fault};
+use crate::faults::cnc::{CncDefect, CncFault, Upstream, fault};
 
 /// A variant that does not reply literally as in the manuals' printed examples.
-pub(super) const fn unprinted(mut row: CncSeed) -> CncSeed {
+pub(super) const fn unprinted(mut row: CncDefect) -> CncDefect {
     row.printed = false;
     row
 }
@@ -14,7 +14,7 @@ pub(super) const fn sent(
     id: &'static str,
     what: &'static str,
     frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
-) -> CncSeed {
+) -> CncDefect {
     fault(id, &[], what, CncFault::Frame(frame))
 }
 

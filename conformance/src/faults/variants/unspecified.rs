@@ -1,11 +1,11 @@
 //! Valid variants of behaviour that the manuals do not specify.
 
 use ads_cnc::ads::{AdsError, FrameRef};
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{AdsService, Call, Function};
 
 use super::row::{sent, unprinted, with_names};
 use crate::faults::cnc::{
-    CncFault, CncSeed, NAMED, ReplyData, Upstream, after_nul, dimensions, fault, function, group,
+    CncDefect, CncFault, NAMED, ReplyData, Upstream, after_nul, dimensions, fault, function, group,
     is, measured, offset, on, records_mut, row, set_u32, text, u32_at,
 };
 
@@ -67,7 +67,7 @@ fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
 }
 
 #[rustfmt::skip]
-pub(super) const ROWS: &[CncSeed] = &[
+pub(super) const ROWS: &[CncDefect] = &[
     on("different.contents-just", &[], "a content of COM is read with just the length that it has",
         &[Function::ReadObject], |cnc, call| cnc.answer(call).and_then(|bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
@@ -93,7 +93,7 @@ pub(super) const ROWS: &[CncSeed] = &[
         }))),
     row("different.stream-read-empty", &[], "the object of the stream is read as an empty text", |cnc, call| {
         let stream = group(call) & 0xEF_FF00 == 0x02_0100 && offset(call) == 0x90;
-        match (stream && call.service == Service::Read, cnc.answer(call)) {
+        match (stream && call.service == AdsService::Read, cnc.answer(call)) {
             (true, Err(_)) => {
                 let len = call.read_length.min(4094);
                 Ok(vec![0; usize::try_from(len).unwrap_or_default()])

@@ -4,7 +4,7 @@ use ads_cnc::address::{
 };
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::operation::{
-    AxisWriteByName, Call, Request, Service, WriteByName, WriteElement, WriteObject,
+    AdsService, AxisWriteByName, Call, Request, WriteByName, WriteElement, WriteObject,
     WriteProgramStream,
 };
 
@@ -48,13 +48,13 @@ fn request<'a>(request: impl Into<Request<'a>>) -> Vec<u8> {
     call(&request.encode(&mut buf).unwrap())
 }
 
-fn at(port: AmsPort, service: Service, group: u32, offset: u32, data: &[u8]) -> Vec<u8> {
+fn at(port: AmsPort, service: AdsService, group: u32, offset: u32, data: &[u8]) -> Vec<u8> {
     call(&Call {
         port,
         service,
         index_group: IndexGroup::new(group),
         index_offset: IndexOffset::new(offset),
-        read_length: if service == Service::Write { 0 } else { 4 },
+        read_length: if service == AdsService::Write { 0 } else { 4 },
         data,
     })
 }
@@ -112,7 +112,7 @@ fn only_queries_pass_by_default() {
         let data: &[&[u8]] = &[b"", b"V.E\0", b"\x01\0\0\0V.E\0", &[1, 0, 0, 0], &[0; 8]];
         let passes = |port| {
             data.iter().any(|data| {
-                let data = if spec.service == Service::Read { b"" } else { *data };
+                let data = if spec.service == AdsService::Read { b"" } else { *data };
                 let group = spec.group.example().get();
                 check(&call(&Call {
                     port,
@@ -154,23 +154,23 @@ fn some_requests_are_never_allowed() {
         frame(Command::ADD_NOTIFICATION, AmsPort::COM, &[0; 40]),
         frame(Command::DELETE_NOTIFICATION, AmsPort::COM, &[0; 4]),
         frame(Command::NOTIFICATION, AmsPort::COM, &[0; 8]),
-        at(sda, Service::ReadWrite, 0xF080, 1, &[0; 12]),
-        at(sda, Service::ReadWrite, 0xF081, 1, &[0; 13]),
-        at(sda, Service::ReadWrite, 0xF082, 1, &[0; 17]),
+        at(sda, AdsService::ReadWrite, 0xF080, 1, &[0; 12]),
+        at(sda, AdsService::ReadWrite, 0xF081, 1, &[0; 13]),
+        at(sda, AdsService::ReadWrite, 0xF082, 1, &[0; 17]),
         // The program stream: a read, and a write to the platform, which has no such stream
-        at(AmsPort::COM, Service::Read, 0x12_0101, 0x90, &[]),
-        at(AmsPort::COM, Service::Read, 0x2_0101, 0x90, &[]),
-        at(AmsPort::COM, Service::Read, 0x12_0100, 0x90, &[]),
-        at(AmsPort::COM, Service::ReadWrite, 0x12_0101, 0x90, &[1]),
-        at(AmsPort::COM, Service::Write, 0x12_0100, 0x90, b"M30\r\n"),
+        at(AmsPort::COM, AdsService::Read, 0x12_0101, 0x90, &[]),
+        at(AmsPort::COM, AdsService::Read, 0x2_0101, 0x90, &[]),
+        at(AmsPort::COM, AdsService::Read, 0x12_0100, 0x90, &[]),
+        at(AmsPort::COM, AdsService::ReadWrite, 0x12_0101, 0x90, &[1]),
+        at(AmsPort::COM, AdsService::Write, 0x12_0100, 0x90, b"M30\r\n"),
         // A write to an address without a function
-        at(AmsPort::SDA, Service::Write, 0x12_0101, 0x90, b"M30\r\n"),
+        at(AmsPort::SDA, AdsService::Write, 0x12_0101, 0x90, b"M30\r\n"),
     ];
     for frame in never {
         assert!(check(&frame).is_err());
         assert!(gate(everything).check(&frame, now()).is_err());
-        let refusal = malformed().check(&frame, now()).unwrap_err();
-        assert!(!refusal.to_string().is_empty() && refusal.needed.is_none());
+        let rejection = malformed().check(&frame, now()).unwrap_err();
+        assert!(!rejection.to_string().is_empty() && rejection.needed.is_none());
     }
 }
 
@@ -178,9 +178,9 @@ fn some_requests_are_never_allowed() {
 fn each_write_needs_its_entry() {
     let all = writes();
     for (frame, table) in &all {
-        let refusal = check(frame).unwrap_err();
-        assert_eq!(refusal.needed.as_ref().unwrap().to_string(), *table);
-        assert!(refusal.advice().contains(table));
+        let rejection = check(frame).unwrap_err();
+        assert_eq!(rejection.needed.as_ref().unwrap().to_string(), *table);
+        assert!(rejection.advice().contains(table));
         assert!(malformed().check(frame, now()).is_err());
 
         let gate = gate(table);
@@ -197,13 +197,13 @@ fn a_file_applies_to_one_target_until_it_expires() {
         let end = Moment::from_rfc3339("2026-05-04T15:30:00Z").unwrap();
         let just = Moment::from_rfc3339("2026-05-04T15:29:59Z").unwrap();
         assert!(gate.check(&frame, just).is_ok());
-        let refusal = gate.check(&frame, end).unwrap_err();
-        assert!(matches!(refusal.reason, Reason::Expired(at) if at == end), "{refusal}");
+        let rejection = gate.check(&frame, end).unwrap_err();
+        assert!(matches!(rejection.reason, Reason::Expired(at) if at == end), "{rejection}");
 
         let mut other = frame.clone();
         other[6] ^= 1;
-        let refusal = gate.check(&other, now()).unwrap_err();
-        assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
+        let rejection = gate.check(&other, now()).unwrap_err();
+        assert!(matches!(rejection.reason, Reason::OtherTarget { .. }), "{rejection}");
         // The gate rejects two frames at once, whatever their target is.
         let two = [frame.clone(), frame].concat();
         assert!(gate.check(&two, now()).is_err());
@@ -250,8 +250,8 @@ fn a_file_may_require_an_address() {
     assert!(to(&bound, "192.0.2.10").check(&write, now()).is_ok());
     assert!(to(&bound, "::ffff:192.0.2.10").check(&write, now()).is_ok());
     for other in [to(&bound, "192.0.2.11"), to(&bound, "2001:db8::1"), bound] {
-        let refusal = other.check(&write, now()).unwrap_err();
-        assert!(matches!(refusal.reason, Reason::OtherAddress { .. }), "{refusal}");
+        let rejection = other.check(&write, now()).unwrap_err();
+        assert!(matches!(rejection.reason, Reason::OtherAddress { .. }), "{rejection}");
         assert!(other.check_target(TARGET, now()).is_err());
     }
 
@@ -263,8 +263,8 @@ fn a_file_may_require_an_address() {
         assert!(to(&local, here).check(&write, now()).is_ok(), "{here}");
     }
     for other in [to(&local, "192.0.2.10"), to(&local, "::"), local] {
-        let refusal = other.check(&write, now()).unwrap_err();
-        assert!(matches!(refusal.reason, Reason::LocalNetId(_)), "{refusal}");
+        let rejection = other.check(&write, now()).unwrap_err();
+        assert!(matches!(rejection.reason, Reason::LocalNetId(_)), "{rejection}");
     }
 }
 
@@ -272,8 +272,8 @@ fn a_file_may_require_an_address() {
 /// target of the file and before its expiry.
 #[test]
 fn malformed_requests_need_a_file() {
-    let bad = at(AmsPort::SDA, Service::ReadWrite, 0xF005, 0, b"x");
-    let odd = at(AmsPort::SDA, Service::Write, 0x12_2301, 0x44, b"V.E\0");
+    let bad = at(AmsPort::SDA, AdsService::ReadWrite, 0xF005, 0, b"x");
+    let odd = at(AmsPort::SDA, AdsService::Write, 0x12_2301, 0x44, b"V.E\0");
     let end = Moment::from_rfc3339("2026-05-04T15:30:00Z").unwrap();
     for frame in [&bad, &odd] {
         assert!(malformed().check(frame, now()).is_ok());
@@ -285,13 +285,13 @@ fn malformed_requests_need_a_file() {
         assert!(matches!(late.reason, Reason::Expired(_)), "{late}");
         let mut other = frame.clone();
         other[6] ^= 1;
-        let refusal = malformed().check(&other, now()).unwrap_err();
-        assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
+        let rejection = malformed().check(&other, now()).unwrap_err();
+        assert!(matches!(rejection.reason, Reason::OtherTarget { .. }), "{rejection}");
         // An incomplete frame is rejected, because its target is unknown.
         assert!(malformed().check(&frame[..frame.len() - 1], now()).is_err());
     }
-    let refusal = Gate::queries().and_malformed().check_malformed(TARGET, now()).unwrap_err();
-    assert!(refusal.advice().contains("malformed = true"), "{}", refusal.advice());
+    let rejection = Gate::queries().and_malformed().check_malformed(TARGET, now()).unwrap_err();
+    assert!(rejection.advice().contains("malformed = true"), "{}", rejection.advice());
     assert!(malformed().check_malformed(TARGET, now()).is_ok());
     assert!(malformed().check_malformed(TARGET, end).is_err());
 }

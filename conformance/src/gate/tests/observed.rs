@@ -43,7 +43,7 @@ fn describe(gate: &mut Gate, name: &str, handle: u32) {
 
 fn ambiguity(gate: &Gate, frame: &[u8]) -> Option<Ambiguity> {
     match gate.check(frame, now()) {
-        Err(Refusal { reason: Reason::Ambiguous(_, ambiguity), .. }) => Some(ambiguity),
+        Err(GateRejection { reason: Reason::Ambiguous(_, ambiguity), .. }) => Some(ambiguity),
         _ => None,
     }
 }
@@ -54,8 +54,8 @@ fn a_handle_allows_writes_to_its_variable() {
         "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
                          [[variable]]\nchannel = 1\nname = \"V.E.b[1]\"",
     );
-    let refusal = gate.check(&by_handle(7), now()).unwrap_err();
-    assert!(refusal.advice().contains("handle"), "{}", refusal.advice());
+    let rejection = gate.check(&by_handle(7), now()).unwrap_err();
+    assert!(rejection.advice().contains("handle"), "{}", rejection.advice());
     for (name, handle) in [("V.E.a", 7_u32), ("V.E.other", 8), ("V.E.b[1]", 9)] {
         give_handle(&mut gate, name, handle);
     }
@@ -146,7 +146,7 @@ fn the_number_of_observations_is_limited() {
     let mut gate = gate(table);
     give_handle(&mut gate, "V.E.a", 7);
     describe(&mut gate, "V.E.a", 7);
-    let kept = u32::try_from(refusal::OBSERVATIONS_MAX).unwrap();
+    let kept = u32::try_from(rejection::OBSERVATIONS_MAX).unwrap();
     for handle in 100..98 + kept {
         give_handle(&mut gate, "V.E.other", handle);
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use ads_cnc::address::{Channel, IndexGroup, IndexOffset, PlatformAxis};
 use ads_cnc::operation::ObjectList;
 
-use super::super::List;
+use super::super::ValueList;
 use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk, Walker as _};
 use crate::session::ToolError;
 use crate::text::plural;
@@ -18,7 +18,7 @@ impl Walk<'_> {
         let platform = self.list(ObjectList::PLATFORM, &none)?.unwrap_or_default();
         for &channel in channels {
             // The list of the first channel repeats the platform's objects (COM-4).
-            if self.is_selected(List::Channel(channel.number())) {
+            if self.is_selected(ValueList::Channel(channel.number())) {
                 self.list(channel.into(), &platform)?;
             }
         }
@@ -38,10 +38,10 @@ impl Walk<'_> {
         known: &AddressSet,
     ) -> Result<Option<AddressSet>, ToolError> {
         let Some(count) = self.count_objects(objects)? else { return Ok(None) };
-        let list = List::from(objects);
+        let list = ValueList::from(objects);
         let is_selected = self.enter(list);
         // The platform's list is always read, because the first channel repeats its objects.
-        if !is_selected && list != List::Platform {
+        if !is_selected && list != ValueList::Platform {
             return Ok(Some(AddressSet::new()));
         }
         let all = self.objects_of(objects, count.min(OBJECTS_MAX), RANGE)?;

@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag, ObjectAddress};
 
-use super::super::{List, Object, ReportedAccess, ValueAddress};
+use super::super::{ListedValue, ReportedAccess, ValueAddress, ValueList};
 use super::{Attributes, CLASSES, Walk, Walker as _};
 use crate::session::ToolError;
 use crate::values::Type;
@@ -31,7 +31,7 @@ impl Walk<'_> {
                 self.task = Task::Geo;
                 self.class(class, channels)?;
             }
-            let list = List::Class { class, channel: None, axis: None };
+            let list = ValueList::Class { class, channel: None, axis: None };
             match (self.has(class), &self.geo) {
                 (true, _) if self.task == Task::Geo => self.note(list, "served by the GEO task"),
                 (true, _) => {}
@@ -60,7 +60,7 @@ impl Walk<'_> {
     /// Adds the elements of an instance. Returns whether the target has it.
     fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, ToolError> {
         let query = FindInstance::new(class, channel, axis);
-        let list = List::of_instance(class, channel, axis);
+        let list = ValueList::of_instance(class, channel, axis);
         let found: Option<ObjectAddress> = self.decoded(query)?;
         let first = match found.map(|found| (found, found.first_element())) {
             Some((_, Ok(first))) => first,
@@ -89,7 +89,7 @@ impl Walk<'_> {
 
     fn elements_of(
         &mut self,
-        list: List,
+        list: ValueList,
         class: Class,
         first: ElementAddress,
     ) -> Result<(), ToolError> {
@@ -114,13 +114,13 @@ impl Walk<'_> {
 
     fn element(
         &mut self,
-        list: List,
+        list: ValueList,
         class: Class,
         element: ElementAddress,
         number: u32,
         name: CncString,
-    ) -> Result<Object, ToolError> {
-        let key = (class, matches!(list, List::Class { axis: Some(_), .. }), number);
+    ) -> Result<ListedValue, ToolError> {
+        let key = (class, matches!(list, ValueList::Class { axis: Some(_), .. }), number);
         let alike = self.alike.get(&key).map(Vec::as_slice).unwrap_or_default();
         let known = alike.iter().find(|known| known.name == name && !self.options.exact);
         let attributes = match known {
@@ -138,7 +138,7 @@ impl Walk<'_> {
         let Attributes { name, ty, unit, access } = attributes;
         let length = ty.size.unwrap_or(0);
         let address = ValueAddress::Element { element, length, task: self.task };
-        Ok(Object { list, name, address, ty, unit, access, handle: None })
+        Ok(ListedValue { list, name, address, ty, unit, access, handle: None })
     }
 
     fn attributes(

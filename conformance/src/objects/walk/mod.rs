@@ -12,7 +12,7 @@ use ads_cnc::CncString;
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{Request, Task};
 
-use super::{List, Object, Pattern, ReportedAccess};
+use super::{ListedValue, Pattern, ReportedAccess, ValueList};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
 pub(crate) use channels::{active_channels, decoder_of, has_variables};
@@ -37,7 +37,7 @@ const NOTES_MAX: usize = 1_000;
 pub struct Options {
     /// The channels; empty for all.
     pub channels: Vec<Channel>,
-    /// The lists, by the displayed name of [`List`].
+    /// The lists, by the displayed name of [`ValueList`].
     pub lists: Option<Pattern>,
     /// The names of the objects.
     pub names: Option<Pattern>,
@@ -50,7 +50,7 @@ pub struct Options {
 #[derive(Clone, Debug, Default)]
 pub struct WalkResult {
     /// The objects, in the order of their lists.
-    pub objects: Vec<Object>,
+    pub objects: Vec<ListedValue>,
     /// Number of lists read.
     pub lists: u32,
     /// Number of requests sent.
@@ -65,7 +65,7 @@ pub struct WalkResult {
 #[derive(Clone, Copy, Debug)]
 pub struct WalkProgress {
     /// The list being read.
-    pub list: List,
+    pub list: ValueList,
     /// Number of objects so far.
     pub objects: usize,
     /// Number of requests so far.
@@ -132,7 +132,7 @@ struct Walk<'w> {
     watch: &'w mut dyn FnMut(WalkProgress),
     found: WalkResult,
     /// The list that is being read.
-    list: Option<List>,
+    list: Option<ValueList>,
     /// Number of bytes of all names and units so far.
     names: usize,
     /// The first elements of the instances found so far.
@@ -175,7 +175,7 @@ impl<'w> Walk<'w> {
         self.elements(&channels)
     }
 
-    fn note(&mut self, list: List, what: impl std::fmt::Display) {
+    fn note(&mut self, list: ValueList, what: impl std::fmt::Display) {
         match self.found.notes.len() {
             0..NOTES_MAX => self.found.notes.push(format!("{list}: {what}")),
             NOTES_MAX => self.found.notes.push("more notes are not shown".to_owned()),
@@ -184,19 +184,19 @@ impl<'w> Walk<'w> {
     }
 
     /// Adds a note about the entries of a list whose requests were rejected.
-    fn note_rejected(&mut self, list: List, count: u32, answered: u32) {
+    fn note_rejected(&mut self, list: ValueList, count: u32, answered: u32) {
         let rejected = count.saturating_sub(answered);
         if rejected > 0 {
             self.note(list, format_args!("the CNC rejects the requests for {rejected} of {count}"));
         }
     }
 
-    fn is_selected(&self, list: List) -> bool {
+    fn is_selected(&self, list: ValueList) -> bool {
         self.options.lists.as_ref().is_none_or(|lists| lists.matches(&list.to_string()))
     }
 
     /// Begins a list. Returns whether it is selected.
-    fn enter(&mut self, list: List) -> bool {
+    fn enter(&mut self, list: ValueList) -> bool {
         let is_selected = self.is_selected(list);
         if is_selected {
             self.found.lists = self.found.lists.saturating_add(1);
@@ -209,7 +209,7 @@ impl<'w> Walk<'w> {
         self.options.names.as_ref().is_none_or(|names| names.matches(&name.to_string()))
     }
 
-    fn add(&mut self, object: Object) -> Result<(), ToolError> {
+    fn add(&mut self, object: ListedValue) -> Result<(), ToolError> {
         if usize::try_from(OBJECTS_MAX).is_ok_and(|most| self.found.objects.len() >= most) {
             return Err(ToolError::Enough(format!("the limit is {OBJECTS_MAX} objects")));
         }

@@ -5,7 +5,7 @@ use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
 use ads_cnc::operation::{CountDynamic, CountVariables, DescribeByIndex, DynamicNameByIndex};
 use ads_cnc::{Description, VariableCount};
 
-use super::super::{List, Object};
+use super::super::{ListedValue, ValueList};
 use super::{KINDS, OBJECTS_MAX, Walk, Walker as _};
 use crate::session::ToolError;
 
@@ -14,7 +14,7 @@ impl Walk<'_> {
         for &channel in channels {
             let number = channel.number();
             for (name, kind) in KINDS {
-                let list = List::Variables { kind: name, channel: number, axis: None };
+                let list = ValueList::Variables { kind: name, channel: number, axis: None };
                 if !self.enter(list) {
                     continue;
                 }
@@ -23,11 +23,12 @@ impl Walk<'_> {
                 self.by_index(list, count.map(|count| count.0), 0, |walk, index| {
                     let variable: Option<Description> =
                         walk.decoded(DescribeByIndex::new(channel, index, kind))?;
-                    Ok(variable.map(|variable| Object::of_description(list, channel, variable)))
+                    Ok(variable
+                        .map(|variable| ListedValue::of_description(list, channel, variable)))
                 })?;
             }
             for kind in DynamicKind::ALL {
-                let list = List::Parameters { kind, channel: number };
+                let list = ValueList::Parameters { kind, channel: number };
                 if !self.enter(list) {
                     continue;
                 }
@@ -36,7 +37,7 @@ impl Walk<'_> {
                     let request = DynamicNameByIndex::new(channel, kind, index);
                     let name: Option<DynamicName> =
                         walk.decoded(request.map_err(ToolError::Unsendable)?)?;
-                    Ok(name.map(|name| Object::of_parameter(channel, kind, name.name.text)))
+                    Ok(name.map(|name| ListedValue::of_parameter(channel, kind, name.name.text)))
                 })?;
             }
         }
@@ -46,10 +47,10 @@ impl Walk<'_> {
     /// Adds the entries of a list by index, starting at `first`.
     fn by_index(
         &mut self,
-        list: List,
+        list: ValueList,
         count: Option<u32>,
         first: u32,
-        mut object: impl FnMut(&mut Self, u32) -> Result<Option<Object>, ToolError>,
+        mut object: impl FnMut(&mut Self, u32) -> Result<Option<ListedValue>, ToolError>,
     ) -> Result<(), ToolError> {
         let Some(count) = count else {
             self.note(list, "the CNC rejects the request for their number");

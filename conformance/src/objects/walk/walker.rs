@@ -7,7 +7,7 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
 use ads_cnc::{Decode, Descriptors, Kind, ObjectCount};
 
-use super::super::Object;
+use super::super::ListedValue;
 
 /// Number of consecutive rejected numbers after which a list ends.
 pub const GAP: u32 = 8;
@@ -95,7 +95,7 @@ pub(crate) trait Walker: Sized {
         list: ObjectList,
         count: u32,
         mut range: u32,
-    ) -> Result<Vec<Object>, Self::Error> {
+    ) -> Result<Vec<ListedValue>, Self::Error> {
         let (mut all, mut first, mut gap) = (Vec::new(), 1_u32, 0_u32);
         while first <= count && gap < GAP {
             let most = range.min(count.saturating_sub(first).saturating_add(1));
@@ -106,7 +106,8 @@ pub(crate) trait Walker: Sized {
             let given = given.unwrap_or_default();
             match u32::try_from(given.len()).unwrap_or(u32::MAX) {
                 len if (1..=most).contains(&len) => {
-                    let objects = given.iter().map(|one| Object::of_descriptor(list.into(), one));
+                    let objects =
+                        given.iter().map(|one| ListedValue::of_descriptor(list.into(), one));
                     all.extend(objects);
                     (first, gap) = (first.saturating_add(len), 0);
                 }

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use crate::judge::Verdict;
 use crate::report::display::worded;
+use crate::report::document::Report;
 use crate::report::failures::{alike, sentence};
 use crate::report::groups::{Group, groups};
-use crate::report::model::Report;
 
 /// Maximum number of characters of an expected and of an actual result.
 const RESULT_MAX: usize = 300;

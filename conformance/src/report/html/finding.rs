@@ -5,13 +5,13 @@ use serde::Serialize;
 use crate::judge::Verdict;
 use crate::report::bytes::ShownField;
 use crate::report::display::worded;
-use crate::report::model::{EvidenceReport, FailureReport};
+use crate::report::document::{EvidenceReport, FailureReport};
 use crate::report::{BytesReport, FieldReport};
 use crate::text::hex::{character, compact};
 use crate::text::shorten;
 
 #[derive(Serialize)]
-pub(super) struct FindingView {
+pub(super) struct FailureView {
     verdict: Verdict,
     word: String,
     clauses: Vec<FailureReport>,
@@ -66,10 +66,10 @@ struct ByteView {
     differs: bool,
 }
 
-pub(super) fn finding(all: &[&FailureReport]) -> Option<FindingView> {
+pub(super) fn finding(all: &[&FailureReport]) -> Option<FailureView> {
     let first = *all.first()?;
     let is_of_frames = all.iter().any(|one| one.is_of_frames());
-    Some(FindingView {
+    Some(FailureView {
         verdict: first.verdict,
         word: worded(first.verdict, first.waived),
         clauses: all

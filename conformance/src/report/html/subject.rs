@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
-use super::finding::{FindingView, finding};
+use super::finding::{FailureView, finding};
 use crate::judge::{CaseSubject, Verdict, about};
 use crate::report::console::{counts, heading};
 use crate::report::display::worded;
-use crate::report::model::{CaseReport, Report};
+use crate::report::document::{CaseReport, Report};
 
 #[derive(Serialize)]
 pub(super) struct SubjectView {
@@ -44,12 +44,12 @@ struct RequirementView {
 const LINKED_MAX: usize = 8;
 
 /// The cases of a requirement, the gravest first, and the number of omitted ones.
-fn linked(report: &Report, who: CaseSubject, id: &str) -> (Vec<String>, usize) {
+fn linked(report: &Report, judged_subject: CaseSubject, id: &str) -> (Vec<String>, usize) {
     let verdict = |case: &CaseReport| {
         let mut mine = case.requirements.iter().filter(|one| one.requirement == id);
         mine.next().map(|one| std::cmp::Reverse(one.verdict.gravity()))
     };
-    let mine = report.cases.iter().filter(|case| case.subject == who);
+    let mine = report.cases.iter().filter(|case| case.subject == judged_subject);
     let mut cases: Vec<_> = mine.filter_map(|case| Some((verdict(case)?, &case.id))).collect();
     cases.sort();
     let more = cases.len().saturating_sub(LINKED_MAX);
@@ -82,12 +82,12 @@ struct CaseView {
     areas: String,
     requirements: Vec<String>,
     note: Option<String>,
-    findings: Vec<FindingView>,
+    findings: Vec<FailureView>,
 }
 
-pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
+pub(super) fn subject(report: &Report, judged_subject: CaseSubject) -> SubjectView {
     let mut groups: BTreeMap<(bool, String), Vec<&CaseReport>> = BTreeMap::new();
-    for case in report.cases.iter().filter(|case| case.subject == who) {
+    for case in report.cases.iter().filter(|case| case.subject == judged_subject) {
         let group = match &case.stream {
             Some(stream) => (true, stream.clone()),
             None => (false, case.id.split('-').next().unwrap_or_default().to_owned()),
@@ -95,7 +95,7 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
         groups.entry(group).or_default().push(case);
     }
     let (mut counted, mut listed) = (String::new(), Vec::new());
-    for subject in report.subjects.iter().filter(|one| one.subject == who) {
+    for subject in report.subjects.iter().filter(|one| one.subject == judged_subject) {
         counted = counts(&subject.totals, subject.waived);
         listed.extend(subject.areas.iter().map(|area| {
             AreaView {
@@ -107,7 +107,7 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
                     .requirements
                     .iter()
                     .map(|one| {
-                        let (cases, more) = linked(report, who, &one.requirement);
+                        let (cases, more) = linked(report, judged_subject, &one.requirement);
                         RequirementView {
                             id: one.requirement.clone(),
                             title: ads_cnc_vectors::requirement(&one.requirement).map_or_else(
@@ -125,8 +125,8 @@ pub(super) fn subject(report: &Report, who: CaseSubject) -> SubjectView {
         }));
     }
     SubjectView {
-        name: who.name(),
-        heading: heading(who),
+        name: judged_subject.name(),
+        heading: heading(judged_subject),
         counts: counted,
         areas: listed,
         groups: {

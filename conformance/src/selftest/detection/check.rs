@@ -6,9 +6,9 @@ use super::{
     Detection, DetectionResult, DetectionRow, DetectionTable, Figures, Mode, configured, hash,
     inputs, measure,
 };
-use crate::faults::Seed;
+use crate::faults::SeededDefect;
 use crate::judge::order;
-use crate::selftest::parallel::{Tell, parallel};
+use crate::selftest::parallel::{ProgressCallback, parallel};
 use crate::text::plural;
 
 /// The defects that are measured again.
@@ -42,10 +42,10 @@ impl CheckedTable {
     /// Measures the defects of `seeds` that `scope` selects. `whole` says that `seeds` contains all
     /// defects, so that the table can be renewed.
     pub(crate) fn new(
-        seeds: Vec<&'static Seed>,
+        seeds: Vec<&'static SeededDefect>,
         scope: Scope,
         whole: bool,
-        tell: Tell<'_>,
+        report_progress: ProgressCallback<'_>,
     ) -> Self {
         let mut differences = Vec::new();
         let published = DetectionTable::published().unwrap_or_else(|| {
@@ -66,11 +66,15 @@ impl CheckedTable {
         }
         let is_current = published.inputs == inputs();
         let chosen = match scope {
-            Scope::Sample(seed) => sample(seeds.clone(), (seed, SAMPLE), &published, tell),
-            Scope::Changed if is_current => sample(seeds.clone(), (0, 0), &published, tell),
+            Scope::Sample(seed) => {
+                sample(seeds.clone(), (seed, SAMPLE), &published, report_progress)
+            }
+            Scope::Changed if is_current => {
+                sample(seeds.clone(), (0, 0), &published, report_progress)
+            }
             Scope::Changed | Scope::All => seeds.clone(),
         };
-        let differs = |(seed, row): &(&Seed, Result<DetectionRow, _>)| match row {
+        let differs = |(seed, row): &(&SeededDefect, Result<DetectionRow, _>)| match row {
             Ok(row) if scope == Scope::Changed => {
                 row.modes.values().any(|found| found.result == DetectionResult::Alarm)
             }
@@ -78,7 +82,7 @@ impl CheckedTable {
             Err(_) => true,
         };
         let part = ("defects measured in each mode", chosen.as_slice());
-        let measured = parallel(part, 1, |seed| (*seed, measure(seed)), differs, tell);
+        let measured = parallel(part, 1, |seed| (*seed, measure(seed)), differs, report_progress);
         let mut rows = Vec::new();
         for (seed, row) in measured {
             match row {
@@ -94,7 +98,7 @@ impl CheckedTable {
         if !is_renewed {
             return Self { table: published, measured, differences };
         }
-        let row = |seed: &&Seed| {
+        let row = |seed: &&SeededDefect| {
             let now = rows.iter().find(|row| row.id == seed.id);
             now.or_else(|| published.row(seed).filter(|_| is_current)).cloned()
         };
@@ -106,18 +110,18 @@ impl CheckedTable {
 
 /// The defects that changed since the table was written, and `count` others, which `seed` selects.
 fn sample(
-    mut seeds: Vec<&'static Seed>,
+    mut seeds: Vec<&'static SeededDefect>,
     (seed, count): (u32, usize),
     published: &DetectionTable,
-    tell: Tell<'_>,
-) -> Vec<&'static Seed> {
+    report_progress: ProgressCallback<'_>,
+) -> Vec<&'static SeededDefect> {
     let part = ("defects compared with the table", seeds.as_slice());
-    let hashes = parallel(part, 1, |seed| hash(seed).ok(), Option::is_none, tell);
+    let hashes = parallel(part, 1, |seed| hash(seed).ok(), Option::is_none, report_progress);
     let changed = seeds
         .iter()
         .zip(hashes)
         .filter(|(seed, hash)| published.row(seed).map(|row| &row.hash) != hash.as_ref());
-    let mut wanted: Vec<&Seed> = changed.map(|(seed, _)| *seed).collect();
+    let mut wanted: Vec<&SeededDefect> = changed.map(|(seed, _)| *seed).collect();
     seeds.retain(|one| !wanted.iter().any(|changed| changed.id == one.id));
     seeds.sort_by_key(|one| order(seed, &one.id));
     wanted.extend(seeds.into_iter().take(count));

@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
+use super::detection_result::{DetectionResult, Mode};
 use super::device::Device;
-use super::found::{DetectionResult, Mode};
 use super::table::DetectionRow;
 use crate::edition::Edition;
 use crate::faults::{self, Faulty};

@@ -5,13 +5,13 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use ads_cnc::address::{Channel, ChannelAxis};
 
-use super::found::Mode;
+use super::detection_result::Mode;
 use super::requests::{Compare, RecordedAnswers, ask_everything};
 use crate::edition::Edition;
-use crate::faults::{Faulty, FieldDefect, Seed};
+use crate::faults::{Faulty, FieldDefect, SeededDefect};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::judge::{CaseOutcome, Needs, Selection};
-use crate::objects::{self, Object, Options};
+use crate::objects::{self, ListedValue, Options};
 use crate::profile::Profile;
 use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
@@ -30,7 +30,7 @@ pub(super) struct Device {
     allowed: Allowed,
     /// The digests of the correct replies, by the requests that the gate allows: queries; queries and
     /// writes; queries, writes and malformed requests.
-    right: [OnceLock<Vec<u64>>; 3],
+    correct_digests: [OnceLock<Vec<u64>>; 3],
     /// Digests like those in `right`, but without the values that the configuration of a CNC determines.
     right_if_configured: [OnceLock<Vec<u64>>; 3],
 }
@@ -45,7 +45,7 @@ impl Device {
             settings,
             profile,
             allowed,
-            right: Default::default(),
+            correct_digests: Default::default(),
             right_if_configured: Default::default(),
         })
     }
@@ -72,7 +72,7 @@ impl Device {
     }
 
     /// A new simulated CNC with the model of this device, optionally with a defect.
-    pub(super) fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, ToolError> {
+    pub(super) fn cnc(&self, seed: Option<&SeededDefect>) -> Result<Arc<Faulty>, ToolError> {
         Ok(Arc::new(Faulty::new(self.correct_cnc()?, seed)))
     }
 
@@ -82,7 +82,7 @@ impl Device {
         &self,
         model: &str,
         edition: Option<Edition>,
-        variant: Option<&Seed>,
+        variant: Option<&SeededDefect>,
         mode: Mode,
     ) -> Result<Option<Arc<Faulty>>, ToolError> {
         let settings = Settings { edition: edition.or(self.settings.edition), ..self.settings };
@@ -104,19 +104,19 @@ impl Device {
         compare: Compare,
     ) -> Result<&[u64], ToolError> {
         let [queries, writes, all] = match compare {
-            Compare::Bytes => &self.right,
+            Compare::Bytes => &self.correct_digests,
             Compare::Configured => &self.right_if_configured,
         };
-        let right = match mode {
+        let correct_digests = match mode {
             Mode::ReadOnly | Mode::Profiled => queries,
             Mode::Writes => writes,
             Mode::All => all,
         };
-        if right.get().is_none() {
+        if correct_digests.get().is_none() {
             let answers = answers(self, self.cnc(None)?, mode, None, compare)?.answers;
-            let _same = right.set(answers);
+            let _same = correct_digests.set(answers);
         }
-        Ok(right.get().map_or(&[], Vec::as_slice))
+        Ok(correct_digests.get().map_or(&[], Vec::as_slice))
     }
 
     /// The axis indices to which the suite does not write, as channel and index: those that have no axis
@@ -132,7 +132,7 @@ impl Device {
     /// The outcomes of the suite against this device, optionally with a defect, in a mode.
     pub(super) fn outcomes(
         &self,
-        seed: Option<&Seed>,
+        seed: Option<&SeededDefect>,
         mode: Mode,
     ) -> Result<Vec<CaseOutcome>, ToolError> {
         self.outcomes_of(self.cnc(seed)?, mode)
@@ -182,7 +182,7 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError
         let found = objects::walk(&mut session, &options, &mut |_| {})?;
         let writable = found.objects.iter().filter(|one| one.is_writable());
         let writable = writable.filter(|one| !profile.leaves(&one.name.to_string()));
-        entries.extend(writable.map(Object::entry));
+        entries.extend(writable.map(ListedValue::entry));
     }
     let parse = |name: &str| name.parse().map_err(|_| ToolError::Internal(name.to_owned()));
     for channel in profile.channels.iter().filter_map(|&number| Channel::new(number).ok()) {
@@ -204,13 +204,13 @@ pub(super) fn answers(
     device: &Device,
     cnc: Arc<Faulty>,
     mode: Mode,
-    right: Option<&[u64]>,
+    correct_digests: Option<&[u64]>,
     compare: Compare,
 ) -> Result<RecordedAnswers, ToolError> {
     let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();
     let places = device.unwritten_places(mode);
-    Ok(ask_everything(client, Arc::clone(cnc.cnc()), right, compare, &places))
+    Ok(ask_everything(client, Arc::clone(cnc.cnc()), correct_digests, compare, &places))
 }
 
 /// The device with the model of a valid variant.
@@ -229,7 +229,7 @@ fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
 
 /// The devices on which a seed is tried: for a variant with its own model, the device with this model;
 /// otherwise one device for each edition in which the defect is detectable.
-pub(super) fn devices(seed: &Seed) -> Result<Vec<&'static Device>, ToolError> {
+pub(super) fn devices(seed: &SeededDefect) -> Result<Vec<&'static Device>, ToolError> {
     if let Some(model) = seed.own_model() {
         return of_model(model).map(|device| vec![device]);
     }

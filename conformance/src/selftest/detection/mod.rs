@@ -9,8 +9,8 @@
 
 mod check;
 mod configured;
+mod detection_result;
 mod device;
-mod found;
 mod pairs;
 mod requests;
 mod table;
@@ -18,14 +18,14 @@ mod witness;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::faults::Seed;
+use crate::faults::SeededDefect;
 use crate::judge::Verdict;
 use crate::session::ToolError;
 
-use super::tried::{TrialResult, judge};
+use super::trial::{TrialResult, judge};
 pub use check::{CheckedTable, SAMPLE, Scope};
+pub use detection_result::{Detection, DetectionResult, Mode};
 use device::{answers, devices};
-pub use found::{Detection, DetectionResult, Mode};
 pub(super) use pairs::pairs;
 pub use pairs::{PAIRS, PairFigures};
 use requests::Compare;
@@ -35,7 +35,7 @@ pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 ///
 /// # Errors
 /// An error of the suite, or of the simulated CNC.
-pub fn measure(seed: &Seed) -> Result<DetectionRow, ToolError> {
+pub fn measure(seed: &SeededDefect) -> Result<DetectionRow, ToolError> {
     let detect = |mode| detect(seed, mode).map(|detection| (mode, detection));
     let modes = Mode::ALL.into_iter().map(detect).collect::<Result<BTreeMap<_, _>, _>>()?;
     Ok(DetectionRow { id: seed.id.clone(), hash: hash(seed)?, modes })
@@ -46,14 +46,15 @@ pub fn measure(seed: &Seed) -> Result<DetectionRow, ToolError> {
 ///
 /// # Errors
 /// An error of the simulated CNC.
-pub fn hash(seed: &Seed) -> Result<String, ToolError> {
+pub fn hash(seed: &SeededDefect) -> Result<String, ToolError> {
     let devices = devices(seed)?;
-    let Seed { id, requirements, what, edition, .. } = seed;
+    let SeededDefect { id, requirements, what, edition, .. } = seed;
     let mut text = format!("{id} {requirements:?} {what} {edition:?}");
     for device in devices.iter().take(1) {
-        let right = device.correct_answers(Mode::All, Compare::Bytes)?;
+        let correct_digests = device.correct_answers(Mode::All, Compare::Bytes)?;
         let cnc = device.cnc(Some(seed))?;
-        let answers = answers(device, cnc, Mode::All, Some(right), Compare::Bytes)?.answers;
+        let answers =
+            answers(device, cnc, Mode::All, Some(correct_digests), Compare::Bytes)?.answers;
         text = format!("{text} {answers:?}");
     }
     Ok(table::hash(&text))
@@ -61,7 +62,7 @@ pub fn hash(seed: &Seed) -> Result<String, ToolError> {
 
 /// The result of a defect in a mode. The suite is run against the device of each edition until the
 /// defect is caught.
-fn detect(seed: &Seed, mode: Mode) -> Result<Detection, ToolError> {
+fn detect(seed: &SeededDefect, mode: Mode) -> Result<Detection, ToolError> {
     let devices = devices(seed)?;
     let mut outcomes = Vec::new();
     for device in &devices {

@@ -5,14 +5,14 @@ use serde::Serialize;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 
+use super::detection_result::{DetectionResult, Mode};
 use super::device::Device;
-use super::found::{DetectionResult, Mode};
 use super::table::DetectionTable;
 use crate::edition::Edition;
-use crate::faults::{self, FieldDefect, Seed};
+use crate::faults::{self, FieldDefect, SeededDefect};
 use crate::judge::{follows, order};
-use crate::selftest::parallel::{Tell, parallel};
-use crate::selftest::tried::{TrialResult, judge};
+use crate::selftest::parallel::{ProgressCallback, parallel};
+use crate::selftest::trial::{TrialResult, judge};
 use crate::session::ToolError;
 
 /// Number of pairs that are tried.
@@ -45,14 +45,14 @@ pub struct PairFigures {
 }
 
 /// Tries the pairs of defects that the table says are caught.
-pub(crate) fn pairs(table: &DetectionTable, tell: Tell<'_>) -> PairFigures {
+pub(crate) fn pairs(table: &DetectionTable, report_progress: ProgressCallback<'_>) -> PairFigures {
     let mut figures = PairFigures::default();
     let tried = parallel(
         ("pairs of defects", &chosen(table)),
         1,
         |pair| (pair.clone(), try_pair(pair)),
         |(_, detected)| detected.is_err(),
-        tell,
+        report_progress,
     );
     for ((one, other), detected) in tried {
         let name = || format!("{} and {}", one.id, other.id);
@@ -79,12 +79,12 @@ pub(crate) fn pairs(table: &DetectionTable, tell: Tell<'_>) -> PairFigures {
 
 /// The pairs of field defects to try, each of which is caught alone.
 fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
-    let is_caught = |seed: &Seed| {
+    let is_caught = |seed: &SeededDefect| {
         let found = table.row(seed).and_then(|row| row.modes.get(&Mode::ReadOnly));
         found.is_some_and(|found| found.result == DetectionResult::Caught)
     };
     let seeds = faults::all().iter().filter(|seed| is_caught(seed));
-    let mut all: Vec<&FieldDefect> = seeds.filter_map(Seed::field).collect();
+    let mut all: Vec<&FieldDefect> = seeds.filter_map(SeededDefect::field).collect();
     all.sort_by_key(|defect| order(SEED, &defect.id));
     let distances = 1..all.len();
     let pairs = distances.flat_map(|distance| {
@@ -100,7 +100,7 @@ fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), T
     let device = Device::of_edition(Edition::English)?;
     let outcomes = device.outcomes_with(vec![one.clone(), other.clone()], Mode::ReadOnly)?;
     let detected = |defect: &FieldDefect| {
-        let seed = Seed::from(defect.clone());
+        let seed = SeededDefect::from(defect.clone());
         judge(&seed.requirements, &outcomes).1 == TrialResult::Caught
     };
     Ok((detected(one), detected(other)))

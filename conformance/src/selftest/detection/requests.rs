@@ -21,7 +21,7 @@ use ads_cnc::ads::{AmsPort, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::limits::{DESCRIPTOR_LEN, STREAM_PACKET_MAX};
 use ads_cnc::operation::{
-    Call, CountDynamic, CountVariables, Effect, Function, Request, Service, Task,
+    AdsService, Call, CountDynamic, CountVariables, Effect, Function, Request, Task,
 };
 use ads_cnc::{CncString, Handle, Kind};
 
@@ -65,7 +65,7 @@ struct ContentAddress {
 pub(super) struct ReplyRecorder<'t> {
     client: Client,
     cnc: Arc<Cnc>,
-    right: Option<&'t [u64]>,
+    correct_digests: Option<&'t [u64]>,
     answers: Vec<u64>,
     difference: Option<String>,
     malformed: BTreeMap<Function, usize>,
@@ -90,14 +90,14 @@ pub(super) struct RecordedAnswers {
 pub(super) fn ask_everything<'t>(
     client: Client,
     cnc: Arc<Cnc>,
-    right: Option<&'t [u64]>,
+    correct_digests: Option<&'t [u64]>,
     compare: Compare,
     unwritten_places: &'t [(u32, u32)],
 ) -> RecordedAnswers {
     let mut dialogue = ReplyRecorder {
         client,
         cnc,
-        right,
+        correct_digests,
         answers: Vec::new(),
         difference: None,
         malformed: BTreeMap::new(),
@@ -108,7 +108,9 @@ pub(super) fn ask_everything<'t>(
     };
     dialogue.everything();
     let ReplyRecorder { answers, mut difference, .. } = dialogue;
-    if difference.is_none() && right.is_some_and(|right| right.len() != answers.len()) {
+    if difference.is_none()
+        && correct_digests.is_some_and(|correct_digests| correct_digests.len() != answers.len())
+    {
         difference = Some("the end: the other CNC is asked more".to_owned());
     }
     RecordedAnswers { answers, difference }
@@ -172,7 +174,7 @@ impl ReplyRecorder<'_> {
         for data in data.into_iter().flatten() {
             self.call(&Call { data, ..*call });
         }
-        for service in [Service::Read, Service::Write, Service::ReadWrite] {
+        for service in [AdsService::Read, AdsService::Write, AdsService::ReadWrite] {
             self.call(&Call { service, ..*call });
         }
         for port in [0, 550, 551, 552, 553, 554, 10_000, 65_535].map(AmsPort) {
@@ -197,7 +199,7 @@ impl ReplyRecorder<'_> {
         }
         let exchange = self.client.call(call);
         let fault = match &exchange.outcome {
-            Err(ExchangeError::Refused(_) | ExchangeError::Unsendable(_)) => return None,
+            Err(ExchangeError::NotPermitted(_) | ExchangeError::Unsendable(_)) => return None,
             Err(fault) => fault.to_string(),
             Ok(_) => String::new(),
         };
@@ -234,8 +236,10 @@ impl ReplyRecorder<'_> {
 
     fn record(&mut self, received: &[u8], outcome: &str, request: impl FnOnce() -> String) {
         let answer = digest(&[received, outcome.as_bytes()].concat());
-        let right = self.right.is_none_or(|right| right.get(self.answers.len()) == Some(&answer));
-        if !right {
+        let correct_digests = self
+            .correct_digests
+            .is_none_or(|correct_digests| correct_digests.get(self.answers.len()) == Some(&answer));
+        if !correct_digests {
             self.difference = Some(request());
         }
         self.answers.push(answer);

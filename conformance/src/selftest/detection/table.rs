@@ -9,8 +9,8 @@ use std::fmt::{self, Write as _};
 
 use serde::Serialize;
 
-use super::found::{Detection, DetectionResult, Mode};
-use crate::faults::{self, Seed, SeedKind};
+use super::detection_result::{Detection, DetectionResult, Mode};
+use crate::faults::{self, DefectKind, SeededDefect};
 use crate::selftest::reasons;
 use crate::simulator::DEFAULT_MODEL;
 use crate::simulator::program::digest;
@@ -86,7 +86,7 @@ impl DetectionTable {
         Self::parse(PUBLISHED)
     }
 
-    pub fn row(&self, seed: &Seed) -> Option<&DetectionRow> {
+    pub fn row(&self, seed: &SeededDefect) -> Option<&DetectionRow> {
         self.rows.iter().find(|row| row.id == seed.id)
     }
 
@@ -115,7 +115,7 @@ impl DetectionTable {
         let of_field = |row: &&DetectionRow| {
             let seed = faults::by_id(&row.id);
             seed.is_some_and(|seed| {
-                seed.field().is_some() == of_fields && seed.kind != SeedKind::Different
+                seed.field().is_some() == of_fields && seed.kind != DefectKind::Different
             })
         };
         let rows = self.rows.iter().filter(of_field);

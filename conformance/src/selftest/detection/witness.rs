@@ -6,10 +6,10 @@
 //! profile.
 
 use super::configured;
+use super::detection_result::{DetectionResult, Mode};
 use super::device::{Device, answers};
-use super::found::{DetectionResult, Mode};
 use super::requests::Compare;
-use crate::faults::{FieldChange, FieldDefect, Seed};
+use crate::faults::{FieldChange, FieldDefect, SeededDefect};
 use crate::session::ToolError;
 
 /// Fields whose values are arbitrary, as stream, field, changes and reason: a CNC whose values are
@@ -59,7 +59,7 @@ const UNDOCUMENTED: &[(&str, &str)] = &[
 ];
 
 /// The reason why a CNC with this defect is correct; `None` if it is not.
-pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
+pub(super) fn is_right(seed: &SeededDefect) -> Option<&'static str> {
     let undocumented = UNDOCUMENTED.iter().find(|(start, _)| seed.id.starts_with(start));
     if let Some((_, why)) = undocumented {
         return Some(why);
@@ -74,7 +74,7 @@ pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
 /// The witness if the defect is undetectable; otherwise the first request whose reply distinguishes the
 /// CNC with the defect from every correct CNC.
 pub(super) fn of(
-    seed: &Seed,
+    seed: &SeededDefect,
     devices: &[&'static Device],
     mode: Mode,
 ) -> Result<DetectionResult, ToolError> {
@@ -104,18 +104,18 @@ const CONFIGURED: &str =
 
 /// The first request whose reply distinguishes the CNC with the defect from the CNC without it.
 fn difference(
-    seed: &Seed,
+    seed: &SeededDefect,
     device: &Device,
     mode: Mode,
     compare: Compare,
 ) -> Result<Option<String>, ToolError> {
-    let right = device.correct_answers(mode, compare)?;
-    Ok(answers(device, device.cnc(Some(seed))?, mode, Some(right), compare)?.difference)
+    let correct_digests = device.correct_answers(mode, compare)?;
+    Ok(answers(device, device.cnc(Some(seed))?, mode, Some(correct_digests), compare)?.difference)
 }
 
 /// The description of a witness with another configuration, whose replies equal those of the defect.
 fn configured_witness(
-    seed: &Seed,
+    seed: &SeededDefect,
     device: &Device,
     mode: Mode,
 ) -> Result<Option<String>, ToolError> {

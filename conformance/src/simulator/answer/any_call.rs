@@ -3,7 +3,7 @@
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
-use ads_cnc::operation::Service;
+use ads_cnc::operation::AdsService;
 
 use super::*;
 
@@ -58,7 +58,7 @@ const NAMES: &[&[u8]] = &[
 
 /// A random call at or near the address of a function, so that some calls succeed.
 fn call<'a>(random: &mut PseudoRandom, data: &'a [u8]) -> Call<'a> {
-    use Service::{Read, ReadWrite, Write};
+    use AdsService::{Read, ReadWrite, Write};
     let axis = random.of(&[0, 0, 0, 0x1000, 0x1_0000, 0x2_0000, 0x6_0000, 0xFFFF_0000]);
     let instance = random.of(&[0, 1, 1, 2, 3, 6, 255]);
     let (task, group, offset, service) = match random.below(4) {
@@ -100,7 +100,7 @@ fn any_call_is_answered() {
         let data = random.of(NAMES);
         let call = call(&mut random, data);
         // A Read has no data.
-        let call = if call.service == Service::Read { Call { data: &[], ..call } } else { call };
+        let call = if call.service == AdsService::Read { Call { data: &[], ..call } } else { call };
         let Ok(reply) = cnc.answer(&call) else { continue };
         answered += 1;
         let request = call.dispatch().unwrap();

@@ -63,7 +63,7 @@ impl Cnc {
     ///
     /// use ads_cnc::address::{IndexGroup, IndexOffset};
     /// use ads_cnc::ads::AmsPort;
-    /// use ads_cnc::operation::{Call, Service};
+    /// use ads_cnc::operation::{AdsService, Call};
     /// use ads_cnc_conformance::simulator::{Cnc, Model};
     ///
     /// let model = r#"
@@ -74,7 +74,7 @@ impl Cnc {
     /// let cnc = Cnc::new(Model::from_toml(model, "an example")?).with_stopped_clock();
     /// let count = Call {
     ///     port: AmsPort::SDA,
-    ///     service: Service::Read,
+    ///     service: AdsService::Read,
     ///     index_group: IndexGroup::new(0x12_2301),
     ///     index_offset: IndexOffset::new(0x03),
     ///     read_length: 4,

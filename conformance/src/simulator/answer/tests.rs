@@ -1,6 +1,6 @@
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
-use ads_cnc::operation::Service;
+use ads_cnc::operation::AdsService;
 use ads_cnc::{Decode, Description, DescriptorsRef, VariableType};
 
 use super::*;
@@ -12,7 +12,7 @@ fn cnc() -> Cnc {
 fn call(group: u32, offset: u32, read_length: u32, data: &[u8]) -> Call<'_> {
     Call {
         port: AmsPort::SDA,
-        service: Service::ReadWrite,
+        service: AdsService::ReadWrite,
         index_group: IndexGroup::new(group),
         index_offset: IndexOffset::new(offset),
         read_length,
@@ -27,7 +27,7 @@ fn ask(offset: u32, data: &[u8]) -> Result<Vec<u8>, AdsError> {
 
 fn com_call(group: u32, offset: u32, read_length: u32) -> Call<'static> {
     let call = call(group, offset, read_length, &[]);
-    Call { port: AmsPort::COM, service: Service::Read, ..call }
+    Call { port: AmsPort::COM, service: AdsService::Read, ..call }
 }
 
 fn com(group: u32, offset: u32, read_length: u32) -> Result<Vec<u8>, AdsError> {
@@ -174,7 +174,7 @@ fn unknown_addresses_are_errors() {
     assert_eq!(com(0x12_0101, 0x90, 1), Err(E::SERVICE_NOT_SUPPORTED));
     let port = Call { port: AmsPort(851), ..call(0x12_2301, 0x44, 4, none) };
     assert_eq!(cnc().answer(&port), Err(E::TARGET_PORT_NOT_FOUND));
-    for service in [Service::Read, Service::Write] {
+    for service in [AdsService::Read, AdsService::Write] {
         let call = Call { service, ..call(0x12_2301, 0x44, 4, none) };
         assert_eq!(cnc().answer(&call), Err(E::SERVICE_NOT_SUPPORTED));
     }
@@ -321,7 +321,7 @@ fn many_platform_axes() {
     assert_eq!(query(17), Ok(vec![0, 0x33, 0x12, 0, 0, 0x10, 1, 0]));
     assert_eq!(query(41), Ok(vec![0; 8]));
     let read = |group, offset, length| {
-        cnc.answer(&Call { service: Service::Read, ..call(group, offset, length, &[]) })
+        cnc.answer(&Call { service: AdsService::Read, ..call(group, offset, length, &[]) })
     };
     for axis in 1..=40_u32 {
         let number = Ok(u16::try_from(axis).unwrap().to_le_bytes().to_vec());
@@ -337,7 +337,7 @@ fn many_platform_axes() {
 fn packets_of_the_program_stream() {
     let write = |group| {
         let call = call(group, 0x90, 0, b"N10\r\n");
-        cnc().answer(&Call { port: AmsPort::COM, service: Service::Write, ..call })
+        cnc().answer(&Call { port: AmsPort::COM, service: AdsService::Write, ..call })
     };
     assert_eq!(write(0x12_0101), Ok(vec![]));
     assert_eq!(write(0x02_0103), Ok(vec![]));

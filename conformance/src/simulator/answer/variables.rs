@@ -112,7 +112,8 @@ impl AnsweringCnc<'_> {
             (Resolved::Variable(at), indices) => self.read(channel, at, indices),
             (Resolved::Parameter, _) => {
                 let (kind, name) = parameter(op.name.text())?;
-                let found = self.state.parameters(channel, kind).find(|one| one.is.name == name);
+                let found =
+                    self.state.parameters(channel, kind).find(|one| one.parameter.name == name);
                 encode(found.ok_or(UNKNOWN)?.value)
             }
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Meaning, Model};
+use super::{ContentSource, Model};
 use crate::profile::Profile;
 
 impl Model {
@@ -24,7 +24,8 @@ impl Model {
             elements.flat_map(|class| class.channel.items.iter().chain(&class.axis.items));
         // A write to these contents exchanges axes; writing the old number does not undo this.
         let exchange = self.channel_axis.items.iter().chain(elements);
-        let exchange = exchange.filter(|item| item.writable && item.meaning == Meaning::AxisNumber);
+        let exchange =
+            exchange.filter(|item| item.writable && item.meaning == ContentSource::AxisNumber);
         let unwritten: BTreeSet<String> = exchange.map(|item| item.name.to_string()).collect();
         Profile {
             name: "simulated".into(),

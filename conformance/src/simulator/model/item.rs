@@ -11,7 +11,7 @@ pub(in crate::simulator) struct Item {
     pub(in crate::simulator) type_name: &'static str,
     pub(in crate::simulator) unit: CncString,
     pub(in crate::simulator) writable: bool,
-    pub(in crate::simulator) meaning: Meaning,
+    pub(in crate::simulator) meaning: ContentSource,
     pub(in crate::simulator) initial: Initial,
 }
 
@@ -24,7 +24,7 @@ impl Item {
 
 /// The source of a content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::simulator) enum Meaning {
+pub(in crate::simulator) enum ContentSource {
     /// The last written value.
     Value,
     /// The logical number of the axis at the place; 0 without an axis. A write exchanges axes.

@@ -23,7 +23,7 @@ pub use configured::ConfiguredVariable;
 pub(super) use data::{AxisModel, ChannelModel, class_place};
 pub use data::{Model, Settings};
 pub use error::ModelError;
-pub(super) use item::{ClassModel, Item, Meaning, Objects};
+pub(super) use item::{ClassModel, ContentSource, Item, Objects};
 pub(super) use parameter::{Parameter, Times};
 pub(super) use variable::{Variable, VariableRef, Variables, handle_at};
 

@@ -15,7 +15,7 @@
 //! use std::time::Duration;
 //!
 //! use ads_cnc::streaming::Ack;
-//! use ads_cnc_conformance::simulator::program::{Pace, StreamingProgram, ProgramConfig, State};
+//! use ads_cnc_conformance::simulator::program::{Pace, StreamingProgram, ProgramConfig, ProgramState};
 //!
 //! let at = Duration::from_millis;
 //! let pace = Pace::lines_per_second(10).unwrap();
@@ -24,14 +24,14 @@
 //! program.advance(at(250));
 //! assert_eq!(program.executed().line_count(), 2);
 //! program.advance(at(300));
-//! assert_eq!(program.state(), State::Dry);
+//! assert_eq!(program.state(), ProgramState::Dry);
 //!
 //! program.write(b"N30 $GOTO N10\r\n", at(1000));
-//! let State::Aborted(message) = program.state() else { panic!() };
+//! let ProgramState::Aborted(message) = program.state() else { panic!() };
 //! assert_eq!(message.to_string(), "streaming.nc:4:5: $GOTO back to line 3");
 //! ```
 
-mod answer;
+mod completed_request;
 mod executed;
 mod interface;
 mod pace;
@@ -40,9 +40,9 @@ mod script;
 mod segment;
 pub mod service;
 mod state;
-mod stream;
+mod streaming_program;
 
-pub use answer::{ServiceAnswer, ServiceOutcome};
+pub use completed_request::{CompletedRequest, ServiceOutcome};
 pub(crate) use executed::lines;
 pub use executed::{Executed, digest};
 pub use interface::StreamingInterface;
@@ -50,5 +50,5 @@ pub use pace::{Pace, ParsePaceError};
 pub(crate) use policy::{Buffer, Policy, ProgramEvent};
 pub use script::{Repeat, Script, ScriptConfig, ScriptError, ScriptState, ServiceRequest, Wait};
 pub(crate) use segment::ProgramSegment;
-pub use state::{Message, StartError, State};
-pub use stream::{ProgramConfig, Start, StreamingProgram, result};
+pub use state::{Message, ProgramState, StartError};
+pub use streaming_program::{ProgramConfig, Start, StreamingProgram, result};

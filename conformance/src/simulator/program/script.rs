@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{RequestState, ResponseState, Uuid};
 use ads_cnc::{CncStr, CncString, Error};
 
-use super::answer::{Answers, ServiceAnswer, ServiceOutcome};
+use super::completed_request::{CompletedRequest, CompletedRequests, ServiceOutcome};
 use super::policy::Policy;
 use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServiceWait};
 
@@ -166,13 +166,13 @@ pub struct Script {
     /// The time at which the next step is due; `None` before the first step, which is due at once.
     due: Option<Duration>,
     pausing: bool,
-    answers: Answers,
+    answers: CompletedRequests,
     policy: Policy,
 }
 
 impl Script {
     /// Number of stored answers.
-    pub const ANSWERS_MAX: usize = Answers::STORED_MAX;
+    pub const ANSWERS_MAX: usize = CompletedRequests::STORED_MAX;
 
     /// Maximum number of overdue steps executed at a time; polls without a response do not count.
     const STEPS: u32 = 100_000;
@@ -196,7 +196,7 @@ impl Script {
             present: None,
             due: None,
             pausing: false,
-            answers: Answers::default(),
+            answers: CompletedRequests::default(),
             policy: Policy::DEFAULT,
         };
         script.restart();
@@ -288,8 +288,8 @@ impl Script {
     }
 
     /// The latest outcomes in their order.
-    pub fn answers(&self) -> impl DoubleEndedIterator<Item = &ServiceAnswer> {
-        self.answers.kept.iter()
+    pub fn answers(&self) -> impl DoubleEndedIterator<Item = &CompletedRequest> {
+        self.answers.stored.iter()
     }
 
     /// Number of all outcomes, including timeouts.

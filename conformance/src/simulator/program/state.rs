@@ -6,7 +6,7 @@ use ads_cnc::streaming::{Diagnostic, LineError, ProgramEnd};
 
 /// The state of a streaming program.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum State {
+pub enum ProgramState {
     /// The program has not been started, or was ended by an NC reset (STM-11, STM-14).
     Stopped,
     /// The program has lines to execute.

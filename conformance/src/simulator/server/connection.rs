@@ -21,13 +21,13 @@ pub(super) const BUFFERED_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 /// The buffer of a connection, with received bytes that are not yet answered.
 ///
 /// ```
-/// use ads_cnc_conformance::simulator::{Cnc, NET_ID, Received};
+/// use ads_cnc_conformance::simulator::{Cnc, NET_ID, ReceiveBuffer};
 ///
 /// // ReadState of the COM task, in two pieces.
 /// let state = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
 ///               \x04\0\x04\0\0\0\0\0\0\0\0\0\x01\0\0\0";
 /// let cnc = Cnc::with_default_model()?;
-/// let (mut received, mut answers) = (Received::new(), Vec::<u8>::new());
+/// let (mut received, mut answers) = (ReceiveBuffer::new(), Vec::<u8>::new());
 /// for piece in [&state[..7], &state[7..]] {
 ///     received.room()[..piece.len()].copy_from_slice(piece);
 ///     received.take(piece.len(), &cnc, NET_ID, |answer| {
@@ -39,19 +39,19 @@ pub(super) const BUFFERED_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct Received {
+pub struct ReceiveBuffer {
     bytes: Vec<u8>,
     buffered: usize,
     answers: Vec<u8>,
 }
 
-impl Default for Received {
+impl Default for ReceiveBuffer {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Received {
+impl ReceiveBuffer {
     pub fn new() -> Self {
         // The system allocates pages of zeros at the first write to them.
         Self {
@@ -118,7 +118,7 @@ pub(super) fn serve(
     options: &ServerOptions,
     mut stream: &TcpStream,
 ) -> io::Result<()> {
-    let mut received = Received::new();
+    let mut received = ReceiveBuffer::new();
     let mut limit = Limit::new(options);
     limit.set(stream)?;
     loop {

@@ -101,7 +101,7 @@ fn pipelined_requests_are_answered_in_order() {
 #[test]
 fn requests_before_a_malformed_frame_are_answered() {
     let cnc = Cnc::with_default_model().unwrap();
-    let (mut received, mut answers) = (Received::new(), Vec::<u8>::new());
+    let (mut received, mut answers) = (ReceiveBuffer::new(), Vec::<u8>::new());
     let bytes = [COUNT, COUNT, b"GET / HTTP/1.1\r\n\r\n and more than a header"].concat();
     received.room()[..bytes.len()].copy_from_slice(&bytes);
     let taken = received.take(bytes.len(), &cnc, NET_ID, |more| {

@@ -8,11 +8,11 @@ use ads_cnc::{Kind, VariableType};
 use ads_cnc_vectors::ids::*;
 
 use self::LengthRule::{Fixed, Open};
+use crate::ads_service::clause;
 use crate::judge::{Checks as _, IfPresent as _, Rule, Step, assumed};
 use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
 use crate::text::plural;
-use crate::wire_service::clause;
 
 /// Sends frames in pieces: TCP may split a frame anywhere, so only its length field determines its end.
 pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {

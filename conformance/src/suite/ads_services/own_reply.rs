@@ -6,10 +6,10 @@ use ads_cnc::operation::{
     CountObjects, CountVariables, DescribeByIndex, Function, ReadDescriptors,
 };
 
+use crate::ads_service::clause;
 use crate::judge::{Checks as _, Rule, Step};
 use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, content_reads};
-use crate::wire_service::clause;
 
 /// Maximum number of requests of a function that are sent to find two with different replies.
 const CALLS_MAX: usize = 6;

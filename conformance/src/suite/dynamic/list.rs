@@ -260,13 +260,13 @@ fn refused_of(
     count: u32,
     what: &str,
     answers: &[Vec<u8>],
-    bad: Request<'_>,
+    invalid: Request<'_>,
 ) -> Step<Vec<PendingCheck>> {
     let now = answers.first().and_then(|data| DynamicCount::decode(data).ok());
     if now != Some(DynamicCount(count)) {
         return Ok(Vec::new());
     }
-    let exchange = probe.send(bad)?;
+    let exchange = probe.send(invalid)?;
     let expected = || format!("an error number for {what}");
     Ok(vec![PendingCheck::new(probe, DYN_5, exchange.is_rejected(), expected, &exchange)])
 }
@@ -298,10 +298,10 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
         };
         for beyond in beyond(probe, count) {
             let what = format!("index {beyond} of {count} {}", prefix(kind));
-            for (bad, good) in requests(beyond)?.into_iter().zip(requests(count)?) {
-                let guards = [CountDynamic::new(channel, kind).into(), good];
+            for (invalid, valid) in requests(beyond)?.into_iter().zip(requests(count)?) {
+                let guards = [CountDynamic::new(channel, kind).into(), valid];
                 steadily(probe, &guards, |probe, answers| {
-                    refused_of(probe, count, &what, answers, bad)
+                    refused_of(probe, count, &what, answers, invalid)
                 })?;
             }
         }

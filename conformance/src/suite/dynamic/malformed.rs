@@ -34,7 +34,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
         for (_, known) in names_of(probe, channel, kind, count)? {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
-            let good = RawCall::new(request)?;
+            let valid = RawCall::new(request)?;
             // Names that begin with an existing name and are at least one byte too long.
             let room = DYNAMIC_NAME_MAX.saturating_sub(known.as_bytes().len());
             for more in [1, 2, 160] {
@@ -42,14 +42,14 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 let long = [known.as_bytes(), &rest, &[0]].concat();
                 let what =
                     format!("a name of {}", plural(long.len().saturating_sub(1), "character"));
-                let long = good.with(|call| call.data = long);
+                let long = valid.with(|call| call.data = long);
                 rejects_steadily(probe, DYN_6, &what, at, long, request)?;
             }
             let longest = DYNAMIC_NAME_MAX.saturating_add(1);
-            let behind = good.with(|call| call.data.resize(longest, b'x'));
+            let behind = valid.with(|call| call.data.resize(longest, b'x'));
             let what = "a request of 97 bytes, with a byte after the NUL of the name";
             rejects_steadily(probe, assumed(DYN_6), what, at, behind, request)?;
-            let short = good.with(|call| call.read_length = call.read_length.saturating_sub(1));
+            let short = valid.with(|call| call.read_length = call.read_length.saturating_sub(1));
             let what = "a read length of 7 for a value";
             rejects_steadily(probe, assumed(DYN_3), what, at, short, request)?;
         }
@@ -62,11 +62,11 @@ pub(super) fn forms(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, _| {
         let known = first(probe, channel, kind)?;
         let text = TextRef::from(known.as_cnc_str());
-        let good = RawCall::new(DynamicValueByName { channel, kind, name: text })?;
+        let valid = RawCall::new(DynamicValueByName { channel, kind, name: text })?;
         let mut padded = known.as_bytes().to_vec();
         padded.resize(DYNAMIC_NAME_MAX, 0);
         for (what, data) in [("without a NUL", known.as_bytes()), ("padded with NULs", &padded)] {
-            let exchange = probe.call(&good.with(|call| call.data = data.to_vec()))?;
+            let exchange = probe.call(&valid.with(|call| call.data = data.to_vec()))?;
             let found = exchange.success().is_some();
             let expected = || format!("the value of {known}, {what}");
             probe.check(assumed(DYN_3), found, expected, &exchange);

@@ -83,13 +83,13 @@ pub(super) fn rejects_steadily<'a>(
     rule: impl Into<Rule>,
     what: &str,
     (channel, kind): (Channel, DynamicKind),
-    bad: impl IntoRawCall<'a>,
-    good: Request<'_>,
+    invalid: impl IntoRawCall<'a>,
+    valid: Request<'_>,
 ) -> Step {
-    let (rule, bad) = (rule.into(), bad.into_raw_call()?);
+    let (rule, invalid) = (rule.into(), invalid.into_raw_call()?);
     let count = CountDynamic::new(channel, kind).into();
-    steadily(probe, &[count, good], |probe, _| {
-        let exchange = probe.call(&bad)?;
+    steadily(probe, &[count, valid], |probe, _| {
+        let exchange = probe.call(&invalid)?;
         let expected = || format!("an error number for {what}");
         Ok(vec![PendingCheck::new(probe, rule, exchange.is_rejected(), expected, &exchange)])
     })

@@ -97,19 +97,19 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
         let Some((_, known)) = names.first() else {
             return Err(Stop::Inconclusive(format!("{}: index 1 has no name", prefix(kind))));
         };
-        let good = DynamicValueByName { channel, kind, name: known.as_cnc_str().into() };
+        let valid = DynamicValueByName { channel, kind, name: known.as_cnc_str().into() };
         let mut unknown = vec![format!("{}no such parameter", prefix(kind)), String::new()];
         unknown.push(prefix(kind).to_owned());
         unknown.extend(near(kind, &known.to_string()));
         for unknown in unknown {
             let is_there = names.iter().any(|(_, name)| name.to_string() == unknown);
-            let Ok(bad) = DynamicValueByName::new(channel, kind, &unknown) else { continue };
+            let Ok(invalid) = DynamicValueByName::new(channel, kind, &unknown) else { continue };
             // Another case sends names without space for their NUL.
-            if is_there || !is_sendable(&bad.into()) {
+            if is_there || !is_sendable(&invalid.into()) {
                 continue;
             }
             let what = format!("the name {unknown:?}");
-            rejects_steadily(probe, DYN_3, &what, (channel, kind), bad, good.into())?;
+            rejects_steadily(probe, DYN_3, &what, (channel, kind), invalid, valid.into())?;
         }
         Ok(())
     })
@@ -118,12 +118,12 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
 pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, _| {
         let known = first(probe, channel, kind)?;
-        let good = DynamicValueByName { channel, kind, name: known.as_cnc_str().into() };
+        let valid = DynamicValueByName { channel, kind, name: known.as_cnc_str().into() };
         for other in DynamicKind::ALL.into_iter().filter(|other| *other != kind) {
             let what = format!("{known} among the {}", prefix(other));
-            let bad = DynamicValueByName { kind: other, ..good };
+            let invalid = DynamicValueByName { kind: other, ..valid };
             let rule = assumed(DYN_3);
-            rejects_steadily(probe, rule, &what, (channel, kind), bad, good.into())?;
+            rejects_steadily(probe, rule, &what, (channel, kind), invalid, valid.into())?;
         }
         Ok(())
     })

@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use ads_cnc::CncString;
 use ads_cnc_vectors::Hex;
 
-use crate::judge::LeftChanged;
+use crate::judge::UnrestoredValue;
 use crate::objects::ValueAddress;
 use crate::text::escape;
 
@@ -47,9 +47,9 @@ pub(super) struct Change {
 
 impl Changes {
     /// The values that are still changed, the first change first.
-    pub fn left(&self) -> Vec<LeftChanged> {
+    pub fn left(&self) -> Vec<UnrestoredValue> {
         let all = self.all();
-        let left = all.iter().map(|change| LeftChanged {
+        let left = all.iter().map(|change| UnrestoredValue {
             name: escape(&change.what),
             was: Hex(change.was.clone()).to_string(),
             is: change.is.as_ref().map(|is| Hex(is.clone()).to_string()),

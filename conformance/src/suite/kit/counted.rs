@@ -10,7 +10,7 @@ use ads_cnc::sda::ElementCount;
 use ads_cnc::{Kind, ObjectCount, VariableCount};
 
 use crate::judge::{IfPresent as _, Step};
-use crate::objects::List;
+use crate::objects::ValueList;
 use crate::suite::kit::{Instance, ItemKind, Probe};
 
 /// A list whose items are requested by their number from 1.
@@ -58,14 +58,16 @@ impl Counted {
     }
 
     /// The name of the list.
-    pub(crate) fn list(&self) -> List {
+    pub(crate) fn list(&self) -> ValueList {
         match *self {
             Self::Objects(list) => list.into(),
             Self::Variables(channel, kind, _) => {
-                List::Variables { kind, channel: channel.number(), axis: None }
+                ValueList::Variables { kind, channel: channel.number(), axis: None }
             }
-            Self::Parameters(channel, kind) => List::Parameters { kind, channel: channel.number() },
-            Self::Elements(ref one) => List::of_instance(one.class, one.channel, one.axis),
+            Self::Parameters(channel, kind) => {
+                ValueList::Parameters { kind, channel: channel.number() }
+            }
+            Self::Elements(ref one) => ValueList::of_instance(one.class, one.channel, one.axis),
         }
     }
 

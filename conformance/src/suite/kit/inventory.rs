@@ -17,7 +17,7 @@ use ads_cnc::{Descriptors, ObjectCount};
 pub(crate) use variables::{VARIABLES_MAX, name_of};
 
 use crate::judge::{OrStop as _, Step, Stop};
-use crate::objects::{CLASSES, List, Object, ValueAddress, Walker};
+use crate::objects::{CLASSES, ListedValue, ValueAddress, ValueList, Walker};
 use crate::profile::Claim;
 use crate::suite::kit::{Instance, ItemKind, Probe};
 
@@ -71,7 +71,7 @@ impl Probe<'_> {
 
     /// The address of an object in the group that addresses its channel by rank; `None` if the group of
     /// the object is not logical. The platform and its axes have the same numbers in both groups.
-    pub(crate) fn address_by_rank(&self, object: &Object) -> Option<ValueAddress> {
+    pub(crate) fn address_by_rank(&self, object: &ListedValue) -> Option<ValueAddress> {
         let (group, offset) = object.address.content()?;
         let Some(Group::Com(com)) = group.parts() else { return None };
         let instance = match (com.table, com.instance) {
@@ -95,8 +95,8 @@ impl Probe<'_> {
 
     /// Whether an object belongs to an axis place that has no axis, or may have none: a value written to
     /// such a place is lost.
-    pub(crate) fn is_blank(&self, object: &Object) -> bool {
-        let List::Channel(number) = object.list else { return false };
+    pub(crate) fn is_blank(&self, object: &ListedValue) -> bool {
+        let ValueList::Channel(number) = object.list else { return false };
         self.empty_places().filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
     }
 
@@ -127,7 +127,7 @@ impl Probe<'_> {
 
     /// The objects of all lists that the cases read. Other cases judge descriptors that cannot be
     /// read.
-    pub(crate) fn objects(&mut self) -> Step<Vec<Object>> {
+    pub(crate) fn objects(&mut self) -> Step<Vec<ListedValue>> {
         if self.target.objects.is_none() {
             let mut all = Vec::new();
             for list in self.lists()? {
@@ -138,7 +138,7 @@ impl Probe<'_> {
                     let one: Option<Descriptors> = probe.try_read(read)?;
                     let one = one.filter(|one| one.len() == 1);
                     let objects = one.iter().flat_map(|one| one.iter());
-                    all.extend(objects.map(|one| Object::of_descriptor(list.into(), one)));
+                    all.extend(objects.map(|one| ListedValue::of_descriptor(list.into(), one)));
                     Ok(one.is_some())
                 })?;
             }
@@ -243,8 +243,8 @@ impl Probe<'_> {
     }
 
     /// The object list of a channel.
-    pub(crate) fn list_of(&self, number: u32) -> Step<List> {
-        Ok(List::Channel(self.channel_of(number)?.number()))
+    pub(crate) fn list_of(&self, number: u32) -> Step<ValueList> {
+        Ok(ValueList::Channel(self.channel_of(number)?.number()))
     }
 
     /// The channel with this number.

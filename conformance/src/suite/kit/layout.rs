@@ -39,8 +39,8 @@ pub(crate) fn places_tried(
 fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
     let mut next = Some(vec![0; dimensions.len()]);
     std::iter::from_fn(move || {
-        let place = next.take()?;
-        let mut following = place.clone();
+        let indices = next.take()?;
+        let mut following = indices.clone();
         let axes = following.iter_mut().zip(dimensions).rev();
         for (index, &dimension) in axes {
             let index: &mut u32 = index;
@@ -51,7 +51,7 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
             }
             *index = 0;
         }
-        Some(place)
+        Some(indices)
     })
 }
 
@@ -76,9 +76,9 @@ pub(crate) fn brackets(variable: &Description) -> Rule {
 }
 
 /// The name of a variable with indices; `None` if it is too long for a request.
-pub(crate) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
+pub(crate) fn element_name(variable: &Description, indices: &[u32]) -> Step<Option<CncString>> {
     let mut name = variable.name.text.to_string();
-    place.iter().for_each(|index| name.push_str(&format!("[{index}]")));
+    indices.iter().for_each(|index| name.push_str(&format!("[{index}]")));
     let name: CncString = name.parse()?;
     Ok(Some(name).filter(|name| name.as_bytes().len() < TEXT_MAX))
 }

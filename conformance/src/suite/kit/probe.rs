@@ -8,7 +8,7 @@
 )]
 
 mod handle;
-mod refused;
+mod rejected;
 
 use std::fmt::Display;
 
@@ -100,10 +100,10 @@ impl<'s> Probe<'s> {
         }
         self.confirm_handle(&request)?;
         let checked = self.check_gate(&request)?;
-        if let Err(Some(refusal)) = &checked
-            && matches!(refusal.reason, Reason::Ambiguous(..))
+        if let Err(Some(rejection)) = &checked
+            && matches!(rejection.reason, Reason::Ambiguous(..))
         {
-            self.ambiguity.get_or_insert_with(|| refusal.to_string());
+            self.ambiguity.get_or_insert_with(|| rejection.to_string());
         }
         Ok(checked.is_ok())
     }
@@ -112,7 +112,7 @@ impl<'s> Probe<'s> {
     /// `--allow-write` names, the case is not complete.
     pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.ambiguity.take(), step) {
-            (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
+            (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::NotPermitted(why)),
             (_, step) => step,
         }
     }
@@ -246,7 +246,7 @@ impl<'s> Probe<'s> {
         if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
             return Err(Stop::Inconclusive(deadline.to_string()));
         }
-        match &self.target.gone {
+        match &self.target.disconnect_reason {
             Some(why) => Err(Stop::Inconclusive(format!("the target no longer answers: {why}"))),
             None => Ok(()),
         }
@@ -262,15 +262,19 @@ impl<'s> Probe<'s> {
     ) -> Step {
         let state = &mut *self.target;
         match fault {
-            Some(ExchangeError::Refused(refusal)) => {
-                let why = format!("{what}: {refusal}");
+            Some(ExchangeError::NotPermitted(rejection)) => {
+                let why = format!("{what}: {rejection}");
                 // If the file of `--allow-write` is not the reason, the request has an address from a
                 // reply of the target, which the user cannot correct.
-                let is_of_user = refusal.reason.is_of_file();
-                return Err(if is_of_user { Stop::Refused(why) } else { Stop::Inconclusive(why) });
+                let is_of_user = rejection.reason.is_of_file();
+                return Err(if is_of_user {
+                    Stop::NotPermitted(why)
+                } else {
+                    Stop::Inconclusive(why)
+                });
             }
             Some(ExchangeError::Disconnected(why)) => {
-                state.gone = Some(why.clone());
+                state.disconnect_reason = Some(why.clone());
                 return Err(Stop::Inconclusive(format!("the target no longer answers: {why}")));
             }
             Some(ExchangeError::Malformed(_)) | None => state.silences = 0,
@@ -278,7 +282,8 @@ impl<'s> Probe<'s> {
         }
         state.frames = state.frames.saturating_add(1);
         if state.silences >= SILENCES_MAX {
-            state.gone = Some(format!("{SILENCES_MAX} consecutive requests without a reply"));
+            state.disconnect_reason =
+                Some(format!("{SILENCES_MAX} consecutive requests without a reply"));
         }
         for Violation { requirement, what } in violations {
             let rule = Rule::from(*requirement);

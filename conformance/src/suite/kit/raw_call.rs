@@ -9,7 +9,7 @@
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
-use ads_cnc::operation::{Call, Request, Service};
+use ads_cnc::operation::{AdsService, Call, Request};
 
 use crate::judge::Step;
 
@@ -17,7 +17,7 @@ use crate::judge::Step;
 #[derive(Clone, Debug)]
 pub(crate) struct RawCall {
     pub(crate) port: AmsPort,
-    pub(crate) service: Service,
+    pub(crate) service: AdsService,
     pub(crate) index_group: IndexGroup,
     pub(crate) index_offset: IndexOffset,
     pub(crate) read_length: u32,

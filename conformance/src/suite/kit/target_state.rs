@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use ads_cnc::operation::{Function, Service};
+use ads_cnc::operation::{AdsService, Function};
 
 use crate::client::Client;
 use crate::deadline::Deadline;
 use crate::evidence::Evidence;
 use crate::judge::Record;
-use crate::objects::Object;
+use crate::objects::ListedValue;
 use crate::profile::Profile;
 use crate::rules::RuleBook;
 use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
@@ -31,13 +31,13 @@ pub struct TargetState {
     /// Descriptions of the variables of each kind and channel.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
     /// The objects, read when a case first needs them.
-    pub(in crate::suite) objects: Option<Vec<Object>>,
+    pub(in crate::suite) objects: Option<Vec<ListedValue>>,
     /// The instances, read when a case first needs them.
     pub(in crate::suite) instances: Option<Vec<Instance>>,
     /// Number of requests sent.
     pub frames: usize,
     /// Services to which the target has replied.
-    pub(in crate::suite) answered: Vec<Service>,
+    pub(in crate::suite) answered: Vec<AdsService>,
     /// The functions that reject a request by index even if the index equals the logical number.
     pub(in crate::suite) without_base: HashSet<Function>,
     /// Whether any reply was a success.
@@ -47,7 +47,7 @@ pub struct TargetState {
     /// Consecutive requests without a reply.
     pub(in crate::suite) silences: usize,
     /// Why no more requests are sent.
-    pub(in crate::suite) gone: Option<String>,
+    pub(in crate::suite) disconnect_reason: Option<String>,
     /// The text that names the case in which the target stopped answering, and the number of requests.
     pub(in crate::suite) ended: Option<String>,
     /// Number of further failed cases after which the remaining cases are not run; `None` for no limit.
@@ -59,14 +59,14 @@ pub struct TargetState {
     /// The deadline of the run; a case that has begun to write is completed after it.
     pub(in crate::suite) deadline: Option<Deadline>,
     /// The replies to requests that must be rejected.
-    pub(in crate::suite) refusals: Refusals,
+    pub(in crate::suite) rejections: Rejections,
     /// Values that are changed at the moment.
     pub(in crate::suite) changes: Changes,
 }
 
 /// How a target rejects requests.
 #[derive(Debug, Default)]
-pub(in crate::suite) struct Refusals {
+pub(in crate::suite) struct Rejections {
     /// Number of rejections with an error number, in the AMS header or in the service.
     pub(in crate::suite) by_number: usize,
     /// Checks of successes without data.
@@ -91,13 +91,13 @@ impl TargetState {
             any_success: false,
             error_with_data: None,
             silences: 0,
-            gone: None,
+            disconnect_reason: None,
             ended: None,
             failures_left: None,
             broken: Record::default(),
             rules: RuleBook::of_run(),
             deadline: None,
-            refusals: Refusals::default(),
+            rejections: Rejections::default(),
             changes: Changes::default(),
         }
     }
@@ -131,7 +131,7 @@ impl TargetState {
 
     /// Notes the case in which the target stopped answering.
     pub(in crate::suite) fn end_in(&mut self, case: &str) {
-        if let (Some(why), None) = (&self.gone, &self.ended) {
+        if let (Some(why), None) = (&self.disconnect_reason, &self.ended) {
             let requests = plural(self.frames, "request");
             let ended = format!("the target stopped answering in {case}, after {requests}: {why}");
             self.ended = Some(ended);

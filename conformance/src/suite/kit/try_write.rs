@@ -260,9 +260,9 @@ impl Probe<'_> {
             return Ok(());
         }
         let exchange = self.send(write)?;
-        let refused = exchange.is_error();
+        let rejected = exchange.is_error();
         let expected = || format!("an error number for a write of {}", write_check.what);
-        self.check(write_check.rules, refused, expected, &exchange);
+        self.check(write_check.rules, rejected, expected, &exchange);
         Ok(())
     }
 }

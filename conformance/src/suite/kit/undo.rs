@@ -89,7 +89,7 @@ impl Probe<'_> {
         let end = Moment::now().after(time);
         client.gate().check_target(target.net_id, end).map_err(|why| {
             let time = time.as_secs();
-            Stop::Refused(format!("restoring a value may take {time} s, and {why}"))
+            Stop::NotPermitted(format!("restoring a value may take {time} s, and {why}"))
         })
     }
 
@@ -156,14 +156,16 @@ impl Probe<'_> {
             change.address.write(&change.was).ok().and_then(|write| probe.send_anyway(write))
         };
         let mut sent = send(self, change);
-        if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(ExchangeError::Refused(_))))
+        if sent
+            .as_ref()
+            .is_some_and(|sent| matches!(sent.outcome, Err(ExchangeError::NotPermitted(_))))
         {
             // On a new connection the gate has observed no handle and no list of objects.
             self.request_again(change);
             sent = send(self, change);
         }
         change.refused = match sent.as_ref().map(|sent| &sent.outcome) {
-            Some(Err(ExchangeError::Refused(why))) => Some(why.to_string()),
+            Some(Err(ExchangeError::NotPermitted(why))) => Some(why.to_string()),
             _ => None,
         };
         sent.is_some_and(|sent| sent.success().is_some())

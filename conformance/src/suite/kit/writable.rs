@@ -127,9 +127,9 @@ pub(crate) fn is_taken(
 pub(crate) fn require_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
-    good: Request<'_>,
+    valid: Request<'_>,
 ) -> Step {
-    if is_taken(probe, rule, "the same request without the fault", good)? {
+    if is_taken(probe, rule, "the same request without the fault", valid)? {
         Ok(())
     } else {
         Err(Stop::inconclusive("the device rejects the same request without the fault too"))

@@ -80,14 +80,14 @@ pub(super) fn bad_queries(probe: &mut Probe<'_>) -> Step {
         if !probe.instances()?.iter().any(|one| one.class == class) {
             continue;
         }
-        let good = RawCall::new(FindInstance::new(class, first, 0))?;
+        let valid = RawCall::new(FindInstance::new(class, first, 0))?;
         for len in [9, 4, 0] {
             let what = format!("{} for channel and axis", plural(len, "byte"));
-            let bad = good.with(|call| call.data.resize(len, 0));
-            probe.refuses(assumed(SDA_1), &what, bad, &good)?;
+            let invalid = valid.with(|call| call.data.resize(len, 0));
+            probe.rejects(assumed(SDA_1), &what, invalid, &valid)?;
         }
-        let short = good.with(|call| call.read_length = 7);
-        probe.refuses(assumed(SDA_1), "a read length of 7 for an address", short, &good)?;
+        let short = valid.with(|call| call.read_length = 7);
+        probe.rejects(assumed(SDA_1), "a read length of 7 for an address", short, &valid)?;
     }
     Ok(())
 }

@@ -23,24 +23,24 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     }
     let mut steady = Steady::default();
     for axis in &platform {
-        let mine = own.iter().find(|one| one.axis == axis.axis);
+        let own_axis = own.iter().find(|one| one.axis == axis.axis);
         let expected = || format!("axis {} in channel {first}, as in channel 0", axis.axis);
-        probe.check(SDA_13, mine.is_some(), expected, "no such instance");
-        let Some(mine) = mine else { continue };
-        if mine.count != axis.count {
+        probe.check(SDA_13, own_axis.is_some(), expected, "no such instance");
+        let Some(own_axis) = own_axis else { continue };
+        if own_axis.count != axis.count {
             // If both instances have the element after the smaller number, or neither has it, only a
             // reported number is wrong, which SDA-4 judges.
-            let next = mine.count.min(axis.count).saturating_add(1);
+            let next = own_axis.count.min(axis.count).saturating_add(1);
             let mut has_next = |one: &Instance| -> Step<bool> {
                 let Ok(element) = one.first.nth(next) else { return Ok(false) };
                 Ok(probe.try_ask(ReadElementName::new(element))?.is_some())
             };
-            let same = has_next(mine)? == has_next(axis)?;
+            let same = has_next(own_axis)? == has_next(axis)?;
             let counts =
-                || format!("{}, but {axis} has {}", plural(mine.count, "element"), axis.count);
+                || format!("{}, but {axis} has {}", plural(own_axis.count, "element"), axis.count);
             probe.check(SDA_13, same, "the same number of elements", counts);
         }
-        for (one, other) in axis.elements().zip(mine.elements()) {
+        for (one, other) in axis.elements().zip(own_axis.elements()) {
             let Some(length) = probe.length_of(one)? else { continue };
             let read = |address| ReadElement::new(address, length);
             let (Ok(read_one), Ok(read_other)) = (read(one), read(other)) else { continue };

@@ -149,8 +149,8 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
 
 /// The last axis of a channel in a class; `None` if the class does not have the channel.
 fn last_axis(all: &[Instance], class: Class, channel: u32) -> Option<u32> {
-    let mine = all.iter().filter(|one| (one.class, one.channel) == (class, channel));
-    mine.map(|one| one.axis).max()
+    let class_last = all.iter().filter(|one| (one.class, one.channel) == (class, channel));
+    class_last.map(|one| one.axis).max()
 }
 
 /// Compares the numbers of axes of the classes.
@@ -161,10 +161,10 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
         let lasts = OF_PLACES.map(|class| (class, last_axis(&all, class, channel)));
         let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
-        for (class, mine) in lasts {
-            let Some(mine) = mine.filter(|_| last > 0) else { continue };
+        for (class, class_last) in lasts {
+            let Some(class_last) = class_last.filter(|_| last > 0) else { continue };
             any = true;
-            let axis = if mine < last { mine.saturating_add(1) } else { last };
+            let axis = if class_last < last { class_last.saturating_add(1) } else { last };
             is_there(probe, &[of_axes(class, SDA_5)], class, channel, axis)?;
         }
     }
@@ -172,10 +172,10 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     let lasts =
         [Class::PositionController, Class::Hld].map(|class| (class, last_axis(&all, class, 0)));
     let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
-    for (class, mine) in lasts {
-        let Some(mine) = mine.filter(|_| last > 0) else { continue };
+    for (class, class_last) in lasts {
+        let Some(class_last) = class_last.filter(|_| last > 0) else { continue };
         any = true;
-        let axis = if mine < last { mine.saturating_add(1) } else { last };
+        let axis = if class_last < last { class_last.saturating_add(1) } else { last };
         is_there(probe, &[Rule::from(SDA_5)], class, 0, axis)?;
     }
     applicable(any, "no class has an axis")
@@ -248,18 +248,18 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
                 };
                 let what = format!("an axis {:#x} after {one}", bit >> 16);
                 let (there, first) = (CountElements::new(one.first)?, far(one.first));
-                probe.refuses(ADR_7, &what, CountElements::new(first)?, there)?;
+                probe.rejects(ADR_7, &what, CountElements::new(first)?, there)?;
                 let Some(element) = one.elements().next() else { continue };
                 for (there, far) in
                     attribute_reads(element).into_iter().zip(attribute_reads(far(element)))
                 {
-                    probe.refuses(ADR_7, &what, far, there)?;
+                    probe.rejects(ADR_7, &what, far, there)?;
                 }
                 let Some(length) = probe.length_of(element)? else { continue };
                 if let (Ok(there), Ok(far)) =
                     (ReadElement::new(element, length), ReadElement::new(far(element), length))
                 {
-                    probe.refuses(ADR_7, &what, far, there)?;
+                    probe.rejects(ADR_7, &what, far, there)?;
                 }
             }
         }

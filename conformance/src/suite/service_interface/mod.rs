@@ -86,15 +86,15 @@ fn response(probe: &mut Probe<'_>) -> Step {
 /// Writes a response like a service, without a request.
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
-    let taken = write_variable(probe, channel, Response, b"unrequested\0")?;
-    probe.check(SVC_1, taken, "the response accepted", "an error");
+    let accepted = write_variable(probe, channel, Response, b"unrequested\0")?;
+    probe.check(SVC_1, accepted, "the response accepted", "an error");
     let read = read_variable(probe, channel, Response)?;
     let same = until_nul(&read) == b"unrequested";
     probe.check(SVC_1, same, "the response as written", || Hex(read));
     // The state may be any number: its meaning is agreed between program and service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
-        let taken = write_variable(probe, channel, ResponseState, &state)?;
-        probe.check(SVC_1, taken, "the response state accepted", "an error");
+        let accepted = write_variable(probe, channel, ResponseState, &state)?;
+        probe.check(SVC_1, accepted, "the response state accepted", "an error");
         let read = read_variable(probe, channel, ResponseState)?;
         probe.check(SVC_1, read == state, || Hex(state.to_vec()), || Hex(read));
     }

@@ -16,14 +16,14 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
     let sends_longer = probe.target.client.gate().lets_malformed_pass();
     for_each_text(probe, |probe, channel, variable| {
         let value = [&[b'x'; 127][..], b"\0"].concat();
-        let taken = write_variable(probe, channel, variable, &value)?;
-        probe.check(SVC_1, taken, "127 characters and a NUL accepted", "an error");
+        let accepted = write_variable(probe, channel, variable, &value)?;
+        probe.check(SVC_1, accepted, "127 characters and a NUL accepted", "an error");
         let read = read_variable(probe, channel, variable)?;
         probe.check(SVC_1, read == value, "128 bytes as written", || Hex(read));
         if sends_longer {
             let longer = [&[b'y'; 128][..], b"\0"].concat();
-            let taken = write_variable(probe, channel, variable, &longer)?;
-            probe.check(SVC_1, !taken, "129 bytes rejected", "accepted");
+            let accepted = write_variable(probe, channel, variable, &longer)?;
+            probe.check(SVC_1, !accepted, "129 bytes rejected", "accepted");
             let read = read_variable(probe, channel, variable)?;
             probe.check(SVC_1, read == value, "the text written before, unchanged", || Hex(read));
         }
@@ -47,9 +47,9 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
         for len in [127, 0, 1, 20, 21, 32, 36, 63, 64, 80, 100, 126, 127] {
             let mut value = characters(u8::try_from(len).unwrap_or_default(), len);
             value.push(0);
-            let taken = write_variable(probe, channel, variable, &value)?;
+            let accepted = write_variable(probe, channel, variable, &value)?;
             let what = format!("{} of {}", plural(len, "character"), variable.name());
-            probe.check(SVC_1, taken, || format!("{what} accepted"), "an error");
+            probe.check(SVC_1, accepted, || format!("{what} accepted"), "an error");
             let read = read_variable(probe, channel, variable)?;
             let same = until_nul(&read) == until_nul(&value);
             probe.check(SVC_1, same, || format!("{what} as written"), || Hex(read));

@@ -1,7 +1,8 @@
-//! The settings of a data model for the NC programs of a channel: streaming, and requests to services.
+//! Tests of the keys of a model that control the NC programs of a channel: streaming, and the requests that
+//! a program sends to services.
 
 use ads_cnc::streaming::ProgramEnd;
-use ads_cnc_conformance::simulator::program::{ScriptState, ServiceOutcome, State};
+use ads_cnc_conformance::simulator::program::{ProgramState, ScriptState, ServiceOutcome};
 use ads_cnc_conformance::simulator::{DEFAULT_MODEL, Model};
 
 use super::timed::Timed;
@@ -46,10 +47,10 @@ fn streaming_has_a_pace() {
 #[test]
 fn streaming_starts_as_configured() {
     for (keys, lines, state) in [
-        ("pace = \"fast\"", 12, State::Dry),
-        ("pace = \"fast\"\nstart = \"again\"", 12, State::Dry),
-        ("pace = \"fast\"\nstart = \"once\"", 11, State::Ended(ProgramEnd::M30)),
-        ("pace = \"fast\"\nstart = \"by-hand\"", 0, State::Stopped),
+        ("pace = \"fast\"", 12, ProgramState::Dry),
+        ("pace = \"fast\"\nstart = \"again\"", 12, ProgramState::Dry),
+        ("pace = \"fast\"\nstart = \"once\"", 11, ProgramState::Ended(ProgramEnd::M30)),
+        ("pace = \"fast\"\nstart = \"by-hand\"", 0, ProgramState::Stopped),
     ] {
         let cnc = with_streaming(keys);
         for packet in [LINES, b"M30\r\n", b"N10 X1\r\n"] {
@@ -64,7 +65,7 @@ fn streaming_starts_as_configured() {
     let cnc = with_streaming("file = \"part.nc\"");
     assert_eq!(cnc.write_object(STREAM, b"N10 X1"), Ok(()));
     let state = cnc.0.with_program(1, |program| program.state()).unwrap();
-    let State::Aborted(message) = state else { panic!("{state:?}") };
+    let ProgramState::Aborted(message) = state else { panic!("{state:?}") };
     assert!(message.to_string().starts_with("part.nc:1:"), "{message}");
 }
 

@@ -163,9 +163,9 @@ fn invalid_reports_are_rejected() {
     ] {
         fs::write(&odd, text).unwrap();
         let output = ads_cnc(&["report", &odd]);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.contains(why) && said.contains("odd.json"), "{said}");
+        let stderr_text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{stderr_text}");
+        assert!(stderr_text.contains(why) && stderr_text.contains("odd.json"), "{stderr_text}");
     }
     let both = ads_cnc(&["report", &odd, "--html", "-", "--junit", "-"]);
     assert_eq!(both.status.code(), Some(2));
@@ -291,6 +291,9 @@ fn a_comparison_with_fewer_verdicts_is_not_a_success() {
             one["verdict"] = json!("interrupted");
         }
     }
+    document["suite"] = json!("9.9.9");
+    document["vectors"] = json!("8.8.8");
+    document["editions"] = json!(["de-1.051"]);
     document["only"] = json!(["VAR"]);
     document["target"]["net_id"] = json!("192.0.2.10.1.1");
     document["profile"]["claims"]["platform_axes"] = json!(9);
@@ -301,6 +304,9 @@ fn a_comparison_with_fewer_verdicts_is_not_a_success() {
     assert_eq!(shown.matches("no longer judged  ").count(), 1, "{shown}");
     for part in [
         " verdicts: the run was interrupted\n",
+        " before, 9.9.9 now\nwarning  different vectors: ",
+        " before, 8.8.8 now\n",
+        "\nwarning  different editions: en-1.05, de-1.051 before, de-1.051 now\n",
         "\nwarning  different target: ",
         "\nwarning  different claims of the profile: platform_axes\n",
         "\nwarning  different selection: VAR-11 before, VAR now\n",

@@ -120,6 +120,24 @@ fn exchanges_have_names_and_values() {
     assert!(shown("V.E.none").contains(refused));
 }
 
+/// A name in a capture is escaped on the console and in every report that is shown as text or markup.
+#[test]
+fn texts_of_a_capture_are_escaped() {
+    let folder = Folder::new("acting");
+    let files = ["x.pcapng", "x.html", "x.md", "x.xml"].map(|name| folder.file(name));
+    let [file, page, note, junit] = &files;
+    ads_cnc(&["get", "V.E.a\u{1b}c<img src=x>", "--capture", file]);
+    let forms = ["--html", page, "--markdown", note, "--junit", junit];
+    let checked = ads_cnc(&[&["check", "--any-port", file], &forms[..]].concat());
+    let console = text(&checked.stdout);
+    assert!(console.contains("by name V.E.a\\u{1b}c<img src=x>: "), "{console}");
+    let reports = [page, note, junit].map(|file| fs::read_to_string(file).unwrap());
+    assert!(reports[0].contains("V.E.a\\u{1b}c&lt;img src=x&gt;: "), "{}", reports[0]);
+    assert!(reports.iter().all(|report| !report.contains("<img")), "{reports:?}");
+    let acts = |one: char| one.is_control() && one != '\n';
+    assert!(!console.contains(acts) && reports.iter().all(|report| !report.contains(acts)));
+}
+
 /// The HTML and JSON reports contain the exchanges, and the notes about the traffic that `check` prints
 /// to stderr.
 #[test]

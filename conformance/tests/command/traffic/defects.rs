@@ -135,7 +135,7 @@ fn printed_examples_pass() {
         {
             continue;
         }
-        let read = context.service == Some(ads_cnc_vectors::Service::Read);
+        let read = context.service == Some(ads_cnc_vectors::AdsService::Read);
         let (data, answer) = (if read { Vec::new() } else { request.bytes() }, reply.bytes());
         let length = Stream::by_name(&reply.stream).unwrap().layout().max;
         let length = if read { u32::try_from(answer.len()).unwrap() } else { length };

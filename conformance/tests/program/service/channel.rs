@@ -49,33 +49,33 @@ impl Channel {
     }
 
     /// Executes the next step of a host, unless it is to serve a request, and returns the kind of the step.
-    pub(crate) fn step(&mut self, host: &mut Host<'_>) -> Did {
+    pub(crate) fn step(&mut self, host: &mut Host<'_>) -> HostEvent {
         match host.step() {
             HostStep::Read(variable) => {
                 host.read(self.interface.read(variable)).unwrap();
-                Did::Read(variable)
+                HostEvent::Read(variable)
             }
             HostStep::Write(variable, value) => {
                 self.write(variable, value);
                 host.written();
-                Did::Write(variable)
+                HostEvent::Write(variable)
             }
-            HostStep::Serve { .. } => Did::Serve,
+            HostStep::Serve { .. } => HostEvent::Serve,
             HostStep::Wait => {
                 host.poll();
-                Did::Wait
+                HostEvent::Wait
             }
         }
     }
 
     /// Executes steps of a host until the next step is not a read; returns the kind of that step.
-    pub(crate) fn skip_reads(&mut self, host: &mut Host<'_>) -> Did {
+    pub(crate) fn skip_reads(&mut self, host: &mut Host<'_>) -> HostEvent {
         for _ in 0..50 {
             match host.step() {
                 HostStep::Read(_) => self.step(host),
-                HostStep::Write(variable, _) => return Did::Write(variable),
-                HostStep::Serve { .. } => return Did::Serve,
-                HostStep::Wait => return Did::Wait,
+                HostStep::Write(variable, _) => return HostEvent::Write(variable),
+                HostStep::Serve { .. } => return HostEvent::Serve,
+                HostStep::Wait => return HostEvent::Wait,
             };
         }
         panic!("reads and reads: {:?}", host.step());
@@ -84,7 +84,7 @@ impl Channel {
     /// Executes steps of a host until the next step is a write of this variable.
     pub(crate) fn reach(&mut self, host: &mut Host<'_>, variable: ServiceVariable) {
         let there = (0..50).any(|_| {
-            let there = self.skip_reads(host) == Did::Write(variable);
+            let there = self.skip_reads(host) == HostEvent::Write(variable);
             if !there {
                 self.step(host);
             }
@@ -95,7 +95,7 @@ impl Channel {
 
     /// Executes steps until the host waits.
     pub(crate) fn rest(&mut self, host: &mut Host<'_>) {
-        assert!((0..50).any(|_| self.step(host) == Did::Wait), "{:?}", host.step());
+        assert!((0..50).any(|_| self.step(host) == HostEvent::Wait), "{:?}", host.step());
     }
 
     /// Polls for a request, serves it and executes steps up to the next wait; returns whether a request was
@@ -106,7 +106,7 @@ impl Channel {
         service: impl Fn(&str) -> (String, u32),
     ) -> bool {
         host.poll();
-        if self.skip_reads(host) != Did::Serve {
+        if self.skip_reads(host) != HostEvent::Serve {
             return false;
         }
         let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
@@ -141,7 +141,7 @@ impl Channel {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Did {
+pub(crate) enum HostEvent {
     Read(ServiceVariable),
     Write(ServiceVariable),
     Serve,

@@ -169,14 +169,14 @@ fn only_a_request_state_starts_a_service() {
     assert!(!channel.serve(&mut host, square_root));
     for state in [1_u32, 0x100, u32::MAX] {
         channel.write(RequestState, &state.to_le_bytes());
-        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Wait);
         host.poll();
-        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
         let HostStep::Serve { request_state, .. } = host.step() else { unreachable!() };
         assert_eq!(request_state, state);
         host.answer(text("x"), 1).unwrap();
         channel.rest(&mut host);
-        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Wait);
     }
     let zero =
         ServiceCall::with_state(id(ROOT), text("3"), 0, SysServiceWait::default()).unwrap_err();
@@ -194,7 +194,7 @@ fn two_services_on_one_channel() {
     for (uuid, place) in [(COMMAND, 1), (ROOT, 0), (COMMAND, 1)] {
         channel.ask(uuid, "3");
         one.poll();
-        assert_eq!(channel.skip_reads(&mut one), Did::Serve);
+        assert_eq!(channel.skip_reads(&mut one), HostEvent::Serve);
         let HostStep::Serve { uuid, .. } = one.step() else { unreachable!() };
         assert!(std::ptr::eq(uuid, &both[place]));
         one.answer(text("x"), 1).unwrap();

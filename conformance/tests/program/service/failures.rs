@@ -19,7 +19,7 @@ fn failed_writes_are_completed() {
             assert_eq!(channel.run(&mut program, millis(0)), None);
             channel.written.clear();
             let mut host = Host::new(&ids);
-            assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+            assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
             host.answer(text("x"), 1).unwrap();
             channel.reach(&mut host, variable);
             let HostStep::Write(_, value) = host.step() else { unreachable!() };
@@ -48,7 +48,7 @@ fn a_failed_write_does_not_answer_the_next_request() {
     let mut program = call(ROOT, "3", [None; 3]);
     channel.run(&mut program, millis(0));
     let mut host = Host::new(&ids);
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     host.answer(text("first"), 1).unwrap();
     channel.reach(&mut host, ResponseState);
     channel.write(ResponseState, &[1, 0, 0, 0]);
@@ -56,7 +56,7 @@ fn a_failed_write_does_not_answer_the_next_request() {
     let mut program = call(ROOT, "3", [None; 3]);
     channel.run(&mut program, millis(2));
     host.failed();
-    assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Wait);
     assert_eq!(channel.run(&mut program, millis(3)), None);
     assert!(channel.serve(&mut host, |_| ("second".to_string(), 1)));
     assert_eq!(channel.run(&mut program, millis(4)), Some(Ok((1, "second".to_string()))));
@@ -72,13 +72,13 @@ fn a_failed_write_is_not_repeated_over_another_service() {
         let mut channel = Channel::default();
         channel.ask(ROOT, "3");
         let mut host = Host::new(&ids);
-        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
         host.answer(text("x"), 1).unwrap();
         channel.reach(&mut host, ResponseState);
         host.failed();
         channel.interface.write(Uuid, uuid.as_bytes()).unwrap();
         channel.interface.write(ResponseState, &[response_state, 0, 0, 0]).unwrap();
-        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Wait);
         assert_eq!(host.outcome(), Some(Outcome::Abandoned));
         assert_eq!(channel.interface.read(ResponseState), [response_state, 0, 0, 0]);
     }
@@ -94,7 +94,7 @@ fn two_hosts_may_end_an_unserved_request() {
     let mut channel = Channel::default();
     let mut program = call(ROOT, "3", [None; 3]);
     channel.run(&mut program, millis(0));
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     host.answer(text("first"), 1).unwrap();
     channel.reach(&mut host, ResponseState);
     channel.write(ResponseState, &[1, 0, 0, 0]);
@@ -103,22 +103,22 @@ fn two_hosts_may_end_an_unserved_request() {
 
     let mut program = call(COMMAND, "3", [None; 3]);
     channel.run(&mut program, millis(2));
-    assert_eq!(channel.skip_reads(&mut other), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut other), HostEvent::Serve);
     other.answer(text("other"), 1).unwrap();
     channel.reach(&mut other, ResponseState);
     for variable in [ResponseState, RequestState] {
-        assert_eq!(channel.step(&mut host), Did::Read(variable));
+        assert_eq!(channel.step(&mut host), HostEvent::Read(variable));
     }
-    assert_eq!(channel.step(&mut other), Did::Write(ResponseState));
+    assert_eq!(channel.step(&mut other), HostEvent::Write(ResponseState));
     assert_eq!(channel.run(&mut program, millis(3)), Some(Ok((1, "other".to_string()))));
 
     let mut program = call(ROOT, "4", [None; 3]);
     let CallStep::Write(Uuid, value) = program.step() else { unreachable!() };
     channel.write(Uuid, value);
     program.written(millis(4));
-    assert_eq!(channel.step(&mut host), Did::Read(Uuid));
+    assert_eq!(channel.step(&mut host), HostEvent::Read(Uuid));
     assert_eq!(channel.run(&mut program, millis(5)), None);
-    assert_eq!(channel.step(&mut host), Did::Write(ResponseState));
+    assert_eq!(channel.step(&mut host), HostEvent::Write(ResponseState));
     assert_eq!(channel.run(&mut program, millis(6)), Some(Ok((1, "other".to_string()))));
 }
 
@@ -141,7 +141,7 @@ fn calls_in_the_wrong_order_do_nothing() {
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     host.poll();
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     host.failed();
     host.written();
     host.poll();
@@ -170,11 +170,11 @@ fn a_late_response_is_dropped() {
         let mut channel = Channel::default();
         channel.ask(ROOT, "3");
         let mut host = Host::new(&ids);
-        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
         channel.ask(uuid, request);
         host.answer(text("late"), 1).unwrap();
         assert_eq!(host.outcome(), None);
-        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Wait);
         assert_eq!(host.outcome(), Some(Outcome::Abandoned));
         assert_eq!((channel.written.len(), channel.interface.read(Response)), (0, &b"\0"[..]));
         assert_eq!(channel.serve(&mut host, |_| ("x".to_string(), 1)), ours);
@@ -183,7 +183,7 @@ fn a_late_response_is_dropped() {
         // When the next response begins, the outcome of the previous response is discarded.
         channel.ask(ROOT, "5");
         host.poll();
-        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
         host.answer(text("x"), 1).unwrap();
         assert_eq!(host.outcome(), None);
     }
@@ -191,10 +191,10 @@ fn a_late_response_is_dropped() {
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     let mut host = Host::new(&ids);
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     channel.interface.write(RequestState, &[2, 0, 0, 0]).unwrap();
     host.answer(text("late"), 1).unwrap();
-    assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Wait);
     assert_eq!((host.outcome(), channel.written.len()), (Some(Outcome::Abandoned), 0));
 }
 
@@ -206,18 +206,18 @@ fn a_request_is_read_twice() {
     let mut host = Host::new(&ids);
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
-    assert_eq!(channel.step(&mut host), Did::Read(RequestState));
+    assert_eq!(channel.step(&mut host), HostEvent::Read(RequestState));
     channel.write(RequestState, &[0; 4]);
     channel.write(ResponseState, &[1, 0, 0, 0]);
     channel.write(Uuid, format!("{COMMAND}\0").as_bytes());
-    assert_eq!(channel.step(&mut host), Did::Read(Uuid));
-    assert_eq!(channel.step(&mut host), Did::Read(Request));
+    assert_eq!(channel.step(&mut host), HostEvent::Read(Uuid));
+    assert_eq!(channel.step(&mut host), HostEvent::Read(Request));
     channel.write(Request, b"some-command\0");
     channel.write(RequestState, &[1, 0, 0, 0]);
-    assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Wait);
     assert_eq!(host.outcome(), None);
     host.poll();
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
     assert_eq!(request, "some-command");
 }
@@ -233,7 +233,7 @@ fn a_reset_during_a_response() {
             channel.ask(ROOT, "3");
             let mut host = Host::new(&ids);
             for _ in 0..steps {
-                if channel.step(&mut host) == Did::Serve {
+                if channel.step(&mut host) == HostEvent::Serve {
                     host.answer(text("old"), 99).unwrap();
                 }
             }
@@ -244,8 +244,8 @@ fn a_reset_during_a_response() {
             }
             // Executes steps up to the next wait. A host that was not told of the reset may complete
             // the response that it had begun.
-            while channel.skip_reads(&mut host) != Did::Wait {
-                if channel.step(&mut host) == Did::Serve {
+            while channel.skip_reads(&mut host) != HostEvent::Wait {
+                if channel.step(&mut host) == HostEvent::Serve {
                     host.answer(text("old"), 99).unwrap();
                 }
             }
@@ -266,9 +266,9 @@ fn a_restarted_host_serves_again() {
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     let mut host = Host::new(&ids);
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     host.answer(text("x"), 1).unwrap();
     host.restart();
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     assert_eq!((host.outcome(), channel.written.len()), (None, 0));
 }

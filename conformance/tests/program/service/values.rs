@@ -30,7 +30,7 @@ fn texts_have_128_bytes() {
         assert_eq!(channel.run(&mut program, millis(0)), None);
         let ids = [id(ROOT)];
         let mut host = Host::new(&ids);
-        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
         let before = channel.interface.clone();
         let error = host.answer(text(&over), 1).unwrap_err();
         assert_eq!(Fault::of(error), too_long("response"));
@@ -77,7 +77,7 @@ fn a_too_long_request_is_rejected() {
     reach(&mut channel, &mut host);
     // NULs after the text are padding, and do not count for its length.
     host.read(&[&b"3\0"[..], &[0; 300]].concat()).unwrap();
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
     assert_eq!(request, "3");
     // When the response is ready, another request (which is too long) has replaced the served one:
@@ -96,7 +96,7 @@ fn a_response_state_of_0_is_rejected() {
     let ids = [id(ROOT)];
     let mut host = Host::new(&ids);
     channel.ask(ROOT, "3");
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     let error = host.answer(text("x"), 0).unwrap_err();
     assert_eq!(Fault::of(error), fault(OutOfRange, "response_state", 0, (1, 0)));
     assert!(matches!(host.step(), HostStep::Serve { .. }));
@@ -122,7 +122,7 @@ fn states_have_four_bytes() {
     let mut channel = Channel::default();
     channel.ask(ROOT, "3");
     host.poll();
-    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     host.answer(text("x"), 1).unwrap();
     assert_eq!(Fault::of(host.read(&[]).unwrap_err()).kind, Truncated);
     assert_eq!(host.step(), HostStep::Read(RequestState));

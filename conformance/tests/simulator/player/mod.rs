@@ -4,18 +4,18 @@
 mod service;
 mod streaming;
 
-use ads_cnc_vectors::{Given, Pieces, Sequence, SequenceExpect};
+use ads_cnc_vectors::{Pieces, Sequence, SequenceExpect, SequenceInput};
 
-use crate::target::{Check, Failed, Target};
+use crate::target::{CheckResult, Failed, TestCnc};
 
 /// The class of an error and the ID of the step that caused it; `None` without an error.
 type Fault<'c> = Option<(&'static str, &'c str)>;
 
 /// Plays a sequence up to its expected error, or to its end.
-pub(crate) fn play(target: &Target, sequence: &Sequence) -> Check {
+pub(crate) fn play(target: &TestCnc, sequence: &Sequence) -> CheckResult {
     let found = match &sequence.given {
-        Given::Streaming(given) => streaming::play(target, given)?,
-        Given::Service(given) => service::play(target, given)?,
+        SequenceInput::Streaming(given) => streaming::play(target, given)?,
+        SequenceInput::Service(given) => service::play(target, given)?,
         _ => return Err(Failed("a text has no steps".to_owned())),
     };
     let stated = match &sequence.expect {
@@ -27,7 +27,7 @@ pub(crate) fn play(target: &Target, sequence: &Sequence) -> Check {
     crate::target::same("the fault", found, stated)
 }
 
-fn differs<T>(expected: impl ToString, found: impl ToString) -> Check<T> {
+fn differs<T>(expected: impl ToString, found: impl ToString) -> CheckResult<T> {
     Err(Failed(format!("expected {}, found {}", expected.to_string(), found.to_string())))
 }
 
@@ -36,6 +36,6 @@ fn lacks(what: &str) -> Failed {
     Failed(format!("a step lacks its {what}"))
 }
 
-fn bytes(pieces: Option<&Pieces>, what: &str) -> Check<Vec<u8>> {
+fn bytes(pieces: Option<&Pieces>, what: &str) -> CheckResult<Vec<u8>> {
     Ok(pieces.ok_or_else(|| lacks(what))?.bytes())
 }

@@ -15,10 +15,10 @@ use ads_cnc_vectors::{ServiceAction, ServiceSequence, ServiceStep};
 use super::{Fault, bytes, differs, lacks};
 use crate::services::{read_variable, write_variable};
 use crate::square_root::square_root;
-use crate::target::{Check, Target};
+use crate::target::{CheckResult, TestCnc};
 
 /// Plays the steps of a sequence up to the first error, after the interfaces of all channels are reset.
-pub(super) fn play<'c>(target: &Target, given: &'c ServiceSequence) -> Check<Fault<'c>> {
+pub(super) fn play<'c>(target: &TestCnc, given: &'c ServiceSequence) -> CheckResult<Fault<'c>> {
     let channels = target.channels();
     for &channel in &channels {
         target.cnc().set_script(channel, None)?;
@@ -43,7 +43,7 @@ pub(super) fn play<'c>(target: &Target, given: &'c ServiceSequence) -> Check<Fau
 }
 
 struct Player<'s, 'c> {
-    target: &'s Target,
+    target: &'s TestCnc,
     /// The numbers of the CNC's channels: channel n of a sequence is the nth of them.
     channels: Vec<u8>,
     given: &'c ServiceSequence,
@@ -54,7 +54,7 @@ struct Player<'s, 'c> {
 }
 
 impl Player<'_, '_> {
-    fn step(&mut self, step: &ServiceStep) -> Check<Option<&'static str>> {
+    fn step(&mut self, step: &ServiceStep) -> CheckResult<Option<&'static str>> {
         match step.action {
             ServiceAction::Read => {
                 let value = bytes(step.bytes.as_ref(), "bytes")?;
@@ -106,14 +106,14 @@ impl Player<'_, '_> {
         }
     }
 
-    fn channel(&self, step: &ServiceStep) -> Check<u8> {
+    fn channel(&self, step: &ServiceStep) -> CheckResult<u8> {
         let place = usize::try_from(step.channel.unwrap_or(1))?;
         let channel = place.checked_sub(1).and_then(|place| self.channels.get(place));
         channel.copied().ok_or_else(|| lacks("channel"))
     }
 
     /// The value of a variable; for a text, without the NULs that pad it, but with one NUL.
-    fn read(&self, step: &ServiceStep, variable: ServiceVariable) -> Check<Vec<u8>> {
+    fn read(&self, step: &ServiceStep, variable: ServiceVariable) -> CheckResult<Vec<u8>> {
         let mut value = read_variable(self.target, self.channel(step)?, variable)?;
         if variable.var_type() == VariableType::STRING {
             let filled = value.iter().rposition(|&byte| byte != 0);
@@ -123,7 +123,7 @@ impl Player<'_, '_> {
     }
 
     /// Executes one step of the program.
-    fn program_step(&mut self, step: &ServiceStep) -> Check<&Script> {
+    fn program_step(&mut self, step: &ServiceStep) -> CheckResult<&Script> {
         let channel = self.channel(step)?;
         let program = self.program.as_mut().ok_or_else(|| lacks("program"))?;
         let now = self.now;
@@ -133,14 +133,14 @@ impl Player<'_, '_> {
 
     /// The outcome of the program's request, after the program has polled once; `None` if the program
     /// still waits.
-    fn outcome(&mut self, step: &ServiceStep) -> Check<Option<ServiceOutcome>> {
+    fn outcome(&mut self, step: &ServiceStep) -> CheckResult<Option<ServiceOutcome>> {
         self.program_step(step)?;
         let answers = self.program_step(step)?.answers().next();
         Ok(answers.map(|answer| answer.outcome.clone()))
     }
 
     /// The next action of the service, after the service has read all variables that it needs.
-    fn next_action(&mut self, step: &ServiceStep) -> Check<HostAction> {
+    fn next_action(&mut self, step: &ServiceStep) -> CheckResult<HostAction> {
         let channel = self.channel(step)?;
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
         host.poll();
@@ -163,7 +163,7 @@ impl Player<'_, '_> {
         }
     }
 
-    fn write(&mut self, step: &ServiceStep) -> Check<Option<&'static str>> {
+    fn write(&mut self, step: &ServiceStep) -> CheckResult<Option<&'static str>> {
         let (variable, value) = (variable(step)?, bytes(step.bytes.as_ref(), "bytes")?);
         let channel = self.channel(step)?;
         match step.actor.as_str() {
@@ -201,7 +201,7 @@ impl Player<'_, '_> {
         }
     }
 
-    fn answer(&mut self, step: &ServiceStep) -> Check<Option<&'static str>> {
+    fn answer(&mut self, step: &ServiceStep) -> CheckResult<Option<&'static str>> {
         let (text, state) = response(step)?;
         let HostAction::Serve(request, _) = self.next_action(step)? else {
             return differs("a request to answer", "none");
@@ -226,7 +226,7 @@ enum HostAction {
     Serve(CncString, u32),
 }
 
-fn request(step: &ServiceStep) -> Check<Result<ServiceRequest, CallError>> {
+fn request(step: &ServiceStep) -> CheckResult<Result<ServiceRequest, CallError>> {
     let parameter =
         |value: &Option<String>| value.as_ref().map(|_| number(value.as_ref())).transpose();
     let wait = match &step.wait {
@@ -248,7 +248,7 @@ fn request(step: &ServiceStep) -> Check<Result<ServiceRequest, CallError>> {
 }
 
 /// The response and the response state that a step states.
-fn response(step: &ServiceStep) -> Check<(Vec<u8>, u32)> {
+fn response(step: &ServiceStep) -> CheckResult<(Vec<u8>, u32)> {
     Ok((bytes(step.response.as_ref(), "response")?, number(step.response_state.as_ref())?))
 }
 
@@ -263,12 +263,12 @@ fn script(request: ServiceRequest) -> Result<Script, CallError> {
     Script::new(config).map_err(|error| error.error)
 }
 
-fn variable(step: &ServiceStep) -> Check<ServiceVariable> {
+fn variable(step: &ServiceStep) -> CheckResult<ServiceVariable> {
     let name = step.variable.as_deref().and_then(ServiceVariable::by_name);
     name.ok_or_else(|| lacks("variable"))
 }
 
-fn number(value: Option<&String>) -> Check<u32> {
+fn number(value: Option<&String>) -> CheckResult<u32> {
     let number = value.and_then(|value| value.parse().ok());
     number.ok_or_else(|| lacks("number"))
 }

@@ -5,20 +5,22 @@ use std::time::Duration;
 use ads_cnc::address::Channel;
 use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
 use ads_cnc_conformance::simulator::program::{
-    Message, Pace, ProgramConfig, Start, State, StreamingProgram,
+    Message, Pace, ProgramConfig, ProgramState, Start, StreamingProgram,
 };
-use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
+use ads_cnc_vectors::{
+    Pieces, Streaming, StreamingAck, StreamingAction, StreamingFault, StreamingStep,
+};
 
 use super::{Fault, bytes, differs, lacks};
 use crate::streams::{BUFFER_LEN, send, send_until_taken};
-use crate::target::{Check, Target};
+use crate::target::{CheckResult, TestCnc};
 
 /// The number of the channel whose stream the sequence uses.
 const CHANNEL: u8 = 1;
 
 /// Plays the steps of a sequence up to the first error. The program of the channel does not start by
 /// itself; a step of the sequence starts it.
-pub(super) fn play<'c>(target: &Target, given: &'c Streaming) -> Check<Fault<'c>> {
+pub(super) fn play<'c>(target: &TestCnc, given: &'c Streaming) -> CheckResult<Fault<'c>> {
     let config =
         ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..ProgramConfig::default() };
     target.cnc().set_program(CHANNEL, config)?;
@@ -31,16 +33,16 @@ pub(super) fn play<'c>(target: &Target, given: &'c Streaming) -> Check<Fault<'c>
     for step in &given.steps {
         now = step.at.map_or(now, Duration::from_millis);
         let fault = match step.action {
-            StreamAction::Start => {
+            StreamingAction::Start => {
                 target.cnc().with_program(CHANNEL, |program| program.start(now))??;
                 None
             }
-            StreamAction::Reset => {
+            StreamingAction::Reset => {
                 with(&mut |program| program.reset(now))?;
                 None
             }
-            StreamAction::Write => write(target, &mut sender, step)?,
-            StreamAction::Take => {
+            StreamingAction::Write => write(target, &mut sender, step)?,
+            StreamingAction::Take => {
                 target.cnc().with_program(CHANNEL, |one| take(one, step, now))??
             }
         };
@@ -61,15 +63,15 @@ pub(super) fn play<'c>(target: &Target, given: &'c Streaming) -> Check<Fault<'c>
 }
 
 /// Number of bytes in the streaming interface.
-fn held(target: &Target) -> Check<usize> {
+fn held(target: &TestCnc) -> CheckResult<usize> {
     Ok(target.cnc().with_program(CHANNEL, |program| program.buffered())?)
 }
 
 fn write(
-    target: &Target,
+    target: &TestCnc,
     sender: &mut Option<Sender<'_>>,
-    step: &StreamStep,
-) -> Check<Option<&'static str>> {
+    step: &StreamingStep,
+) -> CheckResult<Option<&'static str>> {
     let data = bytes(step.bytes.as_ref(), "bytes")?;
     let stated = step.ack.ok_or_else(|| lacks("answer"))?;
     let own = match sender {
@@ -77,7 +79,7 @@ fn write(
         None => true,
     };
     let ack = acknowledged(target, &data, stated, step)?;
-    if (stated, ack) == (StreamAck::Accepted, Ack::Busy) {
+    if (stated, ack) == (StreamingAck::Accepted, Ack::Busy) {
         return Ok(Some("overfull"));
     }
     if let Some(sender) = sender.as_mut().filter(|_| own) {
@@ -92,18 +94,23 @@ fn write(
 
 /// Sends a packet and interprets the reply. The sequence states whether a rejection means "busy" or
 /// "rejected", because the meanings of error numbers are only assumed.
-fn acknowledged(target: &Target, data: &[u8], stated: StreamAck, step: &StreamStep) -> Check<Ack> {
+fn acknowledged(
+    target: &TestCnc,
+    data: &[u8],
+    stated: StreamingAck,
+    step: &StreamingStep,
+) -> CheckResult<Ack> {
     let channel = Channel::new(CHANNEL.into())?;
     let held = held(target)?;
     let sent = match stated {
-        StreamAck::Accepted => send_until_taken(target, channel, data)?,
-        StreamAck::Later | StreamAck::Refused => send(target, channel, data)?,
+        StreamingAck::Accepted => send_until_taken(target, channel, data)?,
+        StreamingAck::Later | StreamingAck::Refused => send(target, channel, data)?,
     };
     match (stated, sent) {
-        (StreamAck::Accepted, Ok(())) => Ok(Ack::Accepted),
-        (StreamAck::Accepted, Err(_)) if held + data.len() > BUFFER_LEN => Ok(Ack::Busy),
-        (StreamAck::Later, Err(_)) => Ok(Ack::Busy),
-        (StreamAck::Refused, Err(_)) => Ok(Ack::Rejected),
+        (StreamingAck::Accepted, Ok(())) => Ok(Ack::Accepted),
+        (StreamingAck::Accepted, Err(_)) if held + data.len() > BUFFER_LEN => Ok(Ack::Busy),
+        (StreamingAck::Later, Err(_)) => Ok(Ack::Busy),
+        (StreamingAck::Refused, Err(_)) => Ok(Ack::Rejected),
         _ => differs(format!("{stated:?} in {}", step.id), format!("{sent:?}")),
     }
 }
@@ -112,10 +119,10 @@ fn acknowledged(target: &Target, data: &[u8], stated: StreamAck, step: &StreamSt
 /// executed lines with the step.
 fn take(
     program: &mut StreamingProgram,
-    step: &StreamStep,
+    step: &StreamingStep,
     now: Duration,
-) -> Check<Option<&'static str>> {
-    if !matches!(program.state(), State::Running | State::Dry) {
+) -> CheckResult<Option<&'static str>> {
+    if !matches!(program.state(), ProgramState::Running | ProgramState::Dry) {
         return Ok(Some("not-started"));
     }
     let stated = bytes(step.bytes.as_ref(), "bytes")?;
@@ -125,8 +132,8 @@ fn take(
     let executed = program.executed().recent();
     let Some(behind) = stated.strip_prefix(executed) else { return Ok(Some("outcome")) };
     match program.state() {
-        State::Aborted(Message { number, line, column, text, .. }) => {
-            let found = Some(StreamError { number, line, column });
+        ProgramState::Aborted(Message { number, line, column, text, .. }) => {
+            let found = Some(StreamingFault { number, line, column });
             if step.error != found {
                 return differs(format!("{:?} in {}", step.error, step.id), format!("{found:?}"));
             }
@@ -136,7 +143,7 @@ fn take(
                 None => "loop",
             }))
         }
-        State::Ended(end) => {
+        ProgramState::Ended(end) => {
             let discarded = step.discarded.as_ref().map_or(Vec::new(), Pieces::bytes);
             let stated_end = (step.error, step.ends.clone(), discarded);
             let found = (None, Some(end.to_string()), behind.to_vec());
@@ -151,7 +158,7 @@ fn take(
         }
         state => {
             let none = step.error.is_none() && step.ends.is_none();
-            if state != State::Dry || !none {
+            if state != ProgramState::Dry || !none {
                 let stated = format!("{:?}, {:?} in {}", step.error, step.ends, step.id);
                 return differs(stated, format!("{state:?}"));
             }

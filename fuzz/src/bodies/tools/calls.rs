@@ -3,7 +3,7 @@
 use ads_cnc::Encode as _;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc_conformance::simulator::NET_ID;
 
 use super::Input;
@@ -15,12 +15,12 @@ pub(super) const PORTS: [u16; 4] = [552, 553, 551, 851];
 /// length (2 bytes), length of the data (1 byte), data.
 pub(super) fn call<'a>(input: &mut Input<'a>, ports: &[u16]) -> Call<'a> {
     let port = AmsPort(*input.choose(ports));
-    let service = *input.choose(&[Service::Read, Service::Write, Service::ReadWrite]);
+    let service = *input.choose(&[AdsService::Read, AdsService::Write, AdsService::ReadWrite]);
     let index_group = IndexGroup::new(input.long());
     let index_offset = IndexOffset::new(input.long());
     let read_length = input.word().into();
     let data = input.piece();
-    let data = if service == Service::Read { &[] } else { data };
+    let data = if service == AdsService::Read { &[] } else { data };
     Call { port, service, index_group, index_offset, read_length, data }
 }
 
@@ -28,9 +28,9 @@ pub(super) fn call<'a>(input: &mut Input<'a>, ports: &[u16]) -> Call<'a> {
 pub(super) fn written(call: &Call<'_>, port: usize) -> Vec<u8> {
     let byte = |number: usize| u8::try_from(number).expect("short data");
     let service = match call.service {
-        Service::Read => 0,
-        Service::Write => 1,
-        Service::ReadWrite => 2,
+        AdsService::Read => 0,
+        AdsService::Write => 1,
+        AdsService::ReadWrite => 2,
     };
     let mut bytes = vec![byte(port), service];
     bytes.extend(call.index_group.get().to_le_bytes());

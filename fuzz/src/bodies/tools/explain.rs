@@ -3,7 +3,7 @@
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc::streaming::{NcText, check_line_ends};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
@@ -12,7 +12,7 @@ use ads_cnc_conformance::explain::{
 };
 
 use super::Input;
-use crate::common::{self, Bend};
+use crate::common::{self, Mutation};
 use crate::{Defect, Outcome};
 
 #[path = "../../../../conformance/tests/common/explained.rs"]
@@ -55,7 +55,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     };
     let typed = values.ty.is_some();
     let mut explanation = explain(&ExplainQuery { subject, values }, bytes);
-    bend(&mut explanation, defect);
+    mutation(&mut explanation, defect);
     check_explanation(&explanation, bytes);
     let mut plain = printed(&explanation);
     if defect.is(4) && explanation.parts.iter().any(has_escape) {
@@ -83,7 +83,7 @@ fn has_escape(part: &ads_cnc_conformance::explain::ExplainedStream) -> bool {
     part.rows.iter().any(|row| row.ty == "STRING" && row.hex.contains("1b"))
 }
 
-fn bend(explanation: &mut Explanation, defect: Defect) {
+fn mutation(explanation: &mut Explanation, defect: Defect) {
     if defect.is(1) {
         for part in &mut explanation.parts {
             if part.rows.last().is_some_and(|last| last.offset > 16) {
@@ -104,7 +104,7 @@ fn bend(explanation: &mut Explanation, defect: Defect) {
 
 /// An explanation has a fault if and only if the codec rejects the bytes.
 fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
-    let refused = common::check_bent(stream, bytes, &Bend::NONE).is_err()
+    let refused = common::check_bent(stream, bytes, &Mutation::NONE).is_err()
         || stream == Stream::ProgramStream && !is_nc(bytes);
     assert!(faulty || !refused, "{stream} has no fault, but the codec rejects it");
     // If the input names a type, the value may not fit this type although the codec accepts the stream.
@@ -137,7 +137,7 @@ fn dispatches(place: &ServiceAddress, bytes: &[u8], explanation: &Explanation, f
     let named = part.address.as_ref().and_then(|address| address.function.as_ref());
     assert_eq!(named.map(|function| function.name), Some(spec.name), "{call:?}");
     let is_nc = part.stream == Some(Stream::ProgramStream.layout().name);
-    assert!(!faulty || is_nc || service == Service::Read, "{explanation:#?}");
+    assert!(!faulty || is_nc || service == AdsService::Read, "{explanation:#?}");
 }
 
 /// Whether the codec reads frames to the end of these bytes.
@@ -163,7 +163,8 @@ fn values(input: &mut Input<'_>) -> ValueFormat {
 }
 
 fn place(input: &mut Input<'_>) -> ServiceAddress {
-    let services = [None, Some(Service::Read), Some(Service::Write), Some(Service::ReadWrite)];
+    let services =
+        [None, Some(AdsService::Read), Some(AdsService::Write), Some(AdsService::ReadWrite)];
     let ports = [None, Some(551), Some(552), Some(553), Some(851)];
     ServiceAddress {
         port: input.choose(&ports).map(AmsPort),

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef, StateFlags};
-use ads_cnc::operation::{Call, Request, Service};
-use ads_cnc_conformance::simulator::{CONNECTION_BYTES_MAX, Cnc, Model, NET_ID, Received};
-use ads_cnc_conformance::wire_service::{decode_reply, service_of};
+use ads_cnc::operation::{AdsService, Call, Request};
+use ads_cnc_conformance::ads_service::{decode_reply, service_of};
+use ads_cnc_conformance::simulator::{CONNECTION_BYTES_MAX, Cnc, Model, NET_ID, ReceiveBuffer};
 
 use super::Input;
 use super::calls::{PORTS, call, frame};
@@ -36,7 +36,7 @@ fn cnc() -> Cnc {
 /// session.
 struct Session {
     cnc: Cnc,
-    received: Received,
+    received: ReceiveBuffer,
     /// All bytes that were sent.
     sent: Vec<u8>,
     answers: Vec<u8>,
@@ -53,7 +53,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let mut session = Session {
         cnc: cnc(),
-        received: Received::new(),
+        received: ReceiveBuffer::new(),
         sent: Vec::new(),
         answers: Vec::new(),
         piece: Vec::new(),
@@ -105,7 +105,7 @@ impl Session {
                 answers.extend(more);
                 Ok(())
             });
-            bend(&mut self.answers, before, self.defect);
+            mutation(&mut self.answers, before, self.defect);
             self.is_over = taken.is_err();
             let kept = if self.defect.is(6) { self.received.buffered() * 1000 } else { 0 };
             assert!(self.received.capacity() + kept <= CONNECTION_BYTES_MAX);
@@ -168,7 +168,7 @@ impl Session {
     }
 }
 
-fn bend(answers: &mut Vec<u8>, begin: usize, defect: Defect) {
+fn mutation(answers: &mut Vec<u8>, begin: usize, defect: Defect) {
     let first = answers[begin..].first_chunk().map_or(0, |six: &[u8; 6]| usize::from(six[2]) + 6);
     let second = begin + first;
     if defect.is(2) && answers.len() > second + 38 {
@@ -209,9 +209,9 @@ fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
 }
 
 /// A call that reads the value that another call writes.
-struct Reading<'c> {
+struct ReadBack<'c> {
     port: AmsPort,
-    service: Service,
+    service: AdsService,
     group: IndexGroup,
     offset: IndexOffset,
     data: Vec<u8>,
@@ -221,7 +221,7 @@ struct Reading<'c> {
     is_plain: bool,
 }
 
-impl Reading<'_> {
+impl ReadBack<'_> {
     fn call(&self) -> Call<'_> {
         Call {
             port: self.port,
@@ -234,32 +234,32 @@ impl Reading<'_> {
     }
 }
 
-fn reading<'c>(call: &Call<'c>) -> Option<Reading<'c>> {
+fn reading<'c>(call: &Call<'c>) -> Option<ReadBack<'c>> {
     let (service, offset, data, value): (_, u32, &[u8], &[u8]) = match call.dispatch().ok()? {
         Request::WriteByName(_) => {
             let end = call.data.iter().position(|&byte| byte == 0)? + 1;
             let (name, value) = call.data.split_at(end);
-            (Service::ReadWrite, 0x48, name, value)
+            (AdsService::ReadWrite, 0x48, name, value)
         }
         Request::AxisWriteByName(_) => {
             let end = call.data.iter().position(|&byte| byte == 0)? + 1;
             let (name, value) = call.data.split_at(end);
-            (Service::ReadWrite, call.index_offset.get() - 1, name, value)
+            (AdsService::ReadWrite, call.index_offset.get() - 1, name, value)
         }
         Request::WriteByHandle(op) => {
             let len = op.value.as_bytes().len();
             let (handle, value) = call.data.split_at(call.data.len() - len);
-            (Service::ReadWrite, 0x47, handle, value)
+            (AdsService::ReadWrite, 0x47, handle, value)
         }
         Request::WriteObject(_) | Request::WriteElement(_) => {
-            (Service::Read, call.index_offset.get(), &[], call.data)
+            (AdsService::Read, call.index_offset.get(), &[], call.data)
         }
         _ => return None,
     };
     // The CNC interprets axis numbers and the variables of the Service Interface, so that a read may return
     // another value than the written one.
     let is_number = call.index_offset.get() & 0xFFFF == 3;
-    Some(Reading {
+    Some(ReadBack {
         port: call.port,
         service,
         group: call.index_group,
@@ -270,7 +270,7 @@ fn reading<'c>(call: &Call<'c>) -> Option<Reading<'c>> {
     })
 }
 
-fn check_written(read: &Reading<'_>, after: &Result<Vec<u8>, ads_cnc::ads::AdsError>) {
+fn check_written(read: &ReadBack<'_>, after: &Result<Vec<u8>, ads_cnc::ads::AdsError>) {
     if read.is_plain {
         assert_eq!(after.as_deref(), Ok(read.value), "{:?}", read.call());
     }

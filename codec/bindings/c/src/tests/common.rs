@@ -1,4 +1,4 @@
-//! Streams and calls written by hand, from the tests of the codec.
+//! Samples of streams and calls, written by hand for the tests of the codec.
 
 #![allow(dead_code, reason = "written for other tests")]
 

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Null for every pointer, and lengths beyond the address space.
+/// Null pointers and lengths that exceed the address space are errors.
 #[test]
 fn null_and_impossible_lengths_are_errors() {
     let (most, mut error) = (u32::MAX, zero::<AdsCncError>());

@@ -22,7 +22,7 @@ fn frames_carry_calls() {
         invoke_id: 3,
         data,
     };
-    // SAFETY: all of it is there.
+    // SAFETY: all pointers are valid.
     unsafe {
         assert!(ads_cnc_call_write(&call, payload.as_mut_ptr(), 64, &mut length, null_mut()));
         let it = frame(AdsCncBytes { data: payload.as_ptr(), length });
@@ -61,9 +61,9 @@ fn a_program_is_sent_in_packets() {
     let program = b"N10 G0 X0\nN20 M30";
     let (mut sender, mut progress, mut packet) =
         (zero::<AdsCncSender>(), zero::<AdsCncProgress>(), AdsCncBytes::NONE);
-    // SAFETY: all of it is there.
+    // SAFETY: all pointers are valid.
     unsafe {
-        // Memory that was never started.
+        // The memory contains no started sender.
         assert!(
             !ads_cnc_sender_packet(&mut sender, &mut packet)
                 && !ads_cnc_sender_acknowledge(&mut sender, 0)
@@ -108,7 +108,7 @@ fn a_host_serves_a_request() {
         zero::<AdsCncHost>(),
     );
     let (mut step, mut written, mut error) = (zero::<AdsCncHostStep>(), Vec::new(), zero());
-    // SAFETY: all of it is there.
+    // SAFETY: all pointers are valid.
     unsafe {
         assert!(!ads_cnc_host_step(&host, &mut step) && !ads_cnc_host_event(&mut host, 2));
         let other = UUID.replace('5', "6");

@@ -72,11 +72,11 @@ async fn write(cnc: &impl Transport, channel: Channel, name: &str, value: &Value
     Ok(())
 }
 
-/// Reads and writes the simulated CNC, and fails if it gets anything but the expected values.
+/// Reads and writes the simulated CNC, prints the values, and fails if a value is not the expected one.
 pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
     let channel = Channel::new(1)?;
 
-    // The variables, by index. Over tokio, all requests are sent at once.
+    // Describe all variables, by index. Over tokio, all requests are sent at once.
     let count = CountVariables::new(channel, Kind::V_E);
     let number = count.decode_reply(&send(cnc, &count).await?)?.0;
     let listed = try_join_all((0..number).map(async |index| -> Result<Value> {
@@ -99,7 +99,8 @@ pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
         shown(&format!("{name}, written"), &read(cnc, channel, name).await?, &value[1])?;
     }
 
-    // An element of SDA, by name: first the instance of the class, then the names of its elements.
+    // Find an element of SDA by its name: query the instance of the class, then read the names of its
+    // elements.
     let find = FindInstance::new(Class::Hld, 1, 0);
     let found = find.decode_reply(&send(cnc, &find).await?)?;
     let first = found.first_element()?.ok_or("no HLD")?;

@@ -134,13 +134,13 @@ def function(name: str, result: Any = ctypes.c_bool) -> Callable[..., Any]:
 
 
 def lent(data: bytes) -> Bytes:
-    """Bytes that the caller keeps alive."""
+    """A struct that points to `data`, which the caller must keep alive."""
     at = ctypes.cast(ctypes.c_char_p(data), ctypes.c_void_p) if data else None
     return Bytes(at, len(data))
 
 
 def each(name: str, kind: type[Any], *before: int) -> Iterator[Any]:
-    """The rows of a table, from 0 on."""
+    """Yields the rows of a table of the library, in the order of their numbers."""
     give, number = function(name), 0
     while True:
         info = kind()

@@ -202,7 +202,7 @@ _EMPTY = ctypes.create_string_buffer(1)
 
 
 def _some(data: bytes) -> _abi.Bytes:
-    """The bytes with a pointer that is not null; null would mean that the part is a number."""
+    """The struct for `data`. Its pointer is not null, because null would mean that the part is a number."""
     return _abi.lent(data) if data else _abi.Bytes(ctypes.cast(_EMPTY, ctypes.c_void_p), 0)
 
 
@@ -239,7 +239,7 @@ RECORDS: dict[str, Any] = {}
 
 
 def _value(stream: Stream, found: list[Field]) -> Any:
-    """The only field, or a record of the fields; None for an empty stream that may also have bytes."""
+    """The value of a stream: its only field, or a record of its fields; None if the stream has no bytes."""
     rows = [row for row in stream.fields if not row.is_count]
     kinds = {row.name: row for row in rows}
     records: list[dict[str, Any]] = []
@@ -376,7 +376,7 @@ def dispatch(call: Call) -> Dispatched:
         if isinstance(found, _abi.Bytes):
             found = found.get() if name == "value" else text_from_cp1252(found.get())
         arguments[name] = found
-    # Lists of objects of a platform axis have `axis`; addressing by index has `by_index`.
+    # `axis` is only set for lists of objects of a platform axis, `by_index` only for addressing by index.
     optional = {name: getattr(it, name) for name in ("axis", "by_index") if name not in arguments}
     arguments.update({name: value for name, value in optional.items() if value})
     return Dispatched(function, arguments)

@@ -105,7 +105,7 @@ impl AnsweringCnc<'_> {
             return Ok((Resolved::Variable(at), indices));
         }
         let (kind, name) = parameter(name)?;
-        let found = self.state.parameters(channel, kind).any(|one| one.is.name == name);
+        let found = self.state.parameters(channel, kind).any(|one| one.parameter.name == name);
         if found { Ok((Resolved::Parameter, U32List::EMPTY)) } else { Err(UNKNOWN) }
     }
 
@@ -121,9 +121,9 @@ impl AnsweringCnc<'_> {
         let axis = axis.strip_prefix(b".")?;
         let variable = self.model.axis_variables.named(name)?;
         let place = (0..model.places.len()).find(|&place| {
-            let there = self.state.axis_at(channel, place);
-            let there = there.and_then(|there| self.model.axes.get(there));
-            there.is_some_and(|there| there.name.as_bytes() == axis)
+            let axis_model = self.state.axis_at(channel, place);
+            let axis_model = axis_model.and_then(|axis_model| self.model.axes.get(axis_model));
+            axis_model.is_some_and(|axis_model| axis_model.name.as_bytes() == axis)
         })?;
         Some(VariableRef::Axis { place, variable })
     }

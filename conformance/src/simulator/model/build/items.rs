@@ -7,7 +7,9 @@ use toml::{Spanned, Value};
 
 use super::super::document::{ClassesTable, ElementRow, ElementTable, ObjectRow};
 use super::super::error::Source;
-use super::super::item::{ClassModel, Elements, Initial, InitialValues, Item, Meaning, Objects};
+use super::super::item::{
+    ClassModel, ContentSource, Elements, Initial, InitialValues, Item, Objects,
+};
 use super::super::types::{self, NamedType, ScalarType};
 use super::super::{ModelError, class_place};
 use super::parse::text;
@@ -100,15 +102,15 @@ fn meaning(
     is: Option<&Spanned<String>>,
     writable: bool,
     of: Option<&'static str>,
-) -> Result<Meaning, ModelError> {
-    let Some(is) = is else { return Ok(Meaning::Value) };
+) -> Result<ContentSource, ModelError> {
+    let Some(is) = is else { return Ok(ContentSource::Value) };
     let error = |why: &str| Err(source.error(&is.span(), why));
     match (is.get_ref().as_str(), of) {
         ("axis-number", None) => error("axis-number is only for objects and elements of axes"),
         ("axis-number", Some("number")) if writable => {
             error("not writable: axes are exchanged in channels, not on the platform")
         }
-        ("axis-number", Some(_)) => Ok(Meaning::AxisNumber),
+        ("axis-number", Some(_)) => Ok(ContentSource::AxisNumber),
         _ => error("expected axis-number"),
     }
 }
@@ -120,7 +122,7 @@ fn holds_numbers(
     span: &Spanned<String>,
 ) -> Result<(), ModelError> {
     let whole = !matches!(item.type_name, "STRING" | "REAL" | "LREAL" | "REAL32" | "REAL64");
-    if item.meaning == Meaning::Value || whole && item.initial.size >= 2 {
+    if item.meaning == ContentSource::Value || whole && item.initial.size >= 2 {
         return Ok(());
     }
     Err(source.error(&span.span(), "axis-number needs an integer type of at least two bytes"))

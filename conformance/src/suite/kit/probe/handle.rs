@@ -4,7 +4,7 @@ use ads_cnc::CncString;
 use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
 
 use crate::exchange::ExchangeError;
-use crate::gate::{Ambiguity, Reason, Refusal};
+use crate::gate::{Ambiguity, GateRejection, Reason};
 use crate::judge::Step;
 use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
@@ -44,7 +44,7 @@ impl Probe<'_> {
     /// The name of the handle in a write, if the handle is not confirmed yet.
     fn unconfirmed(&self, request: &Request<'_>) -> Step<Option<CncString>> {
         Ok(match self.check_gate(request)? {
-            Err(Some(Refusal {
+            Err(Some(GateRejection {
                 reason: Reason::Ambiguous(_, Ambiguity::Unconfirmed(name)),
                 ..
             })) => Some(name),
@@ -53,10 +53,13 @@ impl Probe<'_> {
     }
 
     /// Whether the gate lets a request pass, and why not. Sends nothing.
-    pub(crate) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
+    pub(crate) fn check_gate(
+        &self,
+        request: &Request<'_>,
+    ) -> Step<Result<(), Option<GateRejection>>> {
         match self.target.client.check(&RawCall::new(*request)?.call()) {
             Ok(()) => Ok(Ok(())),
-            Err(ExchangeError::Refused(refusal)) => Ok(Err(Some(*refusal))),
+            Err(ExchangeError::NotPermitted(rejection)) => Ok(Err(Some(*rejection))),
             Err(_) => Ok(Err(None)),
         }
     }

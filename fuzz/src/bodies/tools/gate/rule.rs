@@ -7,15 +7,15 @@ use ads_cnc_conformance::gate::{AllowedList, Entry};
 use super::harmless::{is_harmless, number};
 
 /// A channel as in an index group: the bit for logical addressing, and the number.
-type At = (bool, u32);
+type ChannelBits = (bool, u32);
 
 /// The rule that decides which frames a session may send.
 pub(super) struct Rule<'e> {
     entries: &'e [Entry],
     /// The handles that replies contain: channel, handle, and the requested name.
-    handles: Vec<(At, u32, Vec<u8>)>,
+    handles: Vec<(ChannelBits, u32, Vec<u8>)>,
     /// The descriptions in replies: channel, handle, and the name of the variable.
-    described: Vec<(At, u32, Vec<u8>)>,
+    described: Vec<(ChannelBits, u32, Vec<u8>)>,
     /// Descriptors that were read, with the index group of their list.
     objects: Vec<(u32, Vec<u8>)>,
 }
@@ -24,17 +24,17 @@ pub(super) struct Rule<'e> {
 const SERVICE: [&[u8]; 3] =
     [b"V.G.SERVICE.REQUEST_STATE", b"V.G.SERVICE.RESPONSE_STATE", b"V.G.SERVICE.RESPONSE"];
 
-fn at(channel: Channel) -> At {
+fn at(channel: Channel) -> ChannelBits {
     (channel.addressing() == Addressing::Logical, channel.number().into())
 }
 
 /// The channel of a group, if it is a group of the decoder.
-fn decoder(group: u32) -> Option<At> {
+fn decoder(group: u32) -> Option<ChannelBits> {
     (group & !0x10_00FF == 0x2_2300).then_some((group >> 20 == 1, group & 0xFF))
 }
 
-fn is_in(asked: &[u8], name: &[u8]) -> bool {
-    let Some(rest) = asked.strip_prefix(name) else { return false };
+fn is_in(requested_name: &[u8], name: &[u8]) -> bool {
+    let Some(rest) = requested_name.strip_prefix(name) else { return false };
     let rest = std::str::from_utf8(rest).unwrap_or("?");
     rest.is_empty()
         || rest.starts_with('[') && rest.ends_with(']') && {
@@ -80,15 +80,17 @@ impl<'e> Rule<'e> {
     }
 
     /// Whether the file names a variable.
-    fn names(&self, channel: At, on: u32, asked: &[u8], whole: bool) -> bool {
+    fn names(&self, channel: ChannelBits, on: u32, requested_name: &[u8], whole: bool) -> bool {
         self.entries.iter().any(|entry| match entry {
             Entry::Variable { channel: of, axis, name } => {
                 at(*of) == channel
                     && axis.map_or(0, |axis| axis.index().into()) == on
-                    && is_in(asked, name.as_bytes())
+                    && is_in(requested_name, name.as_bytes())
                     && !(whole && name.as_bytes().ends_with(b"]"))
             }
-            Entry::Service(of) => at(*of) == channel && on == 0 && SERVICE.contains(&asked),
+            Entry::Service(of) => {
+                at(*of) == channel && on == 0 && SERVICE.contains(&requested_name)
+            }
             _ => false,
         })
     }
@@ -137,8 +139,8 @@ impl<'e> Rule<'e> {
                     else {
                         return false;
                     };
-                    let mut asked = self.handles.iter();
-                    return asked.any(|one| {
+                    let mut requested_name = self.handles.iter();
+                    return requested_name.any(|one| {
                         (one.0, one.1) == (channel, handle)
                             && self.described.contains(one)
                             && self.names(channel, 0, &one.2, true)

@@ -1,4 +1,4 @@
-//! Over the crate `ads`, which is blocking.
+//! Sends the requests over the crate `ads`, whose calls block.
 //!
 //!     over_ads HOST:PORT EXPECTED.json
 
@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ads::{AmsAddr, AmsNetId, Client, Source, Timeouts};
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{Call, AdsService};
 use ads_cnc_clients::{Result, Transport, arguments, show};
 
 struct OverAds {
@@ -20,9 +20,9 @@ impl Transport for OverAds {
         let (group, offset) = (call.index_group.get(), call.index_offset.get());
         let mut reply = vec![0; call.read_length as usize];
         let received = match call.service {
-            Service::Read => device.read(group, offset, &mut reply),
-            Service::ReadWrite => device.write_read(group, offset, call.data, &mut reply),
-            Service::Write => device.write(group, offset, call.data).map(|()| 0),
+            AdsService::Read => device.read(group, offset, &mut reply),
+            AdsService::ReadWrite => device.write_read(group, offset, call.data, &mut reply),
+            AdsService::Write => device.write(group, offset, call.data).map(|()| 0),
         };
         match received {
             // Keep only the received bytes; zeros follow them.

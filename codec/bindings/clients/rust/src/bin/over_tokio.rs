@@ -1,5 +1,5 @@
-//! Over a socket of tokio: several requests are in flight on one connection, and the invoke ID matches
-//! each reply to its request.
+//! Sends the requests over a socket of tokio: several requests are in flight on one connection, and the
+//! invoke ID matches each reply to its request.
 //!
 //!     over_tokio HOST:PORT EXPECTED.json
 
@@ -12,7 +12,7 @@ use ads_cnc::ads::{
     AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags,
     WriteReply,
 };
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::operation::{Call, AdsService};
 use ads_cnc::{Decode as _, Encode as _};
 use ads_cnc_clients::{Result, Transport, arguments, show};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
@@ -24,10 +24,10 @@ use tokio::time::timeout;
 const TIMEOUT: Duration = Duration::from_secs(5);
 
 /// A received frame: its header, and the data after it.
-type Received = (AmsHeader, Vec<u8>);
+type ReceivedFrame = (AmsHeader, Vec<u8>);
 
-/// The requests without a reply, by their invoke IDs.
-type Pending = Arc<Mutex<HashMap<u32, oneshot::Sender<Received>>>>;
+/// The requests that have no reply yet, by their invoke IDs.
+type Pending = Arc<Mutex<HashMap<u32, oneshot::Sender<ReceivedFrame>>>>;
 
 struct Connection {
     target: AmsNetId,
@@ -42,7 +42,7 @@ impl Connection {
         let stream = timeout(TIMEOUT, TcpStream::connect(address)).await??;
         stream.set_nodelay(true)?;
         let (read, write) = stream.into_split();
-        // A sender waits while this number of frames is not written yet.
+        // At most 32 frames wait to be written; a request beyond them waits.
         let (frames, to_write) = mpsc::channel(32);
         let pending = Pending::default();
         tokio::spawn(write_frames(write, to_write));
@@ -76,7 +76,7 @@ async fn read_frames(mut read: OwnedReadHalf, pending: Pending) {
 /// Passes each complete frame to its request; returns the length of these frames.
 fn take_frames(received: &[u8], pending: &Pending) -> std::result::Result<usize, ads_cnc::Error> {
     let mut end = 0;
-    // `split` rejects a frame that is longer than a service can have.
+    // `split` itself limits the data: it rejects a frame that is longer than any service can have.
     while let Some((frame, len)) = FrameRef::split(&received[end..], u32::MAX)? {
         end += len;
         // Skip other frames: requests, and replies that arrived too late.
@@ -93,7 +93,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes a request when its future ends or is dropped.
+/// Removes a request from the pending requests when its future ends or is dropped.
 struct Remove<'a>(&'a Pending, u32);
 
 impl Drop for Remove<'_> {
@@ -120,15 +120,15 @@ impl Transport for Connection {
             return Err(format!("a reply to {:?}, not to {command:?}", header.command).into());
         }
         let (result, data) = match call.service {
-            Service::Read => {
+            AdsService::Read => {
                 let reply = ReadReplyRef::decode(&data)?;
                 (reply.result, reply.data)
             }
-            Service::ReadWrite => {
+            AdsService::ReadWrite => {
                 let reply = ReadWriteReplyRef::decode(&data)?;
                 (reply.result, reply.data)
             }
-            Service::Write => (WriteReply::decode(&data)?.result, None),
+            AdsService::Write => (WriteReply::decode(&data)?.result, None),
         };
         result.into_result()?;
         Ok(data.unwrap_or_default().to_vec())

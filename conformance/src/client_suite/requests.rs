@@ -1,0 +1,159 @@
+//! Judges each request of a client: its headers, and whether the CNC has the requested function.
+
+use std::fmt::Display;
+
+use ads_cnc::ads::{AmsPort, Command, FrameRef};
+use ads_cnc::operation::{Call, DispatchError, Effect, Request, Task};
+use ads_cnc_vectors::ids::*;
+
+use super::scenario_checks::{ScenarioChecks, evidence};
+use super::test_server::RecordedExchange;
+use crate::ads_service::{self, service_of};
+use crate::client::answer;
+use crate::evidence::Evidence;
+use crate::exchange::Exchange;
+use crate::judge::Rule;
+use crate::rules::{Observation, RuleBook, function_at};
+use crate::simulator::{DATA_MAX, NET_ID};
+use crate::text::plural;
+
+/// Judges the requests of a client.
+#[derive(Debug)]
+pub(super) struct RequestJudge {
+    rules: RuleBook,
+    /// The connection and the invoke ID of the previous request.
+    before: Option<(usize, u32)>,
+    /// Whether requests are compared with earlier replies, for example with the types that they
+    /// contained. False in a scenario, where the suite tells the client the names and changes replies.
+    learns: bool,
+}
+
+impl Observation for RecordedExchange {
+    fn evidence(&self) -> Evidence {
+        evidence(self)
+    }
+}
+
+impl RequestJudge {
+    /// A judge for a client that decides by itself what to request.
+    pub(super) fn passive() -> Self {
+        Self { learns: true, ..Self::of_scenario() }
+    }
+
+    pub(super) fn of_scenario() -> Self {
+        Self { rules: RuleBook::new(false), before: None, learns: false }
+    }
+
+    /// Adds the checks of the rules to the findings.
+    pub(super) fn finish(self, scenario_checks: &mut ScenarioChecks) {
+        scenario_checks.record.append(self.rules.records.into_client_record());
+    }
+
+    pub(super) fn judge(
+        &mut self,
+        exchanges: &[RecordedExchange],
+        scenario_checks: &mut ScenarioChecks,
+    ) {
+        exchanges.iter().for_each(|exchange| self.one(exchange, scenario_checks));
+    }
+
+    fn one(&mut self, exchange: &RecordedExchange, scenario_checks: &mut ScenarioChecks) {
+        let mut check = |rule: Rule, passed, expected: &str, found: &dyn Display| {
+            scenario_checks.check(rule, passed, Some(exchange), expected, || found.to_string());
+        };
+        let frame = match FrameRef::split(&exchange.request, DATA_MAX) {
+            Ok(Some((frame, _))) => frame,
+            Ok(None) => {
+                let found =
+                    format!("only the first {} of a frame", plural(exchange.request.len(), "byte"));
+                return check(ADS_5.into(), false, "a whole frame", &found);
+            }
+            Err(error) => return check(ADS_5.into(), false, "a frame", &error),
+        };
+        let header = frame.header();
+        let net_id = header.target.net_id;
+        check(ADS_5.into(), net_id == NET_ID, &format!("the NetId {NET_ID}"), &net_id);
+        let command = header.command;
+        let is_known = (1..=9).contains(&command.0);
+        check(ADS_5.into(), is_known, "a command from 1 to 9", &command.0);
+        let port = header.target.port;
+        let has_task = Task::from_port(port).is_some();
+        check(GEN_4.into(), has_task, "port 551, 552 or 553", &port);
+        // A client that repeats an invoke ID cannot distinguish a late reply to one request from the
+        // reply to the next.
+        let before = self.before.replace((exchange.connection, header.invoke_id));
+        let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
+        self.rules.request_headers(exchange, &header, is_repeated);
+        let clause =
+            service_of(command).map_or(Rule::CLIENT, |one| ads_service::clause(one).into());
+        match Call::from_frame(&frame) {
+            Err(error) => check(clause, false, &format!("a request of {}", name(command)), &error),
+            Ok(None) => {
+                let harmless = [Command::READ_DEVICE_INFO, Command::READ_STATE];
+                let expected = "Read, Write, ReadWrite, ReadDeviceInfo or ReadState";
+                check(Rule::CLIENT, harmless.contains(&command), expected, &name(command));
+            }
+            Ok(Some(call)) => {
+                check(clause, true, "", &"");
+                if !has_task {
+                    return;
+                }
+                if let Some(unknown) = self.rules.request(exchange, &call) {
+                    check(
+                        address_clause(&call),
+                        false,
+                        "a request for a function of the CNC",
+                        &unknown,
+                    );
+                }
+                if self.learns {
+                    self.reply(exchange, &frame, &call);
+                }
+            }
+        }
+    }
+
+    fn reply(&mut self, exchange: &RecordedExchange, asked: &FrameRef<'_>, call: &Call<'_>) {
+        let Ok(Some((reply, _))) = FrameRef::split(&exchange.sent, u32::MAX) else { return };
+        let header = reply.header();
+        let outcome = answer(asked.header(), header, reply.data()).map(|answer| (answer, header));
+        let answered = Exchange { outcome, ..Exchange::new(call) };
+        self.rules.reply(exchange, NET_ID, call, &answered, &[]);
+    }
+}
+
+fn name(command: Command) -> String {
+    match service_of(command) {
+        Some(service) => service.to_string(),
+        None => format!("command {}", command.0),
+    }
+}
+
+/// The requirement that a request violates whose address has no function.
+fn address_clause(call: &Call<'_>) -> Rule {
+    match (call.dispatch(), call.port) {
+        (Err(DispatchError::Group(_)), AmsPort::COM) => ADR_3.into(),
+        (Err(DispatchError::Group(_)), _) => ADR_5.into(),
+        (Err(DispatchError::Offset(_)), AmsPort::COM) => COM_5.into(),
+        (Err(DispatchError::Offset(_)), _) => SDA_4.into(),
+        _ => function_at(call).map_or(ADS_4.into(), |one| Rule::of(one.spec().clause)),
+    }
+}
+
+/// Calls `then` with the decoded request of an exchange; `None` if the request does not decode.
+pub(super) fn with_request<T>(
+    exchange: &RecordedExchange,
+    then: impl FnOnce(&Request<'_>) -> T,
+) -> Option<T> {
+    let (frame, _) = FrameRef::split(&exchange.request, DATA_MAX).ok()??;
+    let request = Call::from_frame(&frame).ok()??.dispatch().ok()?;
+    Some(then(&request))
+}
+
+/// The requirement of the function that a request calls, if the function changes the state of the CNC.
+pub(super) fn writes(exchange: &RecordedExchange) -> Option<Rule> {
+    with_request(exchange, |request| {
+        let spec = request.function().spec();
+        (spec.effect != Effect::Query).then(|| Rule::of(spec.clause))
+    })?
+}

@@ -1,0 +1,331 @@
+//! The query and the structure of an explanation.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::layout::{Field, Stream};
+use ads_cnc::operation::AdsService;
+use ads_cnc::{Error, ErrorKind};
+use ads_cnc_vectors::requirement;
+use serde::Serialize;
+
+use crate::codec::class;
+use crate::exit::Exit;
+use crate::text::hex::spaced;
+use crate::value_format::ValueFormat;
+
+/// The meaning of the bytes, and the types of values in them.
+#[derive(Clone, Debug)]
+pub struct ExplainQuery {
+    /// What the bytes are: a stream, data of a service, or frames.
+    pub subject: ExplainSubject,
+    /// The type of values and contents, which the streams do not contain.
+    pub values: ValueFormat,
+}
+
+/// The meaning of the bytes.
+#[derive(Clone, Debug)]
+pub enum ExplainSubject {
+    Stream(Stream),
+    /// Data of a request to this address, or of its reply.
+    Place(ServiceAddress),
+    /// An address without data.
+    Address(ServiceAddress),
+    /// Consecutive AMS/TCP frames, and the address for replies whose request is missing.
+    Frames(Option<ServiceAddress>),
+}
+
+/// The address of a service, as far as it is known.
+#[derive(Clone, Copy, Debug)]
+pub struct ServiceAddress {
+    pub port: Option<AmsPort>,
+    /// The service; `None` for the service of the function at this address.
+    pub service: Option<AdsService>,
+    pub group: IndexGroup,
+    pub offset: IndexOffset,
+    /// Whether the bytes belong to the reply.
+    pub reply: bool,
+}
+
+/// The explanation of bytes; in JSON, one document with a format version.
+#[derive(Clone, Debug, Serialize)]
+pub struct Explanation {
+    /// Version of the format.
+    pub format: u32,
+    /// Number of bytes.
+    pub length: usize,
+    pub outcome: ExplanationOutcome,
+    /// The streams in the order of their bytes; the data of a service follows the stream of the
+    /// service.
+    pub parts: Vec<ExplainedStream>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ExplanationOutcome {
+    /// Every stream is explained.
+    Explained,
+    /// The bytes contain an error.
+    Faulty,
+    /// The bytes contain no error, but no table describes them.
+    Unknown,
+}
+
+impl ExplanationOutcome {
+    /// The exit code.
+    pub const fn exit(self) -> Exit {
+        match self {
+            Self::Explained => Exit::Success,
+            Self::Faulty => Exit::Failure,
+            Self::Unknown => Exit::Nothing,
+        }
+    }
+}
+
+/// A stream.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct ExplainedStream {
+    pub title: String,
+    /// The stream's name; `None` for bytes that no table describes.
+    pub stream: Option<&'static str>,
+    /// The requirement that defines it.
+    pub clause: Option<&'static str>,
+    /// The sources of the requirement: document, edition, section.
+    pub sources: Vec<String>,
+    /// Offset of the stream in the input.
+    pub at: usize,
+    pub length: usize,
+    /// The address to which the stream is sent, or which returns it.
+    pub address: Option<ExplainedAddress>,
+    /// The fields up to the first error.
+    pub rows: Vec<ExplainedField>,
+    pub faults: Vec<ExplainedFault>,
+    /// The bytes from the error on.
+    pub unread: Option<Unread>,
+    /// Further notes.
+    pub notes: Vec<String>,
+}
+
+/// A field, or one item of a field with several items.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExplainedField {
+    pub offset: usize,
+    /// Number of bytes.
+    pub length: usize,
+    /// The bytes in hex.
+    pub hex: String,
+    /// The field's name.
+    pub field: String,
+    /// Index of the record in a stream of records, otherwise 0.
+    pub record: u32,
+    /// Index of the item in a field with several items, otherwise 0.
+    pub item: u32,
+    /// Name of the type.
+    #[serde(rename = "type")]
+    pub ty: String,
+    pub value: String,
+    /// The meaning of the field.
+    pub meaning: &'static str,
+    /// The requirement that defines the field.
+    pub clause: &'static str,
+    /// Whether this field contains the error.
+    pub faulty: bool,
+    /// The meaning of the value.
+    pub notes: Vec<String>,
+    /// Whether the bytes are explained as a separate stream.
+    #[serde(skip)]
+    pub below: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct ExplainedFault {
+    /// The class of the error, as in vectors; `nc-line` or `nc-word` for NC text.
+    pub class: &'static str,
+    /// The field; `stream` for the whole stream.
+    pub field: String,
+    pub offset: usize,
+    /// The expected number, whose unit depends on `class`, for example bytes.
+    pub expected: Option<u32>,
+    pub found: Option<u32>,
+    /// The error as text.
+    pub text: String,
+}
+
+/// Bytes that were not read.
+#[derive(Clone, Debug, Serialize)]
+pub struct Unread {
+    pub offset: usize,
+    /// Number of bytes.
+    pub length: usize,
+    /// The bytes in hex.
+    pub hex: String,
+}
+
+/// The explanation of a service's address.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExplainedAddress {
+    /// The AMS port, if known.
+    pub port: Option<u16>,
+    /// The service, if known.
+    pub service: Option<String>,
+    pub index_group: u32,
+    pub index_offset: u32,
+    /// The meaning of the index group.
+    pub group: String,
+    /// The meaning of the index offset.
+    pub offset: String,
+    pub function: Option<FunctionReport>,
+    /// Other meanings, and the reason if there is no function.
+    pub notes: Vec<String>,
+}
+
+/// A function of the CNC.
+#[derive(Clone, Debug, Serialize)]
+pub struct FunctionReport {
+    pub name: &'static str,
+    /// The service that calls the function.
+    pub service: String,
+    /// The task that executes the function.
+    pub task: String,
+    /// The task's AMS port.
+    pub port: u16,
+    /// Its effect on the machine: `query`, `write` or `motion`.
+    pub effect: String,
+    /// The requirement that defines it.
+    pub clause: &'static str,
+    /// The sources of the function.
+    pub section: String,
+    /// The stream of the request.
+    pub request: Option<&'static str>,
+    /// The stream of the reply.
+    pub reply: Option<&'static str>,
+}
+
+impl Explanation {
+    pub(super) fn new(length: usize, parts: Vec<ExplainedStream>) -> Self {
+        let faulty = parts.iter().any(|part| !part.faults.is_empty());
+        let known = parts.iter().any(|part| part.stream.is_some() || part.has_function());
+        let outcome = match (faulty, known) {
+            (true, _) => ExplanationOutcome::Faulty,
+            (_, true) => ExplanationOutcome::Explained,
+            _ => ExplanationOutcome::Unknown,
+        };
+        Self { format: 1, length, outcome, parts }
+    }
+}
+
+impl ExplainedStream {
+    pub(super) fn new(stream: Stream, at: usize, bytes: &[u8]) -> Self {
+        let layout = stream.layout();
+        Self {
+            title: layout.title.to_owned(),
+            stream: Some(layout.name),
+            clause: Some(layout.clause),
+            sources: sources(layout.clause),
+            at,
+            length: bytes.len(),
+            ..Self::default()
+        }
+    }
+
+    /// A part for bytes that no table describes.
+    pub(super) fn opaque(title: String, at: usize, bytes: &[u8]) -> Self {
+        let mut part = Self { title, at, length: bytes.len(), ..Self::default() };
+        if !bytes.is_empty() {
+            part.rows.push(ExplainedField::new(0, bytes, "data", String::new()));
+        }
+        part
+    }
+
+    fn has_function(&self) -> bool {
+        self.address.as_ref().is_some_and(|address| address.function.is_some())
+    }
+
+    /// Adds an error and marks its row.
+    pub(super) fn push_fault(&mut self, fault: ExplainedFault) {
+        let at = fault.offset;
+        let here = |row: &&mut ExplainedField| {
+            row.offset == at
+                || (row.offset < at && at < row.offset.saturating_add(row.length.max(1)))
+        };
+        if let Some(row) = self.rows.iter_mut().find(here) {
+            row.faulty = true;
+        }
+        self.faults.push(fault);
+    }
+
+    /// Marks the bytes after offset `end` of the stream as unread.
+    pub(super) fn leave(&mut self, end: usize, bytes: &[u8]) {
+        let rest = bytes.get(end..).unwrap_or_default();
+        self.unread = (!rest.is_empty()).then(|| Unread {
+            offset: end,
+            length: rest.len(),
+            hex: spaced(rest),
+        });
+    }
+}
+
+impl ExplainedField {
+    pub(super) fn new(offset: usize, bytes: &[u8], field: &str, value: String) -> Self {
+        Self {
+            offset,
+            length: bytes.len(),
+            hex: spaced(bytes),
+            field: field.to_owned(),
+            record: 0,
+            item: 0,
+            ty: "BYTE[]".to_owned(),
+            value,
+            meaning: "",
+            clause: "",
+            faulty: false,
+            notes: Vec::new(),
+            below: false,
+        }
+    }
+}
+
+impl ExplainedFault {
+    /// Converts an error of the codec, whose offset is counted from `base` bytes before the stream,
+    /// to an offset in the stream.
+    pub(super) fn of(error: &Error, base: usize) -> Self {
+        let field: Field = error.field();
+        let offset = size(error.offset()).saturating_sub(base);
+        // Omit the stream, because the part names it.
+        let whole = error.to_string();
+        let reason = whole.split_once(": ").map_or(whole.as_str(), |(_, rest)| rest);
+        let reason = reason.split_once(": ").map_or(reason, |(_, rest)| rest);
+        let name = field.name();
+        let numbers = !matches!(error.kind(), ErrorKind::Missing);
+        Self {
+            class: class(error),
+            field: name.to_owned(),
+            offset,
+            expected: numbers.then(|| error.expected()),
+            found: numbers.then(|| error.found()),
+            text: format!("{name} at offset {offset}: {reason}"),
+        }
+    }
+}
+
+/// Converts a length from the wire.
+pub(super) fn size(number: u32) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}
+
+/// The sources of a requirement.
+pub(crate) fn sources(clause: &str) -> Vec<String> {
+    let Some(requirement) = requirement(clause) else { return Vec::new() };
+    // Create one entry for each document, with all its sections.
+    let mut all: Vec<(&str, String)> = Vec::new();
+    for source in &requirement.sources {
+        let (document, section) = (source.document.as_str(), source.section.as_str());
+        let known = all.iter_mut().find(|(known, _)| *known == document);
+        match (known, source.edition.as_str()) {
+            (Some((_, text)), "") => text.push_str(&format!(", {section}")),
+            (Some((_, text)), _) => text.push_str(&format!(", §{section}")),
+            (None, "") => all.push((document, format!("{document}, {section}"))),
+            (None, edition) => all.push((document, format!("{document} {edition} §{section}"))),
+        }
+    }
+    all.into_iter().map(|(_, text)| text).collect()
+}
