@@ -1,4 +1,7 @@
-//! Links between the documents lead to existing files and anchors.
+//! Links between the documents lead to existing files and anchors, and claims about safety to existing
+//! commands.
+
+use std::fs;
 
 use super::documents::texts;
 use super::root;
@@ -19,7 +22,7 @@ fn links_have_targets() {
                 if file.is_empty() { root().join(path) } else { root().join(folder).join(file) };
             assert!(target.exists(), "{path}: {link}");
             if !anchor.is_empty() {
-                let text = std::fs::read_to_string(&target).unwrap();
+                let text = fs::read_to_string(&target).unwrap();
                 let headings = text.lines().filter(|line| line.starts_with('#'));
                 assert!(headings.map(slug).any(|slug| slug == anchor), "{path}: {link}");
             }
@@ -34,4 +37,55 @@ fn slug(heading: &str) -> String {
     let heading = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = heading.chars().filter(|one| one.is_alphanumeric() || " -_".contains(*one));
     kept.map(|one| if one == ' ' { '-' } else { one }).collect()
+}
+
+/// Each row of ASSURANCE and SECURITY names commands that exist, or states why it names none.
+#[test]
+fn claims_have_commands() {
+    let read = |path: &&str| fs::read_to_string(root().join(path)).unwrap();
+    let runners = [".ci/run", ".github/workflows/ci.yml", ".github/workflows/nightly.yml"];
+    let run: String = runners.iter().map(read).collect();
+    for (path, least) in [("codec/ASSURANCE.md", 25), (".github/SECURITY.md", 15)] {
+        let text = read(&path);
+        let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
+        let cells = rows.map(|row| row.rsplit_once(" | ").unwrap().1);
+        let cells: Vec<&str> =
+            cells.filter(|cell| !cell.starts_with("command that fails")).collect();
+        assert!(cells.len() >= least, "{path}: {} claims", cells.len());
+        for cell in cells {
+            let commands: Vec<&str> = cell.split('`').skip(1).step_by(2).collect();
+            let has_reason = cell.starts_with("not verified by a command: ");
+            assert_eq!(has_reason, commands.is_empty(), "{path}: {cell}");
+            commands.iter().for_each(|command| assert_exists(command, &run));
+        }
+    }
+}
+
+/// A command for tests names existing tests, or modules of tests; `.ci/run` or a workflow runs the script of
+/// any other command.
+fn assert_exists(command: &str, run: &str) {
+    let words: Vec<&str> = command.split(' ').filter(|word| *word != "--").collect();
+    let (tests, filters) = match &words[..] {
+        ["cargo", "test", "-p", package, kind, rest @ ..] => {
+            let folder = package.trim_start_matches("ads-cnc").trim_start_matches('-');
+            let folder = if folder.is_empty() { "codec" } else { folder };
+            match (*kind, rest) {
+                ("--lib", rest) => (format!("{folder}/src"), rest),
+                (_, ["codec", rest @ ..]) => (format!("{folder}/tests"), rest),
+                (_, rest) => (format!("{folder}/tests/{}", rest[0]), &rest[1..]),
+            }
+        }
+        ["cargo", ..] => return assert!(run.contains(command), "{command}"),
+        words => return assert!(run.contains(words[0]), "{command}"),
+    };
+    assert!(!filters.is_empty(), "{command}");
+    for filter in filters {
+        let (module, test) = filter.rsplit_once("::").unwrap_or(("", filter));
+        let path = format!("{tests}/{}", module.replace("::", "/"));
+        let path = path.trim_end_matches('/');
+        let files = [".rs", "/mod.rs", "/main.rs"].map(|end| root().join(format!("{path}{end}")));
+        let text: String = files.iter().filter_map(|file| fs::read_to_string(file).ok()).collect();
+        let wanted = if test.is_empty() { "#[test]" } else { &format!("fn {test}(") };
+        assert!(text.contains(wanted), "{command}: {filter}");
+    }
 }
