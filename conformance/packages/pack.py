@@ -7,6 +7,7 @@ import gzip
 import io
 import pathlib
 import re
+import subprocess
 import sys
 import tarfile
 import zipfile
@@ -23,12 +24,12 @@ PLATFORMS = {
     "aarch64-unknown-linux-musl": "manylinux_2_17_aarch64.musllinux_1_1_aarch64",
     "x86_64-pc-windows-gnu": "win_amd64",
 }
-DOCUMENTS = {
-    "README.md": ROOT / "README.md",
-    "TOOLS.md": ROOT / "conformance/TOOLS.md",
-    "LICENSE-APACHE": ROOT / "LICENSE-APACHE",
-    "LICENSE-MIT": ROOT / "LICENSE-MIT",
-}
+# Files and folders that are packed under the same paths as in the repository, so that links between
+# documents, and paths in help texts and messages, are valid in the package too.
+PACKED = [
+    *("README.md", "LICENSE-APACHE", "LICENSE-MIT", "spec-vectors/README.md"),
+    *("conformance/TOOLS.md", "conformance/CHANGELOG.md", "conformance/adapters", "conformance/schema"),
+]
 SUMMARY = "Conformance suite and simulated CNC for the ADS interface of ISG and TwinCAT CNCs"
 EXECUTABLE = 0o755
 
@@ -49,10 +50,17 @@ def platform(target, command):
     return f"macosx_{major}_{minor}_{target.split('-')[0].replace('aarch64', 'arm64')}"
 
 
+def documents():
+    """The packed documents, adapters and schemas, by path; without untracked files, such as programs built there."""
+    git = ["git", "-C", ROOT, "ls-files", "-z", "--", *PACKED]
+    paths = subprocess.run(git, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout.split("\0")
+    return {path: (ROOT / path).read_bytes() for path in paths if path}
+
+
 def archive(target, name, command):
     """A .zip for Windows, and a .tar.gz for the others; the same bytes whenever it is made."""
     folder = f"ads-cnc-{version()}-{target}"
-    files = {name: command} | {name: path.read_bytes() for name, path in DOCUMENTS.items()}
+    files = {name: command} | documents()
     if "windows" in target:
         path = HERE / "dist" / f"{folder}.zip"
         with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as out:
@@ -72,8 +80,10 @@ def archive(target, name, command):
 def wheel(target, name, command):
     readme = (ROOT / "conformance/README.md").read_text(encoding="utf-8")
     about = backend.About("ads-cnc", version(), SUMMARY, "MIT OR Apache-2.0", ">=3.9", readme)
-    script = f"ads_cnc-{version()}.data/scripts/{name}"
-    output = backend.write_wheel(HERE / "dist", about, platform(target, command), {script: command}, {script})
+    data = f"ads_cnc-{version()}.data"
+    script = f"{data}/scripts/{name}"
+    files = {script: command} | {f"{data}/data/share/ads-cnc/{path}": text for path, text in documents().items()}
+    output = backend.write_wheel(HERE / "dist", about, platform(target, command), files, {script})
     return HERE / "dist" / output
 
 
