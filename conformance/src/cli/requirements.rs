@@ -22,11 +22,11 @@ pub(super) struct Requirements {
     /// An area (VAR), a requirement (VAR-11), a section of a manual (ads:4.3), a stream
     /// (variable-description), a function (ReadByName), the ID of a case or an erratum (E-17)
     /// [default: all requirements]
-    #[arg(value_name = "AREA|SECTION|STREAM|ID", conflicts_with = "only")]
+    #[arg(value_name = "AREA|ID|STREAM", conflicts_with = "only")]
     wanted: Vec<String>,
 
     /// Same as the argument, with the option name of run; repeatable
-    #[arg(long, value_name = "AREA|SECTION|STREAM|ID")]
+    #[arg(long, value_name = "AREA|ID|STREAM")]
     only: Vec<String>,
 
     /// Output format

@@ -99,7 +99,7 @@ pub(super) struct Run {
     /// Run only these cases: an area (VAR), a requirement (VAR-11), a section of a manual and those
     /// below it (ads:4.3, stream:3, service:2), a stream (variable-description) or the ID of a case; *
     /// and ? are wildcards; repeatable or comma-separated [default: all]
-    #[arg(long, help_heading = SELECTION, value_name = "AREA|SECTION|STREAM|ID", value_delimiter = ',')]
+    #[arg(long, help_heading = SELECTION, value_name = "AREA|ID|STREAM", value_delimiter = ',')]
     only: Vec<String>,
 
     /// Judge by this edition only, en-1.05 or de-1.051; the simulated CNC follows it [default:
