@@ -1,7 +1,7 @@
 //! The tables: functions, streams, fields and types, by number and by name.
 
 use codec::layout::{Field, FieldSpec, Size, Stream, Type};
-use codec::operation::{Effect, Function, GroupRule, OffsetRule, AdsService};
+use codec::operation::{AdsService, Effect, Function, GroupRule, OffsetRule};
 use codec::value::DataType;
 
 use crate::ADS_CNC_NONE;

@@ -8,7 +8,7 @@ use core::panic::PanicInfo;
 
 use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef};
-use ads_cnc::operation::{Call, Operation, ReadByName, Request, AdsService};
+use ads_cnc::operation::{AdsService, Call, Operation, ReadByName, Request};
 use ads_cnc::{Decode, DescriptionRef, DescriptorsRef, Encode, Error, HandleReadRef};
 
 #[cfg(feature = "alloc")]

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ads::{AmsAddr, AmsNetId, Client, Source, Timeouts};
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, AdsService};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc_clients::{Result, Transport, arguments, show};
 
 struct OverAds {

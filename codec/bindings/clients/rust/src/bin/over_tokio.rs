@@ -12,7 +12,7 @@ use ads_cnc::ads::{
     AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags,
     WriteReply,
 };
-use ads_cnc::operation::{Call, AdsService};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc::{Decode as _, Encode as _};
 use ads_cnc_clients::{Result, Transport, arguments, show};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
