@@ -37,7 +37,7 @@ pub struct Client {
     source: AmsNetId,
     gate: Gate,
     wire: Option<Wire>,
-    dial: ConnectMethod,
+    connect_method: ConnectMethod,
     capture: Option<Box<dyn Tap>>,
     dry: bool,
     last: Option<Instant>,
@@ -75,7 +75,7 @@ impl Client {
     /// # Errors
     /// If no server listens at the address, or the gate allows malformed requests to another machine.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
-        Self::dialled(target, gate, ConnectMethod::Tcp)
+        Self::connected(target, gate, ConnectMethod::Tcp)
     }
 
     /// Connects to a CNC in this process without a socket. The clock of the CNC must be stopped; it
@@ -84,12 +84,12 @@ impl Client {
     /// # Errors
     /// If the gate allows malformed requests to another machine.
     pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn LocalPeers>) -> io::Result<Self> {
-        Self::dialled(target, gate, ConnectMethod::InProcess(cnc))
+        Self::connected(target, gate, ConnectMethod::InProcess(cnc))
     }
 
-    fn dialled(target: Target, gate: Gate, dial: ConnectMethod) -> io::Result<Self> {
-        let mut client = Self { dial, ..Self::unconnected(target, gate)? };
-        let wire = client.dial()?;
+    fn connected(target: Target, gate: Gate, connect_method: ConnectMethod) -> io::Result<Self> {
+        let mut client = Self { connect_method, ..Self::unconnected(target, gate)? };
+        let wire = client.open_wire()?;
         client.source = target.source.unwrap_or(net_id_of(wire.local().ip()));
         client.wire = Some(wire);
         Ok(client)
@@ -104,8 +104,8 @@ impl Client {
         Ok(Self { dry: true, ..Self::unconnected(target, gate)? })
     }
 
-    fn dial(&self) -> io::Result<Wire> {
-        match &self.dial {
+    fn open_wire(&self) -> io::Result<Wire> {
+        match &self.connect_method {
             ConnectMethod::Tcp => Wire::connect(self.target.addr, self.target.timeout),
             ConnectMethod::InProcess(cnc) => Ok(Wire::over(cnc.connect())),
         }
@@ -126,7 +126,7 @@ impl Client {
             source: target.source.unwrap_or(net_id_of(target.addr.ip())),
             gate,
             wire: None,
-            dial: ConnectMethod::Tcp,
+            connect_method: ConnectMethod::Tcp,
             capture: None,
             dry: false,
             last: None,
@@ -165,7 +165,7 @@ impl Client {
 
     /// Waits; the clock of a CNC in this process advances by the same time.
     pub(crate) fn wait(&self, time: Duration) {
-        match &self.dial {
+        match &self.connect_method {
             ConnectMethod::Tcp => thread::sleep(time),
             ConnectMethod::InProcess(cnc) => cnc.pass(time),
         }
@@ -330,7 +330,7 @@ impl Client {
         let wire = match self.wire.take() {
             Some(wire) => wire,
             None => {
-                let wire = self.dial().map_err(ExchangeError::disconnected)?;
+                let wire = self.open_wire().map_err(ExchangeError::disconnected)?;
                 if let Some(capture) = &mut self.capture {
                     capture.opened(wire.local(), self.target.addr);
                 }

@@ -13,6 +13,9 @@ pub(crate) fn to_u32(len: usize) -> u32 {
     u32::try_from(len).unwrap_or(u32::MAX)
 }
 
+/// On a target with a smaller `usize`, the conversion would truncate lengths.
+const _: () = assert!(usize::BITS >= u32::BITS);
+
 #[allow(clippy::as_conversions, reason = "`try_from` is not const; usize has at least 32 bits")]
 pub(crate) const fn to_usize(size: u32) -> usize {
     size as usize

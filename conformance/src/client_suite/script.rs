@@ -65,7 +65,7 @@ impl ScenarioScript {
         let call = Call::from_frame(&request).ok().flatten();
         let dispatched = call.as_ref().and_then(|call| call.dispatch().ok());
         let mut reply = Vec::new();
-        match dispatched.as_ref().and_then(|dispatched| self.refusal(dispatched)) {
+        match dispatched.as_ref().and_then(|dispatched| self.rejection(dispatched)) {
             Some(error) => reply = write_reply(request.header(), error).unwrap_or_default(),
             None => self.cnc.respond(NET_ID, &request, &mut reply),
         }
@@ -82,7 +82,7 @@ impl ScenarioScript {
 
     /// The error with which the script rejects a request; `None` unless the request is a write to the
     /// program stream that must be rejected. Counts these writes.
-    fn refusal(&mut self, dispatched: &Request<'_>) -> Option<AdsError> {
+    fn rejection(&mut self, dispatched: &Request<'_>) -> Option<AdsError> {
         let Request::WriteProgramStream(_) = dispatched else { return None };
         let number = self.streamed;
         self.streamed = number.saturating_add(1);

@@ -270,7 +270,8 @@ fn refused(
         Err(DispatchError::Stream(error)) => {
             Some(format!("the codec rejects the request: {error}"))
         }
-        // The explanation of the address already contains the reason if there is no function.
+        // For a request to an address without a function, the explanation of the address contains the
+        // reason.
         _ => None,
     }
 }

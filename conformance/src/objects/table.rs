@@ -74,7 +74,7 @@ const WIDTH_MAX: usize = 40;
 /// Minimum width of the values.
 const WIDTH_MIN: usize = 8;
 
-/// A column as it is written: its index in the row, its heading and its width.
+/// A column that the table shows: its index in the row, its heading and its width in characters.
 struct Shown<'h> {
     place: usize,
     head: &'h str,

@@ -105,12 +105,12 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
         let mut malformed = MalformedRequest::new(probe, request)?;
         let valid = malformed.valid.data.clone();
         let open = valid.split_last().map(|(_, open)| open.to_vec()).unwrap_or_default();
-        let behind = [&valid, &b"x"[..]].concat();
+        let with_tail = [&valid, &b"x"[..]].concat();
         let long = [&valid[..], &vec![0; 257_usize.saturating_sub(valid.len())]].concat();
         for (what, data) in [
             ("no data", Vec::new()),
             ("a name without NUL", open),
-            ("bytes after the NUL", behind),
+            ("bytes after the NUL", with_tail),
             ("a name of 257 bytes", long),
         ] {
             malformed.data(assumed(VAR_9), what, &data)?;

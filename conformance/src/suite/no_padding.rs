@@ -66,8 +66,8 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     let object = |bytes: &[u8], judge: fn(DescriptorRef<'_>) -> bool| {
         DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
     };
-    // A descriptor with a name or a type is not examined: a type that the manual does not name is no
-    // sign of padding.
+    // Only descriptors with an empty name and an empty type may consist of padding; an unknown name of a
+    // type does not show padding.
     let is_unpacked = object(bytes, |one| one.name().is_empty() && one.type_name().is_empty());
     let makes_sense = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();

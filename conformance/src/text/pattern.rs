@@ -37,24 +37,24 @@ impl Pattern {
     pub fn matches(&self, name: &str) -> bool {
         let name: Vec<char> = folded(name).collect();
         let (mut pattern, mut rest) = (self.wanted.as_slice(), name.as_slice());
-        // Where to continue after a mismatch: at the last star, one character further on.
+        // Where to continue after a mismatch: after the last star, one character later.
         let mut back: Option<(&[char], &[char])> = None;
         loop {
             match (pattern.split_first(), rest.split_first()) {
-                (Some(('*', behind)), _) => {
-                    back = Some((behind, rest));
-                    pattern = behind;
+                (Some(('*', after)), _) => {
+                    back = Some((after, rest));
+                    pattern = after;
                 }
-                (Some((wanted, behind)), Some((there, further)))
-                    if *wanted == '?' || wanted == there =>
+                (Some((wanted, after)), Some((found, later)))
+                    if *wanted == '?' || wanted == found =>
                 {
-                    (pattern, rest) = (behind, further);
+                    (pattern, rest) = (after, later);
                 }
                 (None, None) => return true,
-                _ => match back.and_then(|(behind, rest)| Some((behind, rest.split_first()?.1))) {
-                    Some((behind, further)) => {
-                        back = Some((behind, further));
-                        (pattern, rest) = (behind, further);
+                _ => match back.and_then(|(after, rest)| Some((after, rest.split_first()?.1))) {
+                    Some((after, later)) => {
+                        back = Some((after, later));
+                        (pattern, rest) = (after, later);
                     }
                     None => return false,
                 },

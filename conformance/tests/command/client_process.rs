@@ -2,15 +2,12 @@
 //! hang, and clients that connect by themselves.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
+use crate::common::ads_cnc;
 use crate::common::connect;
 use crate::common::file::TestFile;
 use serde_json::Value;
-
-fn ads_cnc(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
-}
 
 /// Runs the suite with this project's client; returns the exit code and the report.
 fn run(options: &str, args: &[&str]) -> (Option<i32>, Value) {

@@ -1,5 +1,6 @@
 //! `ads-cnc explain` as users call it: the printed examples of the manuals, complete and truncated.
 
+use crate::common::text;
 use std::io::Write as _;
 use std::process::{Command, Output, Stdio};
 
@@ -36,10 +37,6 @@ mod printed {
 fn ads_cnc(args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     command.arg("explain").args(args).env_remove("NO_COLOR").output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// The stdout and stderr of a call, followed by its exit code.

@@ -2,9 +2,10 @@
 //! query the other.
 
 use std::net::SocketAddr;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use crate::common::fake::{Reaction, reacting};
+use crate::common::{ads_cnc, text};
 use ads_cnc::Encode as _;
 use ads_cnc::address::{Class, Group};
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, ReadWriteReplyRef};
@@ -52,16 +53,8 @@ fn to(asked: AmsHeader, error: AdsError, data: &[u8]) -> Vec<u8> {
     FrameRef::new(header, data).unwrap().encode_to_vec().unwrap()
 }
 
-fn ads_cnc(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
-}
-
 fn call(addr: SocketAddr, args: &[&str]) -> Output {
     ads_cnc(&[args, &["--target", &addr.to_string(), "--net-id", "127.0.0.1.1.1"]].concat())
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 #[test]

@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 use crate::common::file::TestFile;
 use crate::common::proxy::{FrameHandling, is_write, proxy};
 use crate::common::signal;
+use crate::common::text;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::ReadByName;
 use ads_cnc_conformance::client::Target;
@@ -83,10 +84,6 @@ impl Bench {
     fn report(&self) -> Value {
         serde_json::from_slice(&std::fs::read(&self.json.0).unwrap()).unwrap()
     }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 fn verdicts(report: &Value) -> Vec<&str> {

@@ -12,6 +12,7 @@ mod client_process;
 mod commands;
 mod completions;
 mod explain;
+mod faulty_devices;
 mod gate;
 mod geo;
 mod hostile;

@@ -11,6 +11,7 @@ use crate::common::Serve;
 use crate::common::fake::{Answer, fake};
 use crate::common::file::TestFile;
 use crate::common::proxy::{FrameHandling, is_write, proxy};
+use crate::common::text;
 use ads_cnc::ads::{AdsError, Command as AdsCommand};
 use ads_cnc_conformance::gate::Moment;
 
@@ -21,10 +22,6 @@ fn tool(args: &[&str]) -> Output {
 
 fn against(addr: &str, args: &[&str]) -> Output {
     tool(&[args, &["--target", addr, "--net-id", "127.0.0.1.1.1"]].concat())
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// A file for `--allow-write` that expires after `seconds`.

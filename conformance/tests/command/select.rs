@@ -1,16 +1,13 @@
 //! The selection of cases, their order, and waivers.
 
+use crate::common::ads_cnc;
 use std::collections::BTreeSet;
 use std::io::{BufRead as _, BufReader};
 use std::path::PathBuf;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::{env, fs, process};
 
 use serde_json::Value;
-
-fn ads_cnc(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
-}
 
 fn run(args: &[&str]) -> Value {
     let output = ads_cnc(&[&["run", "--json", "-"], args].concat());

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::common::file::TestFile;
+use crate::common::text;
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
@@ -97,10 +98,6 @@ fn ended(tool: Child) -> Output {
     let output = tool.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     output
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// A command that exists on every system: `ads-cnc` itself.

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use crate::common::Serve;
 use crate::common::fake::{Answer, fake};
 use crate::common::file::TestFile;
+use crate::common::text;
 use ads_cnc::ads::AdsError;
 use ads_cnc::streaming::Ack;
 use ads_cnc_conformance::net;
@@ -34,10 +35,6 @@ fn to<'a>(addr: &'a str, allow: &'a TestFile) -> [&'a str; 6] {
 fn stream(program: &[u8], addr: SocketAddr, allow: &TestFile, options: &[&str]) -> Output {
     let file = TestFile::new(".nc", program);
     tool(file.path(), &to(&addr.to_string(), allow)).args(options).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 fn code(output: &Output) -> i32 {

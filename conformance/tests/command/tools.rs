@@ -2,18 +2,11 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use crate::common::Serve;
+use crate::common::{ads_cnc, text};
 use serde_json::Value;
-
-fn ads_cnc(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
 
 /// The text of a snapshot: each call with its stdout, its stderr and its exit code.
 fn shown(calls: &[&[&str]]) -> String {

@@ -1,4 +1,5 @@
-//! Helpers of the tests: `ads-cnc serve` in a separate process, and a connection to it without a gate.
+//! Helpers of the tests: the command, `ads-cnc serve` in a separate process, and a connection to it without
+//! a gate.
 
 #![allow(dead_code, reason = "not every test uses every item")]
 
@@ -10,8 +11,18 @@ pub(crate) mod task;
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
+
+/// Runs the command with these arguments, and waits for its end.
+pub(crate) fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+/// An output as text, which must be UTF-8.
+pub(crate) fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
 
 /// A simulated CNC in a separate process, which is ended when this value is dropped.
 pub(crate) struct Serve {

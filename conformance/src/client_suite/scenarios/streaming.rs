@@ -18,7 +18,7 @@ fn program(id: &str, title: &str, text: Vec<u8>) -> Scenario {
     scenario
 }
 
-fn refused(id: &str, title: &str, text: &[u8], rule: ClauseId) -> Scenario {
+fn rejected(id: &str, title: &str, text: &[u8], rule: ClauseId) -> Scenario {
     let mut scenario = Scenario::new(format!("client-stream-{id}"), title, "stream 1")
         .expect(ExpectedAnswer::Error)
         .ordered(RequestOrder::NoStream(rule), &[rule]);
@@ -48,10 +48,10 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     let longest = [&b"N10 ("[..], &[b'x'; 984], b")\r\nM30\r\n"].concat();
     let too_long = [&b"N10 ("[..], &[b'x'; 985], b")\r\nM30\r\n"].concat();
     let unfinished = lines(3, "\n").strip_suffix(b"\n").unwrap_or_default().to_vec();
-    let later = |id: &str, title: &str, refusals: &[usize]| {
+    let later = |id: &str, title: &str, rejections: &[usize]| {
         let mut scenario = program(id, title, lines(60, "\r\n"));
         scenario.rejections =
-            refusals.iter().map(|&number| (number, AdsError::INVALID_DATA)).collect();
+            rejections.iter().map(|&number| (number, AdsError::INVALID_DATA)).collect();
         scenario.by(STM_6)
     };
     let mut for_good =
@@ -79,14 +79,14 @@ pub(super) fn scenarios() -> Vec<Scenario> {
             &[0, 1, 2],
         ),
         for_good.expect(ExpectedAnswer::Error).by(crate::judge::assumed(STM_6)),
-        refused("too-long", "The client rejects a line of 991 characters", &too_long, STM_20),
-        refused(
+        rejected("too-long", "The client rejects a line of 991 characters", &too_long, STM_20),
+        rejected(
             "no-ascii",
             "The client rejects a character that is not ASCII",
             b"N10 (L\xE4nge)\r\nM30\r\n",
             STM_7,
         ),
-        refused(
+        rejected(
             "loop",
             "The client rejects a loop",
             b"$FOR V.P.I = 1, 3, 1\nG00 X1\n$ENDFOR\nM30\n",

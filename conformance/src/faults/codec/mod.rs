@@ -82,7 +82,7 @@ fn forgotten_checks() -> Vec<SeededDefect> {
         let those = strongest(those);
         // The error class in a vector is advisory, so it may differ from the class that this codec
         // returns. The defect ignores errors of the class that this codec returns.
-        let refusal = |vector: &&'static Vector| match codec::decode_stream(
+        let rejection = |vector: &&'static Vector| match codec::decode_stream(
             stream,
             &vector.context,
             &vector.bytes(),
@@ -90,7 +90,7 @@ fn forgotten_checks() -> Vec<SeededDefect> {
             Err(codec::CodecError::Error(error)) => Some(codec::class(&error)),
             _ => None,
         };
-        let called = those.iter().find_map(refusal)?;
+        let called = those.iter().find_map(rejection)?;
         let what = format!(
             "{stream}: a stream that is rejected as {} is accepted",
             class.replace('-', " ")

@@ -3,7 +3,7 @@
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::row::{CodecDefect, CodecFault, CorrectAnswer, accepted, refused, row};
+use super::row::{CodecDefect, CodecFault, CorrectAnswer, accepted, rejected, row};
 use crate::codec::message::{Answer, Output, Question, Rejection};
 
 /// The text with every line changed.
@@ -43,7 +43,7 @@ fn refuses(
     let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
     let text = text.to_ascii_uppercase();
     if question.op == "check" && text.windows(word.len()).any(|part| part == word) {
-        refused(clause.as_str())
+        rejected(clause.as_str())
     } else {
         correct(question)
     }
@@ -101,8 +101,8 @@ pub(super) const ROWS: &[CodecDefect] = &[
             };
             match question.op.as_str() {
                 "check" if packets.len() > 1 => {
-                    let refused = |answer: &Answer| matches!(answer, Answer::Reject(_));
-                    let first = packets.into_iter().map(alone).find(refused);
+                    let rejected = |answer: &Answer| matches!(answer, Answer::Reject(_));
+                    let first = packets.into_iter().map(alone).find(rejected);
                     first.unwrap_or_else(|| Answer::Ok(Output::default()))
                 }
                 _ => correct(question),

@@ -3,7 +3,7 @@
 use ads_cnc_vectors::ids::*;
 
 use super::nc::{accepts, lines};
-use super::row::{CodecDefect, CodecFault, refused, row};
+use super::row::{CodecDefect, CodecFault, rejected, row};
 
 /// The text of these packets, split into packets of whole lines with at most `most` bytes each. A
 /// longer line has its own packet.
@@ -126,7 +126,7 @@ pub(super) const ROWS: &[CodecDefect] = &[
             let long =
                 |line: &[u8]| line.iter().filter(|byte| !b"\r\n".contains(byte)).count() == 990;
             if question.op == "packets" && text.split(|byte| *byte == b'\n').any(long) {
-                refused("too-long")
+                rejected("too-long")
             } else {
                 correct(question)
             }

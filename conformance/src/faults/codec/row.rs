@@ -48,7 +48,7 @@ impl CodecFault {
                 let longest = Stream::by_name(of).map(|stream| stream.layout().max);
                 let len = question.hex.as_ref().and_then(|hex| u32::try_from(hex.len()).ok());
                 if of == stream && question.op == "decode" && len == longest {
-                    refused("too-long")
+                    rejected("too-long")
                 } else {
                     correct(question)
                 }
@@ -101,7 +101,7 @@ pub(super) fn accepted() -> Answer {
     Answer::Ok(Output { value, ..Output::default() })
 }
 
-pub(super) fn refused(class: &str) -> Answer {
+pub(super) fn rejected(class: &str) -> Answer {
     Answer::Reject(Rejection { class: Some(class.to_owned()), ..Rejection::default() })
 }
 

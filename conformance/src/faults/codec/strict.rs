@@ -2,7 +2,7 @@
 
 use ads_cnc_vectors::ids::*;
 
-use super::row::{CodecDefect, CodecFault, CorrectAnswer, refused, row};
+use super::row::{CodecDefect, CodecFault, CorrectAnswer, rejected, row};
 use crate::codec::message::{Answer, Question};
 
 /// The UNS32 at an offset of the first input.
@@ -19,7 +19,7 @@ fn strict(
     is: impl FnOnce(&Question) -> bool,
 ) -> Answer {
     if question.op == "decode" && question.stream == stream && is(question) {
-        refused("truncated")
+        rejected("truncated")
     } else {
         correct(question)
     }
@@ -56,7 +56,7 @@ pub(super) const ROWS: &[CodecDefect] = &[
         CodecFault::Around(|correct, question| {
             let alone = question.hex.as_ref().is_some_and(|hex| hex.len() == 4);
             if question.op == "decode" && alone && question.stream.ends_with("read-reply") {
-                refused("truncated")
+                rejected("truncated")
             } else {
                 strict(correct, question, "read-write-reply", |_| alone)
             }

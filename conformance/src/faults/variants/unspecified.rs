@@ -118,8 +118,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         "a rejected Read or ReadWrite has as many zeros as were asked for, up to 64",
         |_, request: &FrameRef<'_>, mut bytes| {
             let asked = u32_at(request.data(), 8).unwrap_or_default().min(64);
-            let refused = matches!(u32_at(&bytes, 38), Some(1..));
-            if refused && bytes.len() == 46 && matches!(request.header().command.0, 2 | 9) {
+            let rejected = matches!(u32_at(&bytes, 38), Some(1..));
+            if rejected && bytes.len() == 46 && matches!(request.header().command.0, 2 | 9) {
                 set_u32(&mut bytes, 42, asked);
                 bytes.resize(usize::try_from(asked).unwrap_or_default().saturating_add(46), 0);
             }

@@ -87,8 +87,8 @@ impl Device {
     ) -> Result<Option<Arc<Faulty>>, ToolError> {
         let settings = Settings { edition: edition.or(self.settings.edition), ..self.settings };
         let model = built(model, settings)?;
-        // `unwritten` only lists what the suite does not write: it is no claim about the CNC, so it
-        // need not be equal.
+        // The profiles may differ in `unwritten`, which lists the values that the suite does not write and
+        // claims nothing about the CNC.
         let unwritten = self.profile.unwritten.clone();
         let profile = Profile { unwritten, ..model.profile() };
         if mode.has_profile() && format!("{profile:?}") != format!("{:?}", self.profile) {

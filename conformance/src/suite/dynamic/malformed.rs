@@ -46,9 +46,9 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 rejects_steadily(probe, DYN_6, &what, at, long, request)?;
             }
             let longest = DYNAMIC_NAME_MAX.saturating_add(1);
-            let behind = valid.with(|call| call.data.resize(longest, b'x'));
+            let with_tail = valid.with(|call| call.data.resize(longest, b'x'));
             let what = "a request of 97 bytes, with a byte after the NUL of the name";
-            rejects_steadily(probe, assumed(DYN_6), what, at, behind, request)?;
+            rejects_steadily(probe, assumed(DYN_6), what, at, with_tail, request)?;
             let short = valid.with(|call| call.read_length = call.read_length.saturating_sub(1));
             let what = "a read length of 7 for a value";
             rejects_steadily(probe, assumed(DYN_3), what, at, short, request)?;

@@ -4,10 +4,10 @@
 mod foreign;
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 use std::{env, fs, process};
 
 use crate::common::Serve;
+use crate::common::ads_cnc;
 use ads_cnc_conformance::report::{self, Detail, DisplayOptions, Report};
 use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
@@ -36,10 +36,6 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let _gone = fs::remove_dir_all(&self.0);
     }
-}
-
-fn ads_cnc(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
 }
 
 fn run(args: &[&str]) -> Value {

@@ -1,21 +1,13 @@
 //! `ads-cnc check` and `--capture` as users call them.
 
+use crate::common::{ads_cnc, text};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
 use super::maker::{Link, pcap, segments};
 use super::talk::{conversation, everything};
-
-fn ads_cnc(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
 
 /// A temporary folder that is removed when this value is dropped.
 struct Folder(PathBuf);
