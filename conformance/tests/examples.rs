@@ -21,7 +21,10 @@ fn built() -> &'static [PathBuf] {
     static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
     BUILT.get_or_init(|| {
         let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let profile = if cfg!(debug_assertions) { "dev" } else { "release" };
+        // The folder of this program: target/debug/deps or target/release/deps.
+        let program = env::current_exe().unwrap();
+        let is_debug = program.ancestors().nth(2).is_some_and(|folder| folder.ends_with("debug"));
+        let profile = if is_debug { "dev" } else { "release" };
         let build = Command::new(cargo)
             .args(["build", "--workspace", "--examples", "--message-format=json"])
             .args(["--profile", profile])
