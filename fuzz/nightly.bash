@@ -1,6 +1,11 @@
 # shellcheck shell=bash disable=SC2154 # the variables are those of fuzz/nightly
 # The library of fuzz/nightly: building and running targets, evaluating logs, printing tables.
 
+# The sources of all targets, and the further sources of the targets that test the tools.
+SOURCES=(codec/src fuzz/src fuzz/fuzz_targets)
+TOOL_SOURCES=(conformance/src spec-vectors/src)
+RECORD_HEADER=$'sources\tcommit\ttarget\tsanitizer\texecutions\tseconds\tfindings'
+
 # Builds the targets with a sanitizer. Each sanitizer has its own folder, so that builds do not replace each other.
 build() {
     local sanitizer="$1" name names=("") features
@@ -82,12 +87,23 @@ fuzz_with_asan() { fuzz "$1" address "$asan_seconds"; }
 fuzz() {
     local target="$1" sanitizer="$2" bound="$3" log="$output/logs/$1.$2.log" status=0
     local found="$output/found/$target" findings="$output/findings/$sanitizer/$target"
-    local options folders executions rate new result=ok
+    local options folders executions rate new took start result=ok sources="" runs="$executions_max"
     mkdir -p "$found" "$findings"
+    if [ -n "$record" ]; then
+        sources="$(digest_of_sources "$target")"
+        read -r executions took < <(recorded "$sources" "$target" "$sanitizer")
+        bound=$((bound - took)) runs="${runs:+$((runs - executions))}"
+        if [ "$bound" -le 0 ] || [ "${runs:-1}" -le 0 ]; then
+            row "$target" "$target" "$sanitizer" 0 0 0 - - 0 0 ok
+            say "$target, sanitizer $sanitizer: done before ($executions executions, $took s)"
+            return
+        fi
+    fi
     mapfile -t options < <(options "$target")
     mapfile -t folders < <(inputs "$target")
+    start="$EPOCHSECONDS"
     libfuzzer "$(binary "$target" "$sanitizer")" "$bound" "${options[@]}" \
-        -max_total_time="$bound" -artifact_prefix="$findings/" \
+        -max_total_time="$bound" ${runs:+"-runs=$runs"} -artifact_prefix="$findings/" \
         "$found" ${folders[@]+"${folders[@]}"} >"$log" 2>&1 || status=$?
     executions="$(statistic "$log" number_of_executed_units)"
     rate="$(statistic "$log" average_exec_per_sec)"
@@ -99,9 +115,27 @@ fuzz() {
     elif [ "${executions:-0}" -eq 0 ]; then
         result="executed nothing"
     fi
+    if [ -n "$record" ] && [ "${executions:-0}" -gt 0 ]; then
+        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$sources" "$(git rev-parse --short=10 HEAD)" "$target" \
+            "$sanitizer" "${executions:-0}" $((EPOCHSECONDS - start)) "$(files "$findings")" >>"$record"
+    fi
     row "$target" "$target" "$sanitizer" "$bound" "${executions:-0}" "${rate:-0}" \
         "$(covered "$log" cov)" "$(covered "$log" ft)" "${new:-0}" "$(files "$findings")" "$result"
     say "$target, sanitizer $sanitizer: ${executions:-0} executions, $result"
+}
+
+# Prints a digest of the committed sources of a target.
+digest_of_sources() {
+    local sources=("${SOURCES[@]}")
+    if needs_tools "$1"; then sources+=("${TOOL_SOURCES[@]}"); fi
+    git ls-tree -r HEAD -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
+}
+
+# Prints the executions and seconds in the table of --record for these sources.
+recorded() {
+    awk -F'\t' -v sources="$1" -v target="$2" -v sanitizer="$3" \
+        '$1 == sources && $3 == target && $4 == sanitizer { executions += $5; seconds += $6 }
+        END { printf "%d %d\n", executions, seconds }' "$record"
 }
 
 row() {
@@ -227,15 +261,18 @@ seeded_defects() { cargo run --quiet --locked -p ads-cnc-fuzz --example targets;
 
 prove_target() {
     local number defects
+    # Every target must also detect a panic and an endless loop.
+    for number in panic hang; do prove "$1" "$number"; done
     defects="$(awk -F'\t' -v target="$1" '$1 == target { print $3 }' "$output/defects.tsv")"
     for ((number = 1; number <= ${defects:-0}; number++)); do prove "$1" "$number"; done
     [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
 }
 
-# Runs one target with one seeded defect. The defect counts as found only if the finding is a broken law,
-# not a timeout, and if its input passes without the defect.
+# Runs one target with one seeded defect. The defect counts as found only if the finding is a broken law, or a
+# timeout for the defect `hang`, and if its input passes without the defect.
 prove() {
-    local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took
+    local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took kind=crash
+    [ "$number" != hang ] || kind=timeout
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))
     program="$(binary "$target" "$steady")"
     scratch="$(mktemp -d)"
@@ -248,9 +285,9 @@ prove() {
         "$scratch/found" ${folders[@]+"${folders[@]}"} >"$log" 2>&1 || true
     took="$(awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')"
     executions="$(statistic "$log" number_of_executed_units)"
-    if [ "$(files "$scratch/artifacts" -name 'crash-*')" -gt 0 ]; then
+    if [ "$(files "$scratch/artifacts" -name "$kind-*")" -gt 0 ]; then
         verdict=found
-        find "$scratch/artifacts" -name 'crash-*' -exec "$program" "${LIMITS[@]}" {} + >>"$log" 2>&1 ||
+        find "$scratch/artifacts" -name "$kind-*" -exec "$program" "${LIMITS[@]}" {} + >>"$log" 2>&1 ||
             verdict="fails without it"
     elif [ "${executions:-0}" -gt 0 ]; then
         verdict="not found"

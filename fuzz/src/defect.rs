@@ -13,18 +13,27 @@ impl Defect {
     /// No defect.
     pub const NONE: Self = Self(0);
 
+    /// Any input of more than eight bytes causes a panic.
+    pub const PANIC: Self = Self(254);
+
+    /// Any input of more than eight bytes causes an endless loop.
+    pub const HANG: Self = Self(255);
+
     /// The defect with this number.
     pub const fn new(number: u8) -> Self {
         Self(number)
     }
 
-    /// The defect whose number is in the environment variable `ADS_CNC_SEEDED_DEFECT`, or none.
+    /// The defect whose number is in the environment variable `ADS_CNC_SEEDED_DEFECT`, or none. The
+    /// variable may also be `panic` or `hang`.
     ///
     /// # Panics
-    /// If the variable is not a number.
+    /// If the variable has another value.
     pub fn from_environment() -> Self {
         static CHOSEN: OnceLock<Defect> = OnceLock::new();
         *CHOSEN.get_or_init(|| match std::env::var("ADS_CNC_SEEDED_DEFECT") {
+            Ok(word) if word == "panic" => Self::PANIC,
+            Ok(word) if word == "hang" => Self::HANG,
             Ok(number) => Self(number.parse().expect("the number of a seeded defect")),
             Err(_) => Self::NONE,
         })
@@ -33,5 +42,12 @@ impl Defect {
     /// Whether `self` is the defect with this number.
     pub const fn is(self, number: u8) -> bool {
         self.0 == number
+    }
+
+    pub(crate) fn panic_or_hang(self) {
+        assert!(self != Self::PANIC, "the seeded panic");
+        while self == Self::HANG {
+            std::hint::spin_loop();
+        }
     }
 }

@@ -32,6 +32,9 @@ impl Target {
     /// # Panics
     /// If the input breaks a law, whether or not a defect causes it.
     pub fn run(&self, data: &[u8], defect: Defect) -> Outcome {
+        if data.len() > 8 {
+            defect.panic_or_hang();
+        }
         (self.body)(data, defect)
     }
 
@@ -63,129 +66,131 @@ macro_rules! targets {
 
 targets! {
     ADS_BYTES: "ads_bytes", |data, defect| bytes::check(bytes::ADS, data, defect), bytes::DEFECTS,
-        "for headers, requests and replies, the borrowed reading, the owned reading and the walk \
-         by the field table agree, errors included; bytes that they accept encode to the same \
-         bytes, to as many as announced, and into no smaller buffer";
+        "For headers, requests and replies, the borrowed reading, the owned reading and the walk \
+         by the field table have the same result or the same error. Bytes that they accept encode \
+         to the same bytes. The encoder writes as many bytes as it announced, and rejects a \
+         smaller buffer";
     COM_BYTES: "com_bytes", |data, defect| bytes::check(bytes::COM, data, defect), bytes::DEFECTS,
-        "the same for object counts, descriptors and contents";
+        "The law of ads_bytes for object counts, descriptors and contents";
     VARIABLE_BYTES: "variable_bytes", |data, defect| bytes::check(bytes::VARIABLE, data, defect),
         bytes::VARIABLE_DEFECTS,
-        "the same for kinds, names, descriptions, handles and values of variables; values of up to \
-         128 bytes are also read as any type, in one dimension and in two";
+        "The law of ads_bytes for kinds, names, descriptions, handles and values of variables. \
+         Values of up to 128 bytes are also read as each type, in one dimension and in two";
     SDA_BYTES: "sda_bytes", |data, defect| bytes::check(bytes::SDA, data, defect), bytes::DEFECTS,
-        "the same for object addresses and attributes of elements";
+        "The law of ads_bytes for object addresses and attributes of elements";
     DYNAMIC_BYTES: "dynamic_bytes", |data, defect| bytes::check(bytes::DYNAMIC, data, defect),
         bytes::DEFECTS,
-        "the same for dynamic parameters";
+        "The law of ads_bytes for dynamic parameters";
     STREAMING_BYTES: "streaming_bytes",
         |data, defect| bytes::check(bytes::STREAMING, data, defect), bytes::STREAMING_DEFECTS,
-        "the same for data streaming";
+        "The law of ads_bytes for data streaming";
     #[cfg(feature = "arbitrary")]
     ADS_VALUE: "ads_value", |data, defect| values::check(bytes::ADS, data, defect), values::DEFECTS,
-        "any value of these streams encodes to as many bytes as announced, and into no smaller \
-         buffer, and every reading of these bytes gives the value";
+        "Every value of these streams encodes to as many bytes as announced, the encoder rejects \
+         a smaller buffer, and every reading of the bytes gives the value";
     #[cfg(feature = "arbitrary")]
     COM_VALUE: "com_value", |data, defect| values::check(bytes::COM, data, defect), values::DEFECTS,
-        "the same";
+        "The law of ads_value for object counts, descriptors and contents";
     #[cfg(feature = "arbitrary")]
     VARIABLE_VALUE: "variable_value", |data, defect| values::check(bytes::VARIABLE, data, defect),
         values::DEFECTS,
-        "the same";
+        "The law of ads_value for kinds, names, descriptions, handles and values of variables";
     #[cfg(feature = "arbitrary")]
     SDA_VALUE: "sda_value", |data, defect| values::check(bytes::SDA, data, defect), values::DEFECTS,
-        "the same";
+        "The law of ads_value for object addresses and attributes of elements";
     #[cfg(feature = "arbitrary")]
     DYNAMIC_VALUE: "dynamic_value", |data, defect| values::check(bytes::DYNAMIC, data, defect),
         values::DEFECTS,
-        "the same";
+        "The law of ads_value for dynamic parameters";
     #[cfg(feature = "arbitrary")]
     STREAMING_VALUE: "streaming_value",
         |data, defect| values::check(bytes::STREAMING, data, defect), values::DEFECTS,
-        "the same";
+        "The law of ads_value for data streaming";
     OPERATION_DISPATCH: "operation_dispatch", operation::dispatch, operation::DISPATCH_DEFECTS,
-        "a server's dispatch of any service, index group, index offset and data never panics; an \
-         accepted request encodes to a call with the same service, address and data, and into no \
-         smaller buffer, and this call is dispatched to the same request";
+        "The dispatch of any service, index group, index offset and data does not panic. A \
+         dispatched request encodes to a call with the same service, address and data, and this \
+         call dispatches to the same request. The encoder rejects a smaller buffer";
     OPERATION_REQUEST: "operation_request", operation::request, operation::REQUEST_DEFECTS,
-        "an operation of any function with any parameters is encoded to a call that a server \
-         dispatches to that operation, or is rejected; within the documented ranges it is rejected \
-         only if another function has its address";
+        "An operation of any function with any parameters either encodes to a call that \
+         dispatches to the same operation, or is rejected. Within the documented ranges, it is \
+         rejected only if another function has the same address";
     OPERATION_REPLY: "operation_reply", operation::reply, operation::REPLY_DEFECTS,
-        "a request accepts as a reply what the stream of its function accepts, but no more than it \
-         has room for, and encodes the reply to the same bytes, and into no smaller buffer";
+        "A request accepts the replies that the stream of its function accepts, up to its read \
+         length, and encodes them to the same bytes. The encoder rejects a smaller buffer";
     ADS_FRAMES: "ads_frames", frames::frames, frames::DEFECTS,
-        "a stream of AMS frames, whole or damaged, that is split anywhere gives the same frames \
-         one by one as the unsplit stream, and then the same fault or rest; each frame and fault \
-         is found with its last byte, and more bytes do not change it";
+        "A sequence of AMS frames, intact or damaged, gives the same frames and the same error or \
+         rest when it is received in pieces of any size. Each frame and each error is found with \
+         its last byte, and later bytes do not change it";
     STREAMING_PACKETS: "streaming_packets", streaming::packets, streaming::PACKETS_DEFECTS,
-        "for any bytes, the first fault is found, or the packets together are the text with CR LF \
-         after each line, and each packet is legal and as full as possible";
+        "For any program text, either the first error is found, or the packets together are the \
+         text with CR LF after each line, and each packet is valid and as full as possible";
     #[cfg(feature = "tools")]
     STREAMING_SENDER: "streaming_sender", ends::check, ends::DEFECTS,
-        "whatever is acknowledged, repeated, read and reset, a sender loses nothing, repeats \
-         nothing and counts correctly, the interface is a bounded queue, and its output is the \
-         text";
+        "With any sequence of acknowledgements, repetitions, reads and resets, a sender neither \
+         loses nor duplicates a line, and counts correctly. The streaming interface is a bounded \
+         queue whose output is the program text";
     #[cfg(feature = "alloc")]
     STREAMING_CHECKER: "streaming_checker", checker::lots, checker::DEFECTS,
-        "if the lines of a program come in any lots, the findings in each lot are those that the \
-         whole program has there, in the order of the text, whatever the line ends; any bytes can \
-         be checked";
+        "If the lines of a program are checked in several parts, each part has the findings that \
+         the whole program has in the same lines, in the order of the text, with any line ends. \
+         Any bytes can be checked";
     #[cfg(feature = "tools")]
     SERVICE_HOST: "service_host", service::world, service::WORLD_DEFECTS,
-        "for a program, one host or two, and the Service Interface, in any order of steps and \
-         whatever fails, each request is served once and gets its own answer, after chaos too; \
-         with two hosts, a failed write of RESPONSE_STATE is assumed not to have arrived";
+        "For a program, one or two hosts and the Service Interface, in any order of steps and \
+         with any failures, each request is served once and gets its own answer. With two hosts, \
+         a failed write of RESPONSE_STATE is assumed not to have arrived";
     #[cfg(feature = "tools")]
     SERVICE_MACHINES: "service_machines", service::machines, service::MACHINES_DEFECTS,
-        "whatever a host, a program's request and the five variables are told, no request is \
-         served that was not found twice, writes keep their order, and errors change nothing, \
-         except that a host may wait";
+        "With any values of the five variables, a host serves no request that it did not read \
+         twice, writes in the documented order, and does not change its state after an error, \
+         except that it may wait";
     TEXT_CP1252: "text_cp1252", text::cp1252, text::DEFECTS,
-        "text of any bytes and of any characters is converted as encoding_rs converts it, faults \
-         included, and comes back in both directions";
+        "Text of any bytes and any characters is converted in both directions as encoding_rs \
+         converts it, including errors";
     VARIABLE_PATH: "variable_path", names::path, names::DEFECTS,
-        "a name has the parts that splitting the string finds, from CP1252 and from UTF-8, is put \
-         together again, and is rejected where it is wrong";
+        "A name in CP1252 or UTF-8 has the parts that splitting the string at its separators \
+         gives, and is built from these parts again. A malformed name is rejected at its first \
+         error";
     VARIABLE_TYPED: "variable_typed", shapes::typed, shapes::DEFECTS,
-        "type, dimensions and size are accepted as a shape if they agree; an element is where \
-         nested arrays have it, and a value that was read is written back unchanged";
+        "A type, dimensions and a size form a shape exactly if they agree. An element has the \
+         offset that it has in nested arrays, and a value that was read encodes to the same bytes";
     #[cfg(feature = "tools")]
     TOOLS_EXPLAIN: "tools_explain", tools::explain::check, tools::explain::DEFECTS,
-        "any bytes are explained without a panic: all of them are shown, none twice if nothing is \
-         wrong; a stream has a fault if and only if the codec rejects it; the output has nothing \
-         that a terminal would execute; hex is read as the bytes that it states";
+        "Any bytes are explained without a panic. The explanation shows all bytes, and shows none \
+         twice if no error was found. A stream has an error if and only if the codec rejects it. \
+         The output contains no control characters of a terminal. Hex is read as the bytes that \
+         it denotes";
     #[cfg(feature = "tools")]
     TOOLS_CAPTURE: "tools_capture", tools::capture::check, tools::capture::DEFECTS,
-        "any file is read as a capture to its end, or is reported as cut; from segments in any \
-         order, repeated or split otherwise, the bytes that were sent are reassembled, and missing \
-         bytes are reported";
+        "Any file is read as a capture to its end, or is reported as truncated. Segments in any \
+         order, repeated or overlapping, are reassembled to the sent bytes, and missing bytes are \
+         reported";
     #[cfg(feature = "tools")]
     TOOLS_TESTEE: "tools_testee", tools::testee::check, tools::testee::DEFECTS,
-        "all output of a testee is lines of a bounded length, and each line is one answer to the \
-         case that was sent, or none";
+        "The output of a testee is split into lines of a bounded length. Each line is one answer \
+         to the case that was sent, or is rejected";
     #[cfg(feature = "tools")]
     TOOLS_WAIVER: "tools_waiver", tools::toml::waiver, tools::toml::WAIVER_DEFECTS,
-        "any file is a list of waivers or an error with its line, wherever in the file it is";
+        "Any file is a list of waivers, or an error with the line of its cause";
     #[cfg(feature = "tools")]
     TOOLS_PROFILE: "tools_profile", tools::toml::profile, tools::toml::PROFILE_DEFECTS,
-        "any file is a profile or an error with its line; a profile that is printed is read as the \
-         same profile, and claims nothing at a port that does not answer";
+        "Any file is a profile, or an error with the line of its cause. A printed profile is read \
+         as the same profile, and claims nothing at a port that does not answer";
     #[cfg(feature = "tools")]
     TOOLS_ALLOW: "tools_allow", tools::toml::allow, tools::toml::ALLOW_DEFECTS,
-        "any file is a list of permissions or an error with its line; its entries are read as they \
-         are printed";
+        "Any file is a list of permissions, or an error with the line of its cause. Entries are \
+         read as they are printed";
     #[cfg(feature = "tools")]
     TOOLS_MODEL: "tools_model", tools::model::check, tools::model::DEFECTS,
-        "any file is a model or an error with its line; a CNC of this model gives answers that the \
-         codec reads, and the same answers to the same requests";
+        "Any file is a model, or an error with the line of its cause. A CNC of this model sends \
+         replies that the codec reads, and the same replies to the same requests";
     #[cfg(feature = "tools")]
     TOOLS_GATE: "tools_gate", tools::gate::check, tools::gate::DEFECTS,
-        "the gate passes a request that is not a query only if the file names it for this target \
-         and time, and never one of those that are never sent; it passes queries whatever else is \
-         allowed";
+        "The gate passes a request that is not a query only if the file names it for this target \
+         and time, and never one of the requests that are never sent. It always passes queries";
     #[cfg(feature = "tools")]
     CNC_SESSION: "cnc_session", tools::session::check, tools::session::DEFECTS,
-        "each valid frame on a connection, whatever its bytes, is answered once, with the frame's \
-         invoke ID and data that the codec reads, in bounded buffers; a rejected write changes \
-         nothing, and the value of any other write is read back";
+        "Each valid frame on a connection, with any data, is answered once, with the frame's \
+         invoke ID and with data that the codec reads, and in bounded buffers. A rejected write \
+         changes no value, and the value of any other write is read back";
 }
