@@ -62,6 +62,10 @@ const SELECTION: &str = "Selection";
     after_long_help = after_long_help()
 )]
 pub(super) struct Run {
+    /// The time at which the command began.
+    #[arg(skip = Moment::now())]
+    begun: Moment,
+
     #[command(flatten)]
     target: TargetArgs,
 
@@ -469,7 +473,7 @@ impl Run {
 
     fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> RunInfo {
         RunInfo {
-            time: Moment::now(),
+            time: self.begun,
             edition: self.edition,
             seed,
             only: self.only.clone(),

@@ -12,7 +12,7 @@ pub struct VerdictTally {
     has_harness_error: bool,
     /// Whether the gate rejected a request.
     pub refused: bool,
-    /// Whether a waiver is stale.
+    /// Whether a waiver is stale: expired, without a case, or for another verdict.
     pub stale: bool,
     /// Whether a value was changed and could not be restored.
     pub left_changed: bool,

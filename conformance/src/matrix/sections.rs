@@ -19,11 +19,12 @@ const HEAD: &str = "| section | requirements | functions | types | vectors | cas
 /// Both editions of the manual on ADS access share one table, because their sections have the same
 /// numbers.
 pub fn to_sections(rows: &[RequirementRow]) -> String {
-    let mut text = String::from("# What covers which section of the manuals\n\n");
-    text += "Made by `ads-cnc requirements --format sections`, from the catalogue, the vectors, the \
-             codec's tables and the\nsuite's cases. A vector or case is in every row that it bears \
-             on. Vectors include the sequences; those refused\nare after the `+`. Sections that say \
-             nothing about bytes or behaviour are left out.\n\n";
+    let mut text =
+        String::from("# Requirements, vectors and cases of each section of the manuals\n\n");
+    text += "Written by `ads-cnc requirements --format sections` from the requirements, the vectors, the \
+             codec's tables\nand the suite's cases. A vector or case is counted in each section to which it \
+             refers. Vectors include sequences;\nthe number after `+` counts the vectors that must be \
+             rejected. Sections that specify neither bytes nor behaviour\nare omitted.\n\n";
     text += &areas(rows);
     for document in documents().iter().filter(|document| document.document != "ads-de") {
         let editions =

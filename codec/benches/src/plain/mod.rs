@@ -1,4 +1,5 @@
-//! Declarations of streams as the documentation of binrw and deku shows them, without the codec.
+//! The same streams declared with binrw and with deku, in the style of their documentation, to compare their
+//! speed with that of the codec.
 
 pub(crate) mod binrw;
 pub(crate) mod deku;

@@ -70,7 +70,8 @@ fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
     vectors
 }
 
-/// The defects that lack one check: one for each error class and stream with a rejecting vector.
+/// The codecs that omit a check: one for each pair of a stream and an error class for which a vector must be
+/// rejected.
 fn forgotten_checks() -> Vec<SeededDefect> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
@@ -160,7 +161,8 @@ fn swapped() -> Vec<SeededDefect> {
         .collect()
 }
 
-/// The big-endian defects: one for each stream with numbers of several bytes.
+/// The codecs that read and write numbers with the most significant byte first: one for each stream with
+/// numbers of several bytes, except the list of object descriptors.
 fn turned() -> Vec<SeededDefect> {
     let each = |stream: Stream| {
         let layout = stream.layout();

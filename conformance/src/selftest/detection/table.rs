@@ -206,7 +206,8 @@ impl DetectionTable {
                 mode.name()
             );
         }
-        text += "\n## Missed\n\nEach with the first request that would have shown it, and the reason if there is one.\n";
+        text += "\n## Missed\n\nEach entry contains the defect, the first request whose reply shows it, \
+                 and the reason why the suite does not\ndetect it, if known.\n";
         for mode in Mode::ALL {
             let _ = write!(text, "\n### {}\n\n", mode.name());
             for (row, request) in self.missed(mode) {

@@ -175,13 +175,13 @@ pub(crate) fn rules_by_index(
         }))
     };
     let function = logical.function();
-    let without_base = &mut probe.target.without_base;
+    let without_index_groups = &mut probe.target.without_index_groups;
     if found.is_none() && instance(logical)? == instance(by_index)? {
-        without_base.insert(function);
+        without_index_groups.insert(function);
     }
     Ok(match found {
         Some(true) => vec![clause, ADR_12],
-        None if without_base.contains(&function) => vec![ADR_12],
+        None if without_index_groups.contains(&function) => vec![ADR_12],
         _ => vec![clause],
     })
 }

@@ -38,8 +38,9 @@ pub struct TargetState {
     pub frames: usize,
     /// Services to which the target has replied.
     pub(in crate::suite) answered: Vec<AdsService>,
-    /// The functions that reject a request by index even if the index equals the logical number.
-    pub(in crate::suite) without_base: HashSet<Function>,
+    /// The functions that the target rejects for the index of a channel, although it accepts the logical
+    /// number, and both are equal: the target lacks the groups for indices (ADR-12).
+    pub(in crate::suite) without_index_groups: HashSet<Function>,
     /// Whether any reply was a success.
     pub(in crate::suite) any_success: bool,
     /// The last error reply that contained data.
@@ -87,7 +88,7 @@ impl TargetState {
             instances: None,
             frames: 0,
             answered: Vec::new(),
-            without_base: HashSet::new(),
+            without_index_groups: HashSet::new(),
             any_success: false,
             error_with_data: None,
             silences: 0,

@@ -117,7 +117,8 @@ fn defects_of_a_client_fail_their_requirement() {
     }
 }
 
-/// The frames of all printed examples, whose bytes are in the vectors, pass as captured traffic.
+/// Requests and replies that the manuals print, put into frames, are judged as captured traffic without a
+/// failure. Examples without a printed reply are not tried.
 #[test]
 fn printed_examples_pass() {
     // Each example is a separate conversation, because one example contradicts another.
