@@ -176,7 +176,7 @@ impl Exchange {
         self.reply().is_some_and(|reply| reply.success().is_none_or(<[u8]>::is_empty))
     }
 
-    /// The reply or the error, in a few words.
+    /// The reply, or why no valid reply arrived, in a few words.
     pub fn result(&self) -> String {
         match &self.outcome {
             Ok((answer, _)) => answer.to_string(),

@@ -35,6 +35,7 @@
 //! | [`value_format`] | the type of a value, given by the user |
 //! | [`exit`] | the exit codes |
 //! | [`text`] | hex, escapes, durations, patterns of names, JSON |
+//! | [`number`], [`mutex`] | converts numbers and lengths; locks a mutex |
 //!
 //! All bytes that the simulated CNC sends are encoded by [`ads_cnc`]; there is no second encoder.
 //!
@@ -82,8 +83,10 @@ pub mod gate;
 pub mod judge;
 #[allow(clippy::restriction)]
 pub mod matrix;
+pub mod mutex;
 pub mod named;
 pub mod net;
+pub mod number;
 pub mod objects;
 pub mod process;
 #[allow(clippy::restriction)]

@@ -8,6 +8,7 @@ use super::frames::{Span, is_reply};
 use super::link::AmsFrame;
 use super::table::{CONNECTIONS_MAX, ConnectionEnd, ConnectionEvent, SegmentDirection};
 use super::tcp::CapturePosition;
+use crate::number::to_u32;
 
 /// Added to the number of a conversation without TCP, so that it differs from the number of each
 /// TCP connection. The TCP connections are numbered from 1.
@@ -62,7 +63,7 @@ impl AmsClients {
         let [asked, replied] = &mut known.sent;
         let (sent, received) = if is_reply { (replied, asked) } else { (asked, replied) };
         // Add the AMS/TCP header that the frame would have over TCP.
-        let length = u32::try_from(frame.bytes.len()).unwrap_or(u32::MAX);
+        let length = to_u32(frame.bytes.len());
         let bytes = [&[0, 0], &length.to_le_bytes()[..], frame.bytes].concat();
         *sent = sent.saturating_add(u64::try_from(bytes.len()).unwrap_or(u64::MAX));
         let mark = CapturePosition { acknowledged: Some(*received), ..mark };

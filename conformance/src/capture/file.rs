@@ -8,6 +8,7 @@ use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
 use super::time::Time;
 use super::writer::SUITE;
+use crate::number::to_usize;
 use crate::text::plural;
 
 /// Initial size of the read buffer in bytes.
@@ -162,7 +163,7 @@ impl Interfaces {
             PcapBlockOwned::Legacy(block) => {
                 let Some(interface) = self.all.first() else { return };
                 let time = Time::new(block.ts_sec.into(), block.ts_usec, interface.resolution);
-                let captured = usize::try_from(block.caplen).unwrap_or(usize::MAX);
+                let captured = to_usize(block.caplen);
                 let bytes = block.data.get(..captured).unwrap_or(block.data);
                 self.packet(0, Some(time), bytes, block.origlen, each);
             }
@@ -187,13 +188,13 @@ impl Interfaces {
                 });
             }
             Block::EnhancedPacket(packet) => {
-                let place = usize::try_from(packet.if_id).unwrap_or(usize::MAX);
+                let place = to_usize(packet.if_id);
                 let units = (u64::from(packet.ts_high) << 32) | u64::from(packet.ts_low);
                 let time = self
                     .all
                     .get(place)
                     .map(|interface| Time::of_units(units, interface.resolution, interface.offset));
-                let captured = usize::try_from(packet.caplen).unwrap_or(usize::MAX);
+                let captured = to_usize(packet.caplen);
                 let bytes = packet.data.get(..captured).unwrap_or(packet.data);
                 self.packet(place, time, bytes, packet.origlen, each);
             }
@@ -215,7 +216,7 @@ impl Interfaces {
         self.packets = self.packets.saturating_add(1);
         // A packet whose interface has no description is only counted: -1 is not a link type.
         let link = self.all.get(interface).map_or(Linktype(-1), |interface| interface.link);
-        let original = usize::try_from(original).unwrap_or(usize::MAX);
+        let original = to_usize(original);
         let missing = original.saturating_sub(bytes.len());
         each(Packet {
             number: self.packets,

@@ -5,6 +5,8 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 
 use etherparse::{PacketBuilder, TcpHeader};
 
+use crate::number::to_u32;
+
 pub(super) const FIN: u8 = 0x01;
 pub(super) const SYN: u8 = 0x02;
 pub(super) const PSH: u8 = 0x08;
@@ -60,7 +62,7 @@ impl Flow {
         });
         let mut packet = Vec::with_capacity(builder.size(data.len()));
         builder.write(&mut packet, data).map_err(io::Error::other)?;
-        let bytes = u32::try_from(data.len()).unwrap_or(u32::MAX);
+        let bytes = to_u32(data.len());
         let marks = u32::from(flags & (SYN | FIN) != 0);
         from.next = from.next.wrapping_add(bytes).wrapping_add(marks);
         Ok(packet)

@@ -10,6 +10,7 @@ use pcap_parser::Linktype;
 
 use super::endpoint::Endpoint;
 use super::file::Packet;
+use crate::number::to_usize;
 
 /// The EtherType of EtherCAT, and the type of EtherCAT frames that contain AMS frames (the upper four
 /// bits of the EtherCAT header).
@@ -97,7 +98,7 @@ fn of_ethercat(payload: &[u8]) -> PacketContent<'_> {
     }
     let header = bytes.get(..AMS_HEADER_LEN).map(AmsHeader::decode);
     let Some(Ok(header)) = header else { return PacketContent::Unreadable };
-    let length = usize::try_from(header.data_length).unwrap_or(usize::MAX);
+    let length = to_usize(header.data_length);
     let whole = bytes.get(..length.saturating_add(AMS_HEADER_LEN));
     PacketContent::Ams(AmsFrame { header, bytes: whole.unwrap_or(bytes), is_cut: whole.is_none() })
 }

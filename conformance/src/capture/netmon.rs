@@ -29,6 +29,7 @@ use pcap_parser::Linktype;
 
 use super::file::{FileEnd, FileError, FullReader, Packet, RECORD_MAX};
 use super::time::Time;
+use crate::number::{to_u32, to_usize};
 use crate::text::{Moment, plural};
 
 pub(super) const MAGIC: [u8; 4] = *b"GMBU";
@@ -66,7 +67,7 @@ pub(super) fn packets(
     let mut offsets = Offsets::default();
     let mut bytes = Vec::new();
     while input.offset < header.packets_end {
-        offsets.add(u32::try_from(input.offset).unwrap_or(u32::MAX));
+        offsets.add(to_u32(input.offset));
         let number = offsets.count;
         match input.packet(&header, &mut bytes) {
             Err(why) => return Ok(FileEnd::Cut(format!("packet {number}: {why}"))),
@@ -172,7 +173,7 @@ impl<R: Read> Input<R> {
         };
         let mut about = [0; PACKET_HEADER_LEN];
         cut(self.fill(&mut about))?;
-        let captured = usize::try_from(long(&about, 12)).unwrap_or(usize::MAX);
+        let captured = to_usize(long(&about, 12));
         if captured > RECORD_MAX {
             return Err(format!(
                 "{}, more than the maximum of {RECORD_MAX}",
@@ -188,7 +189,7 @@ impl<R: Read> Input<R> {
         let micros = u64::from(long(&about, 0)) | u64::from(long(&about, 4)) << 32;
         let begin = header.begin.map(Moment::seconds);
         let time = begin.map(|begin| Time::of_units(micros, MICROSECONDS, begin));
-        let original = usize::try_from(long(&about, 8)).unwrap_or(usize::MAX);
+        let original = to_usize(long(&about, 8));
         Ok((time, link_type(link), original))
     }
 
@@ -196,14 +197,14 @@ impl<R: Read> Input<R> {
     fn frame_table(&mut self, (offset, length): (u64, u64)) -> Option<Offsets> {
         let mut chunk = [0; TABLE_CHUNK];
         while self.offset < offset {
-            let rest = usize::try_from(offset.saturating_sub(self.offset)).unwrap_or(usize::MAX);
+            let rest = to_usize(offset.saturating_sub(self.offset));
             let rest = chunk.get_mut(..rest.min(TABLE_CHUNK))?;
             self.fill(rest).ok().filter(|whole| *whole)?;
         }
         let mut listed = Offsets::default();
         let mut rest = if self.offset == offset { length } else { 0 };
         while rest > 0 {
-            let part = usize::try_from(rest).unwrap_or(usize::MAX).min(TABLE_CHUNK);
+            let part = to_usize(rest).min(TABLE_CHUNK);
             let part = chunk.get_mut(..part)?;
             self.fill(part).ok().filter(|whole| *whole)?;
             part.chunks_exact(4).for_each(|four| listed.add(long(four, 0)));

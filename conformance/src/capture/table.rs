@@ -8,6 +8,7 @@ use super::endpoint::Endpoint;
 use super::frames::{FramePiece, Frames, Span};
 use super::link::TcpSegment;
 use super::tcp::{CapturePosition, DirectedSegment, DirectionState, ReassembledPiece};
+use crate::number::to_u32;
 
 /// Maximum number of connections that are followed at the same time; beyond that, the connection that
 /// was idle for the longest time is ended.
@@ -286,7 +287,7 @@ impl TcpConnection {
         direction_state.push(part, &mut |piece| feed(frames, piece, direction, is_ams, out));
         if segment.fin {
             let length = segment.payload.len().saturating_add(segment.missing);
-            let length = u32::try_from(length).unwrap_or(u32::MAX);
+            let length = to_u32(length);
             direction_state.end_at(segment.sequence.wrapping_add(length), mark);
         }
         if let (Some(other), Some(number)) = (self.direction_states.get_mut(other), acknowledged) {

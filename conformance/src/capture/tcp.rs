@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Bound;
 
 use super::time::Time;
+use crate::number::to_usize;
 
 /// Maximum number of bytes of one direction that wait for earlier bytes.
 pub(super) const AHEAD_MAX: usize = 0x10_0000;
@@ -166,7 +167,7 @@ impl DirectionState {
             self.hold(offset, part);
         } else if before < WINDOW {
             self.repeated = self.repeated.saturating_add(1);
-            let known = usize::try_from(before).unwrap_or(usize::MAX);
+            let known = to_usize(before);
             let fresh = part.payload.get(known..).unwrap_or_default();
             let missing = match known.checked_sub(part.payload.len()) {
                 Some(more) => part.missing.saturating_sub(more),
@@ -216,7 +217,7 @@ impl DirectionState {
         let missing = self.end.unwrap_or(got).saturating_sub(self.offset);
         if let (true, Some(mark)) = (missing > 0 && self.seen, self.acknowledged_by) {
             out(ReassembledPiece::Gap(missing, mark));
-            self.advance(usize::try_from(missing).unwrap_or(usize::MAX));
+            self.advance(to_usize(missing));
         }
     }
 
@@ -261,7 +262,7 @@ impl DirectionState {
             let Some(overlap) = self.offset.checked_sub(offset) else { return };
             let Some(early) = self.ahead.remove(&offset) else { return };
             self.buffered = self.buffered.saturating_sub(early.bytes.len());
-            let overlap = usize::try_from(overlap).unwrap_or(usize::MAX);
+            let overlap = to_usize(overlap);
             let fresh = early.bytes.get(overlap..).unwrap_or_default();
             let missing = match overlap.checked_sub(early.bytes.len()) {
                 Some(more) => early.missing.saturating_sub(more),
@@ -290,7 +291,7 @@ impl DirectionState {
         if let Some((&offset, early)) = first {
             let gap = offset.saturating_sub(self.offset);
             out(ReassembledPiece::Gap(gap, early.mark));
-            self.advance(usize::try_from(gap).unwrap_or(usize::MAX));
+            self.advance(to_usize(gap));
         }
         self.waiting = 0;
         self.follow(out);

@@ -19,6 +19,7 @@ use serde_json::json;
 use crate::ads_service;
 use crate::client::frame;
 use crate::codec::decode_stream;
+use crate::number::to_usize;
 use crate::rules::TargetVariable;
 use crate::text::json as json_text;
 
@@ -291,7 +292,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
             _ => false,
         };
         if is_private {
-            let start = usize::try_from(piece.offset).unwrap_or(usize::MAX);
+            let start = to_usize(piece.offset);
             places.push((start, start.saturating_add(piece.bytes.len()), spec.name == "name"));
         }
     });

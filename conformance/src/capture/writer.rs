@@ -33,6 +33,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::frame::{ACK, FIN, Flow, PSH, SYN};
 use crate::client::Tap;
+use crate::number::to_u32;
 
 /// The comment of a capture whose requests the suite sends.
 pub(super) const SUITE: &str = "the client is ads-cnc run";
@@ -165,7 +166,7 @@ impl Drop for Capture {
 /// A block: type, length, body padded to a multiple of four bytes, length again.
 fn block(kind: u32, body: &[u8]) -> Vec<u8> {
     let filled = body.len().next_multiple_of(4);
-    let length = u32::try_from(filled.saturating_add(12)).unwrap_or(u32::MAX);
+    let length = to_u32(filled.saturating_add(12));
     let mut block = kind.to_le_bytes().to_vec();
     block.extend(length.to_le_bytes());
     block.extend(body);
@@ -204,7 +205,7 @@ fn enhanced(packet: &[u8]) -> Vec<u8> {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     let time = u64::try_from(since.as_micros()).unwrap_or(u64::MAX).to_le_bytes();
     let (low, high) = time.split_at(4);
-    let length = u32::try_from(packet.len()).unwrap_or(u32::MAX).to_le_bytes();
+    let length = to_u32(packet.len()).to_le_bytes();
     let body = [&[0; 4], high, low, &length, &length, packet].concat();
     block(6, &body)
 }

@@ -15,6 +15,7 @@ use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Por
 use crate::edition::Edition;
 use crate::exit::Exit;
 use crate::judge::{Case, CaseSubject, Selection};
+use crate::number::to_usize;
 use crate::process::progress;
 use crate::report::{self, Detail, Report, RunInfo, SubjectReport, TargetReport};
 use crate::text::{Moment, plural};
@@ -32,6 +33,10 @@ const TRAFFIC: &str = "Traffic";
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES, after_long_help = AFTER)]
 pub(super) struct CheckArgs {
+    /// The time at which the command began.
+    #[arg(skip = Moment::now())]
+    begun: Moment,
+
     /// The capture to read
     file: PathBuf,
 
@@ -125,7 +130,7 @@ impl Read for CountedRead {
     fn read(&mut self, buf: &mut [u8]) -> io::Result<usize> {
         let len = self.file.read(buf)?;
         self.odd = self.odd.saturating_add(u64::try_from(len).unwrap_or(u64::MAX));
-        progress::steps(usize::try_from(self.odd / KIB).unwrap_or(usize::MAX));
+        progress::steps(to_usize(self.odd / KIB));
         self.odd %= KIB;
         Ok(len)
     }
@@ -171,7 +176,7 @@ impl CheckArgs {
         outcomes.retain(|outcome| selected.contains(&outcome.case.id));
         let (outcomes, left_out) = plan.finish(outcomes);
         let about = RunInfo {
-            time: Moment::now(),
+            time: self.begun,
             edition: self.edition,
             seed: 0,
             only: self.only.clone(),
@@ -185,7 +190,7 @@ impl CheckArgs {
             profile: None,
             found: None,
             waivers,
-            frames: usize::try_from(checked.tally.frames).unwrap_or(usize::MAX),
+            frames: to_usize(checked.tally.frames),
             again: None,
             times: Vec::new(),
             left_changed: Vec::new(),
@@ -231,7 +236,7 @@ impl CheckArgs {
         let vectors = self.extract_vectors.as_ref().map(|_| Collector::new(self.keep_texts));
         let file = File::open(&self.file)?;
         let all = file.metadata().map_or(0, |about| about.len() / KIB);
-        progress::begin(usize::try_from(all).unwrap_or(usize::MAX));
+        progress::begin(to_usize(all));
         let _watch = Watch::start("KiB");
         capture::check(CountedRead { file, odd: 0 }, CaptureOptions { ports, vectors })
     }

@@ -10,6 +10,7 @@ use super::name_args::{NameArgs, headline, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use crate::exit::Exit;
 use crate::named::find;
+use crate::number::to_u32;
 use crate::objects::{ListedValue, ObjectReport, ObjectsReport};
 use crate::session::ToolError;
 use crate::text::{hex, json};
@@ -72,7 +73,7 @@ impl Get {
         let mut session = self.model.open(&self.target)?.with_deadline(self.deadline.begin());
         let mut object = find(&mut session, &self.name.question())?;
         let bytes = session.read(&object.address)?;
-        object.ty = object.ty.fitted(u32::try_from(bytes.len()).unwrap_or(u32::MAX));
+        object.ty = object.ty.fitted(to_u32(bytes.len()));
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = if self.json {
             let one = ObjectReport::read(&object, &Ok(bytes.clone()));

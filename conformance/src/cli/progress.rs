@@ -6,6 +6,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use crate::number::to_u32;
 use crate::process::progress::{Counts, counts};
 use crate::text::plural;
 
@@ -149,7 +150,7 @@ pub(super) fn progress_text(counts: Counts, unit: &str, elapsed: Duration) -> St
     if failed > 0 {
         text.push_str(&format!(", {failed} failed"));
     }
-    let (done, left) = (u32::try_from(done).unwrap_or(u32::MAX), all.saturating_sub(done));
+    let (done, left) = (to_u32(done), all.saturating_sub(done));
     let left = elapsed.checked_div(done).map(|each| each * u32::try_from(left).unwrap_or(0));
     text.push_str(&format!(", {} s", elapsed.as_secs()));
     match left {

@@ -12,6 +12,7 @@ use super::progress::{LOG_INTERVAL, ProgressLine, UPDATE_INTERVAL, progress_text
 use super::report_output::{is_stdout, lost, show, write};
 use crate::exit::Exit;
 use crate::judge::any_seed;
+use crate::mutex::lock;
 use crate::process::progress::Counts;
 use crate::selftest::detection::Scope;
 use crate::selftest::{self, SelfTestProgress};
@@ -62,7 +63,7 @@ impl SelfTestArgs {
         let shown = Mutex::new((ProgressLine::new(), "", Instant::now()));
         let tell = |now: SelfTestProgress| {
             let SelfTestProgress { part, all, done, failed } = now;
-            let mut shown = shown.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            let mut shown = lock(&shown);
             let (line, last_part, begin) = &mut *shown;
             let is_new = *last_part != part;
             if is_new {
@@ -84,7 +85,7 @@ impl SelfTestArgs {
             Scope::Sample(seed)
         };
         let test = selftest::run(&self.only, scope, tell);
-        shown.lock().unwrap_or_else(std::sync::PoisonError::into_inner).0.clear();
+        lock(&shown).0.clear();
         if let Some(folder) = &self.renew {
             let table = &test.detection.table;
             let files = [("detection.tsv", table.to_text()), ("detection.md", table.to_markdown())];

@@ -21,6 +21,7 @@ use super::target::{
 };
 use crate::exit::Exit;
 use crate::named::{Lookup, by_name_alone, find};
+use crate::number::{to_u32, to_usize};
 use crate::objects::{ListedValue, ReportedAccess, ValueAddress};
 use crate::session::{Session, ToolError};
 use crate::values::{Type, parse, plain};
@@ -98,7 +99,7 @@ impl Set {
         let NewValue { old, ty, mut bytes } = self.value(&object, &mut session)?;
         if object.address.content().is_some() {
             // A content has a fixed size: the rest of a text is filled with zeros.
-            bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
+            bytes.resize(to_usize(size).max(bytes.len()), 0);
         }
         if session.is_simulated() && !self.target.has_file() {
             session = session.with_gate(simulator_gate(object.entry()))?;
@@ -148,7 +149,7 @@ impl Set {
             Err(error) => return Err(error),
         };
         let ty = match &old {
-            Some(old) => object.ty.clone().fitted(u32::try_from(old.len()).unwrap_or(u32::MAX)),
+            Some(old) => object.ty.clone().fitted(to_u32(old.len())),
             None => object.ty.clone(),
         };
         let bytes = parse(&ty, &self.value).map_err(|why| ToolError::Usage(why.to_string()))?;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::io::{self, Read as _, Write as _};
 use std::net::{Shutdown, SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,9 @@ use super::script::ScenarioScript;
 use super::tamper::SendStep;
 use crate::client::Tap;
 use crate::judge::Stop;
+use crate::mutex::lock;
 use crate::net;
+use crate::number::to_usize;
 use crate::simulator::{FRAME_MAX, NET_ID};
 use crate::text::plural;
 
@@ -180,11 +182,6 @@ struct TestRun {
     count: AtomicUsize,
     open: Mutex<usize>,
     closed: Condvar,
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // A panic leaves the data valid.
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl TestServer {
@@ -438,5 +435,5 @@ impl TestRun {
 /// read without the codec, which judges the frame later.
 fn frame_len(received: &[u8]) -> Option<usize> {
     let length = received.get(2..6)?.try_into().ok()?;
-    Some(usize::try_from(u32::from_le_bytes(length)).unwrap_or(usize::MAX).saturating_add(6))
+    Some(to_usize(u32::from_le_bytes(length)).saturating_add(6))
 }

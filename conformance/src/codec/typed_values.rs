@@ -7,6 +7,7 @@ use ads_cnc_vectors::{Context, Tagged, Type, Value};
 use super::CodecError;
 use super::field_reader::{bits, hex, integer, invalid, text};
 use super::fields::{data, element};
+use crate::number::{to_u32, to_usize};
 use crate::text::plural;
 
 /// Whether the elements of a field have a type: a value always has a type, a content only if the
@@ -53,9 +54,7 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
         }
     });
     let items: Vec<&Tagged> = items.collect::<Result<_, _>>()?;
-    let count = dimensions.iter().try_fold(1_usize, |count, &len| {
-        count.checked_mul(usize::try_from(len).unwrap_or(usize::MAX))
-    });
+    let count = dimensions.iter().try_fold(1_usize, |count, &len| count.checked_mul(to_usize(len)));
     if count != Some(items.len()) {
         let dimensions = U32List::from(dimensions);
         return Err(invalid(format_args!(
@@ -94,7 +93,7 @@ fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Co
         if each.windows(2).any(|two| two.first().map(Vec::len) != two.last().map(Vec::len)) {
             return Err(invalid("all texts of an array must have the same size"));
         }
-        let count = [u32::try_from(items.len()).unwrap_or(u32::MAX)];
+        let count = [to_u32(items.len())];
         Elements::new(data_type, U32List::from(&count), &bytes)?;
     }
     Ok(bytes)

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use crate::codec::class;
 use crate::exit::Exit;
+use crate::number::to_usize;
 use crate::text::hex::spaced;
 use crate::value_format::ValueFormat;
 
@@ -289,7 +290,7 @@ impl ExplainedFault {
     /// to an offset in the stream.
     pub(super) fn of(error: &Error, base: usize) -> Self {
         let field: Field = error.field();
-        let offset = size(error.offset()).saturating_sub(base);
+        let offset = to_usize(error.offset()).saturating_sub(base);
         // Omit the stream, because the part names it.
         let whole = error.to_string();
         let reason = whole.split_once(": ").map_or(whole.as_str(), |(_, rest)| rest);
@@ -305,11 +306,6 @@ impl ExplainedFault {
             text: format!("{name} at offset {offset}: {reason}"),
         }
     }
-}
-
-/// Converts a length from the wire.
-pub(super) fn size(number: u32) -> usize {
-    usize::try_from(number).unwrap_or(usize::MAX)
 }
 
 /// The sources of a requirement.

@@ -14,6 +14,7 @@ use super::codes;
 use super::explanation::{ExplainedFault, ExplainedStream, ServiceAddress};
 use super::part;
 use crate::ads_service::{reply_stream, request_stream, service_of};
+use crate::number::{to_u32, to_usize};
 use crate::text::plural;
 use crate::value_format::ValueFormat;
 
@@ -111,7 +112,7 @@ impl FrameExplainer<'_> {
     /// Adds an error for missing data at the end of a frame.
     fn cut(&mut self, header: &AmsHeader, there: usize) {
         let Some(part) = self.parts.last_mut() else { return };
-        let found = u32::try_from(there).unwrap_or(u32::MAX);
+        let found = to_u32(there);
         let expected = header.data_length;
         part.push_fault(ExplainedFault {
             class: "truncated",
@@ -235,7 +236,7 @@ fn halves(bytes: &[u8], at: usize) -> (&[u8], &[u8]) {
 /// The data in the stream of a service, as far as present, after its offset in the stream.
 fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
     let data = ads_cnc::layout::Field::by_name(stream, "data")?.spec()?;
-    let at = super::explanation::size(data.offset);
+    let at = to_usize(data.offset);
     bytes.get(at..).map(|data| (at, data))
 }
 

@@ -6,6 +6,7 @@ use ads_cnc::streaming::{self, LineError, NcText, check_line_ends};
 use super::codes::quoted;
 use super::explanation::{ExplainedFault, ExplainedField, ExplainedStream};
 use super::value::row;
+use crate::number::to_usize;
 
 /// A line: offset, text and line end.
 struct Line<'a> {
@@ -77,7 +78,7 @@ fn fault(part: &mut ExplainedStream, lines: &[Line<'_>], error: &LineError, what
 
 /// The offset of a column.
 fn place(lines: &[Line<'_>], line: u32, column: u32) -> usize {
-    let back = |number: u32| usize::try_from(number.saturating_sub(1)).unwrap_or(usize::MAX);
+    let back = |number: u32| to_usize(number.saturating_sub(1));
     lines.get(back(line)).map_or(0, |line| line.at.saturating_add(back(column)))
 }
 

@@ -3,9 +3,10 @@
 use ads_cnc::ErrorKind;
 use ads_cnc::layout::{Segment, Stream};
 
-use super::explanation::{ExplainedFault, ExplainedStream, size};
+use super::explanation::{ExplainedFault, ExplainedStream};
 use super::nc;
 use super::value;
+use crate::number::to_usize;
 use crate::value_format::ValueFormat;
 
 /// Explains a stream that begins at `at` of the input.
@@ -19,11 +20,11 @@ pub(super) fn of_stream(
     let (mut segments, fault) = walk(stream, bytes);
     if fault.is_some_and(|error| error.kind() == ErrorKind::TooLong) && segments.is_empty() {
         // If the stream is too long, show the fields up to the maximum length.
-        (segments, _) = walk(stream, bytes.get(..size(stream.layout().max)).unwrap_or(bytes));
+        (segments, _) = walk(stream, bytes.get(..to_usize(stream.layout().max)).unwrap_or(bytes));
     }
     let mut end = 0_usize;
     for segment in &segments {
-        end = size(segment.offset).saturating_add(segment.bytes.len());
+        end = to_usize(segment.offset).saturating_add(segment.bytes.len());
         match stream {
             Stream::ProgramStream => nc::add(&mut part, segment),
             _ => value::add(&mut part, stream, segment, values),

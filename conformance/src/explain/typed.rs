@@ -4,6 +4,7 @@ use ads_cnc::value::{DataType, Element, Elements};
 use ads_cnc::{Error, U32List};
 
 use super::codes::text_of;
+use crate::number::to_usize;
 
 /// An element of a value.
 pub(super) struct TypedElement {
@@ -20,7 +21,7 @@ pub(super) fn elements(
     bytes: &[u8],
 ) -> Result<Vec<TypedElement>, Error> {
     let elements = Elements::new(ty, U32List::from(dimensions), bytes)?;
-    let len = super::explanation::size(elements.shape().element_size());
+    let len = to_usize(elements.shape().element_size());
     let placed = (0_u32..).zip(elements);
     Ok(placed
         .map(|(item, one)| TypedElement {

@@ -7,8 +7,9 @@ use ads_cnc::value::DataType;
 use ads_cnc::{Synchronisation, Validity, VariableAccess, VariableType};
 
 use super::codes::{self, number, quoted, text};
-use super::explanation::{ExplainedFault, ExplainedField, ExplainedStream, size};
+use super::explanation::{ExplainedFault, ExplainedField, ExplainedStream};
 use super::typed;
+use crate::number::to_usize;
 use crate::text::plural;
 use crate::value_format::ValueFormat;
 
@@ -38,7 +39,7 @@ pub(super) fn add(
 /// The row of a segment, without its value.
 pub(super) fn row(segment: &Segment<'_>) -> ExplainedField {
     let mut row = ExplainedField::new(
-        size(segment.offset),
+        to_usize(segment.offset),
         segment.bytes,
         segment.field.name(),
         String::new(),

@@ -14,6 +14,7 @@ use std::fmt;
 
 use ads_cnc::layout::{Field, Segment, Size, Stream};
 
+use crate::number::to_usize;
 use crate::text::named;
 
 /// A defect of one field.
@@ -95,7 +96,7 @@ impl FieldDefect {
         // The walk ends at the first invalid field; the fields before that field are changed nevertheless.
         let _reached = self.sequence().walk(bytes, |segment: Segment<'_>| {
             if segment.field.name() == self.field.name() {
-                let start = usize::try_from(segment.offset).unwrap_or(usize::MAX);
+                let start = to_usize(segment.offset);
                 places.push((start, start.saturating_add(segment.bytes.len())));
             }
         });

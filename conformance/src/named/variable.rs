@@ -7,6 +7,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncStr, CncString, DescriptionRef, Handle, Kind, VariablePath};
 
 use super::Lookup;
+use crate::number::to_usize;
 use crate::objects::{ListedValue, ReportedAccess, ValueAddress, ValueList};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
@@ -40,7 +41,7 @@ fn reason(name: &str, error: &ads_cnc::Error) -> String {
         _ => error_text.rsplit(": ").next().unwrap_or_default(),
     };
     // Each character of CP1252 is one byte.
-    let offset = usize::try_from(error.offset()).unwrap_or(usize::MAX);
+    let offset = to_usize(error.offset());
     let front: String = name.chars().take(offset).collect();
     if front.is_empty() {
         format!("{what}, at the beginning")

@@ -4,11 +4,12 @@ use std::collections::VecDeque;
 use std::io::{self, BufRead, BufReader, Read, Write as _};
 use std::process::{ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{RunningCommand, interrupt};
+use crate::mutex::lock;
 use crate::text::{escape_lines, json_error, plural};
 
 /// Maximum length of a line in bytes. The longest valid answer has a few thousand bytes.
@@ -28,14 +29,14 @@ pub struct Stderr(Arc<Mutex<VecDeque<u8>>>);
 impl Stderr {
     /// The stored bytes as printable text.
     pub fn text(&self) -> String {
-        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = lock(&self.0);
         escape_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
     }
 
     fn collect(&self, mut from: impl Read) {
         let mut chunk = [0; 4096];
         while let Ok(len @ 1..) = from.read(&mut chunk) {
-            let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut kept = lock(&self.0);
             kept.extend(chunk.iter().take(len));
             let over = kept.len().saturating_sub(STDERR_MAX);
             kept.drain(..over);

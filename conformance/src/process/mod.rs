@@ -8,7 +8,7 @@ mod subprocess;
 
 use std::io;
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
 
 #[cfg(unix)]
@@ -16,6 +16,8 @@ use process_wrap::std::ProcessGroup;
 use process_wrap::std::{ChildWrapper, CommandWrap};
 #[cfg(windows)]
 use process_wrap::std::{CreationFlags, JobObject};
+
+use crate::mutex::lock;
 
 pub(crate) use lines::not_json;
 pub use lines::{LINE_MAX, LineProcess, RecvError, Stderr, cut, read_line, text};
@@ -114,9 +116,4 @@ pub(crate) fn end_all() {
         let _ended = lock(&child).start_kill();
     }
     std::mem::forget(running);
-}
-
-fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // The data is valid even after a panic of another thread.
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

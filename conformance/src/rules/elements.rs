@@ -14,6 +14,7 @@ use super::knowledge::ExchangeJudge;
 use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed, online};
+use crate::number::to_u32;
 use crate::text::plural;
 
 /// The type of an element with this type name: a type of variables, or REAL32.
@@ -108,7 +109,7 @@ impl ExchangeJudge<'_> {
                 return;
             }
             (Request::ReadElement(_), Some(Reply::Content(content))) => {
-                let given = u32::try_from(content.bytes.len()).unwrap_or(u32::MAX);
+                let given = to_u32(content.bytes.len());
                 if let Some(length) = element.length.filter(|length| call.read_length >= *length) {
                     let expected =
                         || format!("the {} of its length attribute", plural(length, "byte"));
@@ -120,7 +121,7 @@ impl ExchangeJudge<'_> {
                 let passed = element.writable != Some(false) || reply.is_none();
                 let expected = "an error number, because its write flag is FALSE";
                 record.check(assumed(SDA_9), passed, expected, "a success");
-                let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
+                let given = to_u32(write.content().bytes.len());
                 if let Some(length) = element.length {
                     let expected = || format!("the {} of the element", plural(length, "byte"));
                     let mut record = self.records.on(Topic::ClientSda, observation);

@@ -13,6 +13,7 @@ use super::topic::{Topic, TopicRecords};
 use crate::ads_service;
 use crate::exchange::{AdsReply, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
+use crate::number::to_u32;
 use crate::text::plural;
 
 /// Checks the headers of a reply.
@@ -135,7 +136,7 @@ pub(super) fn judge(
             let is_assumed = match &request {
                 Request::CountElements(_) => true,
                 Request::ReadDescriptors(_) => {
-                    let whole = u32::try_from(DESCRIPTOR_LEN).unwrap_or(u32::MAX);
+                    let whole = to_u32(DESCRIPTOR_LEN);
                     call.read_length.checked_rem(whole) != Some(0)
                 }
                 _ => false,

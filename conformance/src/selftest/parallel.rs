@@ -3,6 +3,8 @@
 use std::sync::Mutex;
 use std::thread;
 
+use crate::mutex::lock;
+
 /// The progress of a part of the self-test: the number of all, processed and failed items.
 #[derive(Clone, Copy, Debug)]
 pub struct SelfTestProgress {
@@ -52,8 +54,4 @@ pub(super) fn parallel<T: Sync, R: Send>(
         progress.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     results.sort_by_key(|(place, _)| *place);
     results.into_iter().map(|(_, result)| result).collect()
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }

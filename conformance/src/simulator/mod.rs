@@ -31,7 +31,6 @@ mod frames;
 mod in_process;
 mod inspect;
 mod model;
-mod number;
 mod owner;
 mod parameters;
 pub mod program;
@@ -51,5 +50,3 @@ pub use respond::{DATA_MAX, ReplyData};
 pub(crate) use respond::{FRAME_MAX, respond};
 pub use responder::Responder;
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, ReceiveBuffer, Server, ServerOptions};
-
-use number::{to_len, to_u32};

@@ -8,8 +8,8 @@ use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::{AdsService, Call, Task};
 use ads_cnc::{Encode, Error};
 
-use super::{to_len, to_u32};
 use crate::ads_service::service_of;
+use crate::number::{to_u32, to_usize};
 
 /// Maximum number of bytes after the AMS header. A longer received frame ends the connection; a
 /// request with a longer reply is rejected.
@@ -121,7 +121,7 @@ fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
         AdsError::INVALID_SIZE
     })?;
     let answer = cnc(&call.ok_or(AdsError::SERVICE_NOT_SUPPORTED)?)?;
-    let room = to_len(DATA_MAX).saturating_sub(SERVICE_LEN);
+    let room = to_usize(DATA_MAX).saturating_sub(SERVICE_LEN);
     if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
 }
 

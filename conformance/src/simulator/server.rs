@@ -6,7 +6,7 @@ mod options;
 use std::collections::BTreeMap;
 use std::io;
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
@@ -14,6 +14,7 @@ use ads_cnc::ads::AmsNetId;
 
 use super::Responder;
 use crate::gate::Gate;
+use crate::mutex::lock;
 use crate::net;
 
 pub use connection::ReceiveBuffer;
@@ -140,11 +141,6 @@ impl ServerState {
             }
         })
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // The data is valid even after a panic of another thread.
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 struct Open {

@@ -14,6 +14,7 @@ use super::row::{CaseRow, case};
 use crate::evidence::Evidence;
 use crate::exchange::Exchange;
 use crate::judge::{Checks as _, Needs, OrStop as _, Record, Rule, Step, Stop, assumed, online};
+use crate::number::to_u32;
 use crate::objects::KINDS;
 use crate::profile::Claim;
 use crate::text::hex::spaced;
@@ -129,7 +130,7 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     let gap = ranks.iter().find(|(rank, number)| rank.number() != number.number());
     let &(rank, number) = gap.or_not_applicable("every channel's number is its rank")?;
     same_by_rank(probe, ADR_11, rank, number)?;
-    let ranks = u32::try_from(ranks.len()).unwrap_or(u32::MAX);
+    let ranks = to_u32(ranks.len());
     let beyond = Channel::by_index(ranks.saturating_add(1))?;
     probe.rejects(
         ADR_11,

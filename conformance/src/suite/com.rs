@@ -11,6 +11,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, Step, assumed};
+use crate::number::to_usize;
 use crate::rules::check_descriptor;
 use crate::text::plural;
 
@@ -127,7 +128,7 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     reads.retain(in_list);
     let short = reads.iter().filter(|(_, count)| *count <= 3);
     let mut numbers: BTreeSet<u32> =
-        short.flat_map(|&(first, count)| (first..=number).take(usize_of(count))).collect();
+        short.flat_map(|&(first, count)| (first..=number).take(to_usize(count))).collect();
     numbers.extend(chosen);
     let mut singles = BTreeMap::new();
     for &first in &numbers {
@@ -140,7 +141,7 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         let together = probe.ask(COM_3, request)?;
         // A descriptor that was not read alone is not compared: the expected bytes are the received ones.
         let mut parts = together.chunks(DESCRIPTOR_LEN);
-        let alone = (first..=number).take(usize_of(count)).map(|number| {
+        let alone = (first..=number).take(to_usize(count)).map(|number| {
             let part = parts.next().unwrap_or_default();
             singles.get(&number).map_or(part, Vec::as_slice)
         });
@@ -156,10 +157,6 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         probe.check(COM_3, together == alone, expected, found);
     }
     Ok(())
-}
-
-fn usize_of(number: u32) -> usize {
-    usize::try_from(number).unwrap_or(usize::MAX)
 }
 
 fn end_of_list(probe: &mut Probe<'_>) -> Step {

@@ -9,6 +9,7 @@ use super::kit::{ItemKind, Probe, name_of};
 use super::row::{CaseRow, case};
 use crate::edition::Feature;
 use crate::judge::{Checks as _, Needs, OrStop as _, Step, Stop, assumed, online};
+use crate::number::to_usize;
 use crate::profile::Claim;
 use crate::rules::check_extended;
 use crate::text::plural;
@@ -56,7 +57,7 @@ fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> 
     let exchange = probe.send(request)?;
     let data = exchange.reply().and_then(|reply| reply.data.clone());
     let empty = data.as_ref().is_none_or(Vec::is_empty);
-    let whole = usize::try_from(exchange.read_length).unwrap_or(usize::MAX);
+    let whole = to_usize(exchange.read_length);
     let padded = |data: &Vec<u8>| data.len() == whole && data.iter().all(|&byte| byte == 0);
     let is_padded = data.as_ref().is_some_and(padded);
     probe.check(ADS_3, !is_padded, "no bytes after the data", &exchange);

@@ -14,6 +14,7 @@ use super::kit::{
 use crate::client::InquiryReply;
 use crate::edition::Edition;
 use crate::judge::{IfPresent as _, Step, Stop};
+use crate::number::to_u32;
 use crate::objects::{ValueList, Walker, active_channels, decoder_of, has_variables};
 use crate::report::{FoundChannel, FoundList, FoundReport};
 
@@ -36,7 +37,7 @@ pub struct Discovery {
 impl Discovery {
     /// Estimates the time for a number of requests from the time of the queries of the discovery.
     pub fn time_for(&self, requests: u64) -> Duration {
-        let each = self.time.checked_div(u32::try_from(self.found.requests).unwrap_or(u32::MAX));
+        let each = self.time.checked_div(to_u32(self.found.requests));
         let nanoseconds = each.unwrap_or_default().as_nanos().saturating_mul(requests.into());
         Duration::from_nanos(u64::try_from(nanoseconds).unwrap_or(u64::MAX))
     }
@@ -96,7 +97,7 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
         found.channels.push(FoundChannel { number, axes: places.max().unwrap_or_default() });
     }
     let spindles = instances.iter().filter(|one| one.class == Class::Spindle).count();
-    found.spindles = u32::try_from(spindles).unwrap_or(u32::MAX);
+    found.spindles = to_u32(spindles);
     let profile = &probe.target.profile;
     found.platform_axes = match by {
         ClaimsBy::Queries => profile.platform_axes,
@@ -180,7 +181,8 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     Ok(found_ports)
 }
 
-/// Sends the requests of a walk whose functions are claimed; the others count as rejected.
+/// Sends a request of a walk if the profile claims the function of the request. Other requests are not sent,
+/// and count as rejected.
 struct IfClaimed<'p, 's>(&'p mut Probe<'s>);
 
 impl Walker for IfClaimed<'_, '_> {

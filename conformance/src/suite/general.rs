@@ -14,6 +14,7 @@ use ads_cnc_vectors::ids::*;
 use super::kit::{Probe, RawCall, name_of, name_on_axes};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed, online};
+use crate::number::to_u32;
 use crate::text::plural;
 
 #[rustfmt::skip]
@@ -88,7 +89,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let Some(value) = probe.try_ask(read)? else { continue };
             // If only one of the two sizes differs, the description or the value is wrong, not the
             // size of the type.
-            let read = u32::try_from(value.len()).unwrap_or(u32::MAX);
+            let read = to_u32(value.len());
             let sized = [variable.size, read].contains(&whole);
             let expected = || format!("{} for {}", plural(whole, "byte"), variable.var_type);
             let found =

@@ -9,6 +9,7 @@ use ads_cnc_vectors::{ClauseId, Direction, Hex, ProvenanceKind, Vector, vector, 
 use super::kit::{Probe, RawCall};
 use crate::evidence::Evidence;
 use crate::judge::{Body, Case, Needs, Rule, Step, Stop, case_of, typed};
+use crate::number::to_usize;
 use crate::text::hex::spaced;
 
 /// An example that contradicts another example of the same variable (E-27): no CNC can satisfy both.
@@ -91,7 +92,7 @@ fn wrong_requirements<'v>(
     let mut clauses = Vec::new();
     // A printed reply always decodes completely.
     let _walked = stream.walk(expected, |segment| {
-        let at = usize::try_from(segment.offset).unwrap_or(usize::MAX);
+        let at = to_usize(segment.offset);
         let same = received.get(at..at.saturating_add(segment.bytes.len())) == Some(segment.bytes);
         if !same {
             clauses.extend(segment.field.spec().map(|spec| spec.clause));

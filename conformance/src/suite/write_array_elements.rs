@@ -8,6 +8,7 @@ use ads_cnc_vectors::{ClauseId, Hex};
 use super::kit::{Probe, each_of_access, handle_of, same, write_check};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
+use crate::number::to_usize;
 use crate::objects::ValueAddress;
 
 #[rustfmt::skip]
@@ -41,7 +42,7 @@ fn number_of(place: &[u32], dimensions: &[u32]) -> usize {
         .iter()
         .zip(dimensions)
         .fold(0_u32, |number, (&index, &count)| number.saturating_mul(count).saturating_add(index));
-    usize::try_from(number).unwrap_or(usize::MAX)
+    to_usize(number)
 }
 
 fn elements(

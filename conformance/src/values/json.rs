@@ -4,6 +4,7 @@ use ads_cnc::Element;
 use serde_json::Value;
 
 use super::{Type, printable};
+use crate::number::to_usize;
 
 /// Converts a value to JSON: a number, a boolean, a string, or nested arrays of these with one
 /// level for each dimension. A REAL that is not a JSON number becomes a string such as `NaN`.
@@ -23,7 +24,7 @@ pub fn value_of(ty: &Type, bytes: &[u8]) -> Option<Value> {
     let mut dimensions = ty.dimensions.iter().rev();
     let Some(mut row) = dimensions.next().copied() else { return values.pop() };
     for &outer in dimensions {
-        let len = usize::try_from(row).unwrap_or(usize::MAX).max(1);
+        let len = to_usize(row).max(1);
         values = values.chunks(len).map(|chunk| Value::Array(chunk.to_vec())).collect();
         row = outer;
     }

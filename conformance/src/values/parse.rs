@@ -6,6 +6,7 @@ use ads_cnc::value::{Boolean, DataType, EncodeValue as _, Scalar, Shape};
 use ads_cnc::{CncStr, U32List};
 
 use super::Type;
+use crate::number::{to_u32, to_usize};
 use crate::text::plural;
 
 /// The error for a text that is not a value of its type.
@@ -121,7 +122,7 @@ fn within<T: std::fmt::Debug>(
 
 /// Checks the number of elements. Any number is accepted if the dimensions are unknown.
 fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
-    let count = u32::try_from(given).unwrap_or(u32::MAX);
+    let count = to_u32(given);
     if ty.size.is_none() && ty.dimensions.is_empty() {
         return Ok(if count == 1 { Vec::new() } else { vec![count] });
     }
@@ -168,7 +169,7 @@ fn flat(ty: &Type, text: &str) -> Result<Option<String>, InvalidValue> {
     // The number of elements of a row, of a plane and so on, each of which starts and ends with a
     // bracket.
     let rows = ty.dimensions.iter().rev().scan(1_usize, |size, &len| {
-        *size = size.saturating_mul(usize::try_from(len).unwrap_or(usize::MAX));
+        *size = size.saturating_mul(to_usize(len));
         Some(*size)
     });
     let rows: Vec<usize> = rows.collect();
@@ -197,8 +198,8 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
     let texts: Vec<CncStr<'_>> =
         all.iter().map(|text| encoded(text.as_str())).collect::<Result<_, _>>()?;
     let longest = texts.iter().map(CncStr::len).max().unwrap_or(0).saturating_add(1);
-    let longest = u32::try_from(longest).unwrap_or(u32::MAX);
-    let count = u32::try_from(texts.len()).unwrap_or(u32::MAX).max(1);
+    let longest = to_u32(longest);
+    let count = to_u32(texts.len()).max(1);
     let size = ty.size.unwrap_or(longest.saturating_mul(count));
     let each = size.checked_div(count).unwrap_or(0);
     if longest > each {
@@ -210,7 +211,7 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
         )));
     }
     let shape = Shape::new(DataType::String, U32List::from(dimensions.as_slice()), size);
-    let mut room = vec![0; usize::try_from(size).unwrap_or(usize::MAX)];
+    let mut room = vec![0; to_usize(size)];
     let done = shape.and_then(|shape| shape.encode_texts(&texts, &mut room).map(<[u8]>::to_vec));
     done.map_err(|error| InvalidValue(error.to_string()))
 }

@@ -4,6 +4,7 @@ use ads_cnc::Element;
 use ads_cnc::text::cp1252_to_char;
 
 use super::Type;
+use crate::number::to_usize;
 use crate::text::escape;
 
 /// Maximum width of a line.
@@ -98,7 +99,7 @@ pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let texts: Vec<String> = elements.iter().map(display).collect();
     let Some(&row) = ty.dimensions.last() else { return Some(texts) };
-    let row = usize::try_from(row).unwrap_or(usize::MAX).max(1);
+    let row = to_usize(row).max(1);
     let widest = |texts: &[String]| texts.iter().map(|text| text.chars().count()).max();
     let (width, is_text) = (widest(&texts).unwrap_or(0), texts.iter().any(|t| t.starts_with('"')));
     let fit = WIDTH.checked_div(width.saturating_add(2)).unwrap_or(1).clamp(1, PER_LINE);
@@ -120,7 +121,7 @@ pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
 fn indices(at: usize, dimensions: &[u32]) -> String {
     let (mut left, mut all) = (at, Vec::new());
     for &len in dimensions.iter().rev() {
-        let len = usize::try_from(len).unwrap_or(usize::MAX);
+        let len = to_usize(len);
         all.push(left.checked_rem(len).unwrap_or(0));
         left = left.checked_div(len).unwrap_or(0);
     }

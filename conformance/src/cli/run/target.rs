@@ -14,6 +14,7 @@ use crate::faults::{Faulty, SeededDefect};
 use crate::judge::{
     Case, CaseOutcome, CaseSubject, Needs, Plan, RequirementVerdict, Verdict, Waivers,
 };
+use crate::number::to_usize;
 use crate::profile::Profile;
 use crate::report::{DeviceReport, Report, RunInfo, TargetReport};
 use crate::session::{self, ToolError};
@@ -147,9 +148,7 @@ impl Run {
                 let begin = Instant::now();
                 if let Some(most) = self.max_fail {
                     let failed = outcomes.iter().filter(|one| one.verdict().is_failure()).count();
-                    session.stop_after(
-                        usize::try_from(most).unwrap_or(usize::MAX).saturating_sub(failed),
-                    );
+                    session.stop_after(to_usize(most).saturating_sub(failed));
                 }
                 let target = (subject == CaseSubject::Target).then_some(&mut session);
                 outcomes.extend(suite::run(cases, target, defect, about.seed));

@@ -4,7 +4,7 @@ use std::io::{Read, Write as _};
 use std::process::{self, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -12,6 +12,7 @@ use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 
 use super::response::{CommandEnd, STDOUT_MAX, ServiceResponse, answer};
+use crate::mutex::lock;
 use crate::process::RunningCommand;
 use crate::process::interrupt::Interrupt;
 
@@ -137,7 +138,7 @@ impl CapturedOutput {
     }
 
     fn bytes(&self) -> Vec<u8> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        lock(&self.kept).clone()
     }
 }
 
@@ -146,7 +147,7 @@ impl CapturedOutput {
 fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     let mut chunk = [0; 4096];
     while let Ok(len @ 1..) = from.read(&mut chunk) {
-        let mut kept = keep.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = lock(keep);
         let room = STDOUT_MAX.saturating_sub(kept.len());
         kept.extend(chunk.iter().take(len.min(room)));
     }

@@ -13,6 +13,7 @@ use super::error::ActionError;
 use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
 use crate::client_suite::CncAddress;
 use crate::net;
+use crate::number::to_usize;
 use crate::simulator::DATA_MAX;
 use crate::text::plural;
 
@@ -165,7 +166,7 @@ impl Connection {
             let data = answer.data.unwrap_or_default();
             let lenient =
                 [ClientFault::CutsOff, ClientFault::FillsUpValue].map(Some).contains(&self.fault);
-            let most = usize::try_from(outgoing.length).unwrap_or(usize::MAX);
+            let most = to_usize(outgoing.length);
             if data.len() > most && !lenient {
                 return Err(
                     format!("{} for a read length of {most}", plural(data.len(), "byte")).into()

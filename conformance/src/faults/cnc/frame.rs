@@ -5,6 +5,7 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::{CncDefect, CncFault, Upstream, fault, set_u32, u32_at};
+use crate::number::to_u32;
 
 /// The offsets of fields in a frame, from the start of the AMS/TCP header.
 pub(super) const TCP_LENGTH: usize = 2;
@@ -29,7 +30,7 @@ pub(super) const fn sent(
 
 /// The frame with its length fields corrected.
 pub(in crate::faults) fn measured(mut bytes: Vec<u8>) -> Vec<u8> {
-    let length = u32::try_from(bytes.len()).unwrap_or(u32::MAX);
+    let length = to_u32(bytes.len());
     set_u32(&mut bytes, TCP_LENGTH, length.saturating_sub(6));
     set_u32(&mut bytes, DATA_LENGTH, length.saturating_sub(38));
     bytes

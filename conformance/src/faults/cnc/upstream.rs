@@ -1,6 +1,6 @@
 //! The CNC without the defect, and the memory of a defect.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort};
@@ -8,6 +8,7 @@ use ads_cnc::operation::{AdsService, Call, Function};
 
 use super::ReplyData;
 use super::request::{at, group, is, offset};
+use crate::mutex::lock;
 use crate::simulator::Cnc;
 
 /// The CNC without the defect, and the memory of the defect.
@@ -116,8 +117,7 @@ impl Upstream<'_> {
     }
 
     pub(in crate::faults) fn memory(&self) -> MutexGuard<'_, Memory> {
-        // A panic leaves the memory valid.
-        self.memory.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.memory)
     }
 
     /// The numbers of the CNC's channels.

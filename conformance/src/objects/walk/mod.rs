@@ -37,9 +37,9 @@ const NOTES_MAX: usize = 1_000;
 pub struct Options {
     /// The channels; empty for all.
     pub channels: Vec<Channel>,
-    /// The lists, by the displayed name of [`ValueList`].
+    /// A pattern of the names of the lists to walk, such as "HLD channel 1"; `None` for all.
     pub lists: Option<Pattern>,
-    /// The names of the objects.
+    /// A pattern of the names of the objects to list; `None` for all.
     pub names: Option<Pattern>,
     /// Whether to list variables and parameters instead of objects and elements.
     pub variables: bool,

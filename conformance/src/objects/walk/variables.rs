@@ -7,6 +7,7 @@ use ads_cnc::{Description, VariableCount};
 
 use super::super::{ListedValue, ValueList};
 use super::{KINDS, OBJECTS_MAX, Walk, Walker as _};
+use crate::number::to_usize;
 use crate::session::ToolError;
 
 impl Walk<'_> {
@@ -57,7 +58,7 @@ impl Walk<'_> {
             return Ok(());
         };
         let most = count.min(OBJECTS_MAX);
-        let answered = self.each((first..).take(count_of(most)), |walk, index| {
+        let answered = self.each((first..).take(to_usize(most)), |walk, index| {
             let Some(object) = object(walk, index)? else { return Ok(false) };
             if walk.is_named(&object.name) {
                 walk.add(object)?;
@@ -71,8 +72,4 @@ impl Walk<'_> {
         }
         Ok(())
     }
-}
-
-fn count_of(count: u32) -> usize {
-    usize::try_from(count).unwrap_or(usize::MAX)
 }

@@ -8,6 +8,7 @@ use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
 use ads_cnc::{Decode, Descriptors, Kind, ObjectCount};
 
 use super::super::ListedValue;
+use crate::number::to_u32;
 
 /// Number of consecutive rejected numbers after which a list ends.
 pub const GAP: u32 = 8;
@@ -104,7 +105,7 @@ pub(crate) trait Walker: Sized {
                 Err(_) => None,
             };
             let given = given.unwrap_or_default();
-            match u32::try_from(given.len()).unwrap_or(u32::MAX) {
+            match to_u32(given.len()) {
                 len if (1..=most).contains(&len) => {
                     let objects =
                         given.iter().map(|one| ListedValue::of_descriptor(list.into(), one));

@@ -1,7 +1,7 @@
 //! The simulated CNCs that the suite tests in the way in which it tests a device.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use ads_cnc::address::{Channel, ChannelAxis};
 
@@ -11,6 +11,7 @@ use crate::edition::Edition;
 use crate::faults::{Faulty, FieldDefect, SeededDefect};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::judge::{CaseOutcome, Needs, Selection};
+use crate::mutex::lock;
 use crate::objects::{self, ListedValue, Options};
 use crate::profile::Profile;
 use crate::session::{Session, ToolError};
@@ -217,7 +218,7 @@ pub(super) fn answers(
 fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
     static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
     let devices = DEVICES.get_or_init(Mutex::default);
-    let mut devices = devices.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut devices = lock(devices);
     if let Some(device) = devices.get(model) {
         return Ok(device);
     }

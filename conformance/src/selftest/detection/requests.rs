@@ -29,6 +29,7 @@ pub(super) use self::configurable::Compare;
 use self::configurable::ConfigurableReplies;
 use crate::client::{Client, Inquiry};
 use crate::exchange::ExchangeError;
+use crate::number::to_u32;
 use crate::simulator::Cnc;
 use crate::simulator::program::digest;
 use crate::text::hex::compact;
@@ -148,8 +149,8 @@ impl ReplyRecorder<'_> {
         self.elements();
     }
 
-    /// Sends a request if the gate allows it, and its malformed variants; returns the data of a successful
-    /// reply.
+    /// Sends a request if the gate of the tool allows it, and then, for the first requests of each function,
+    /// malformed variants of it; returns the data of a successful reply.
     fn ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];
@@ -180,7 +181,7 @@ impl ReplyRecorder<'_> {
         for port in [0, 550, 551, 552, 553, 554, 10_000, 65_535].map(AmsPort) {
             self.call(&Call { port, ..*call });
         }
-        let answered = u32::try_from(answered).unwrap_or(u32::MAX);
+        let answered = to_u32(answered);
         for read_length in [0, 1, answered.saturating_sub(1), answered, u32::MAX] {
             self.call(&Call { read_length, ..*call });
         }

@@ -8,8 +8,8 @@ use ads_cnc::operation::{
 };
 
 use super::{AnsweringCnc, ReplyData, encode};
+use crate::number::{to_u32, to_usize};
 use crate::simulator::parameters::ParameterState;
-use crate::simulator::{to_len, to_u32};
 
 impl AnsweringCnc<'_> {
     pub(super) fn count_dynamic(&self, op: &CountDynamic) -> ReplyData {
@@ -41,7 +41,7 @@ impl AnsweringCnc<'_> {
         kind: DynamicKind,
         index: u32,
     ) -> Result<&ParameterState, AdsError> {
-        let before = to_len(index).checked_sub(1).ok_or(AdsError::INVALID_DATA)?;
+        let before = to_usize(index).checked_sub(1).ok_or(AdsError::INVALID_DATA)?;
         self.state.parameters(channel, kind).nth(before).ok_or(AdsError::INVALID_DATA)
     }
 }

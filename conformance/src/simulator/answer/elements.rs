@@ -9,10 +9,10 @@ use ads_cnc::sda::{ElementCount, ElementLength, ElementTextRef, ElementWriteFlag
 use ads_cnc::{CncStr, ContentRef, TextRef};
 
 use super::{AnsweringCnc, ReplyData, encode};
+use crate::number::{to_u32, to_usize};
 use crate::simulator::content;
 use crate::simulator::model::Item;
 use crate::simulator::owner::Owner;
-use crate::simulator::{to_len, to_u32};
 
 /// The type of the first element of an instance, which contains the number of the other elements.
 const COUNT_TYPE: &str = "UNS32";
@@ -99,7 +99,7 @@ impl AnsweringCnc<'_> {
         let ClassGroup { addressing, class, instance, .. } = address.class_group();
         let split = address.index_offset().axis_and_element(stride(class, instance));
         let (axis, element) = split.map_err(|_| AdsError::INVALID_OFFSET)?;
-        let at = to_len(axis).checked_sub(1);
+        let at = to_usize(axis).checked_sub(1);
         let platform = |owner: fn(Class, usize) -> Owner| match at {
             Some(axis) if axis < self.model.axes.len() => Ok(owner(class, axis)),
             _ => Err(AdsError::INVALID_OFFSET),
@@ -115,7 +115,7 @@ impl AnsweringCnc<'_> {
             (class, number) => self.of_channel(addressing, class, number, at)?,
         };
         let count = content::items(self.model, owner).len();
-        match to_len(element).checked_sub(1) {
+        match to_usize(element).checked_sub(1) {
             Some(index) if index >= count => Err(AdsError::INVALID_OFFSET),
             index => Ok((owner, index)),
         }

@@ -5,7 +5,7 @@ mod elements;
 mod objects;
 mod variables;
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 use std::time::Duration;
 
 use ads_cnc::address::Channel;
@@ -18,7 +18,9 @@ use super::frames::Frames;
 use super::program::Policy;
 use super::respond::respond;
 use super::state::CncState;
-use super::{Model, ModelError, ReplyData, Responder, program, to_u32};
+use super::{Model, ModelError, ReplyData, Responder, program};
+use crate::mutex::lock;
+use crate::number::to_u32;
 
 /// The simulated CNC: a model, and its state under one lock.
 #[derive(Debug)]
@@ -107,9 +109,7 @@ impl Cnc {
 
     /// The CNC at the current time.
     fn answering(&self) -> AnsweringCnc<'_> {
-        // Ignore that the lock may be poisoned: no panic can occur while the lock is held, and the
-        // state would be valid even after a panic.
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut state = lock(&self.state);
         let now = self.now();
         state.advance(now);
         AnsweringCnc { model: &self.model, state, now }

@@ -6,9 +6,9 @@ use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject, 
 use ads_cnc::{ContentRef, Descriptors, DescriptorsRef, ObjectCount};
 
 use super::{AnsweringCnc, ReplyData, encode};
+use crate::number::{to_u32, to_usize};
 use crate::simulator::content;
 use crate::simulator::owner::Owner;
-use crate::simulator::{to_len, to_u32};
 
 impl AnsweringCnc<'_> {
     pub(super) fn count_objects(&self, op: &CountObjects) -> ReplyData {
@@ -17,8 +17,8 @@ impl AnsweringCnc<'_> {
 
     pub(super) fn descriptors(&self, op: &ReadDescriptors) -> ReplyData {
         let list = self.objects(op.list())?;
-        let first = to_len(op.first()).checked_sub(1).ok_or(AdsError::INVALID_OFFSET)?;
-        let asked = list.slice(first, to_len(op.count()));
+        let first = to_usize(op.first()).checked_sub(1).ok_or(AdsError::INVALID_OFFSET)?;
+        let asked = list.slice(first, to_usize(op.count()));
         if asked.is_empty() { Err(AdsError::INVALID_OFFSET) } else { encode(asked) }
     }
 
@@ -60,7 +60,7 @@ impl AnsweringCnc<'_> {
     fn object(&self, (com, offset): (ComGroup, IndexOffset)) -> Result<(Owner, usize), AdsError> {
         let split = offset.axis_and_element(AxisStride::X10000);
         let (axis, element) = split.map_err(|_| AdsError::INVALID_OFFSET)?;
-        let at = to_len(axis).checked_sub(1);
+        let at = to_usize(axis).checked_sub(1);
         let (owner, index) = match (com.table, com.instance) {
             (ComTable::Channel, 0) => {
                 (Owner::Platform, self.model.platform.at(element).filter(|_| at.is_none()))

@@ -18,9 +18,9 @@ use ads_cnc::{
 
 use self::resolve::{Resolved, UNKNOWN, parameter};
 use super::{AnsweringCnc, ReplyData, encode};
+use crate::number::to_u32;
 use crate::simulator::content::{check_size, copy_padded};
 use crate::simulator::model::VariableRef;
-use crate::simulator::to_u32;
 
 impl AnsweringCnc<'_> {
     pub(super) fn count_variables(&self, op: &CountVariables<'_>) -> ReplyData {

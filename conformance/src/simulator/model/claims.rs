@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{ContentSource, Model};
+use crate::number::to_u32;
 use crate::profile::Profile;
 
 impl Model {
@@ -11,7 +12,7 @@ impl Model {
     pub fn profile(&self) -> Profile {
         let active = || self.channels.iter().filter(|channel| channel.active);
         let is_absent = |number: &u8| !self.channels.iter().any(|one| one.number == *number);
-        let count = |many: usize| u32::try_from(many).unwrap_or(u32::MAX);
+        let count = |many: usize| to_u32(many);
         let empty = active().flat_map(|channel| {
             let places = (1_u32..).zip(&channel.places);
             let empty = places.filter(|(_, axis)| axis.is_none());

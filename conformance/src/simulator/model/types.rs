@@ -20,7 +20,7 @@ pub(super) enum ScalarType {
     Signed(usize),
     Real32,
     Real64,
-    /// Text of the declared length, including a NUL.
+    /// Text. The declared length includes the NUL.
     String,
 }
 

@@ -7,7 +7,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncString, ExtendedDescription, Handle, U32List, VariableAccess, VariableType};
 
 use super::item::Initial;
-use crate::simulator::to_len;
+use crate::number::to_usize;
 
 /// A variable, or the V.A variable of every axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,8 +48,8 @@ impl Variable {
             if index >= elements {
                 return None;
             }
-            place = place.checked_mul(to_len(elements))?.checked_add(to_len(index))?;
-            count = count.checked_mul(to_len(elements))?;
+            place = place.checked_mul(to_usize(elements))?.checked_add(to_usize(index))?;
+            count = count.checked_mul(to_usize(elements))?;
         }
         let size = self.initial.size.checked_div(count)?;
         let start = place.checked_mul(size)?;

@@ -10,6 +10,7 @@ use ads_cnc_vectors::ids::*;
 use self::LengthRule::{Fixed, Open};
 use crate::ads_service::clause;
 use crate::judge::{Checks as _, IfPresent as _, Rule, Step, assumed};
+use crate::number::to_u32;
 use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
 use crate::text::plural;
@@ -104,7 +105,7 @@ fn lengths(
     let rule = clause(call.service);
     let whole = probe.call(call)?;
     let Some(whole) = whole.success().filter(|data| !data.is_empty()) else { return Ok(()) };
-    let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
+    let there = to_u32(whole.len());
     let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
         let call = call.with(|call| call.read_length = read_length);
         // The gate may reject other lengths.

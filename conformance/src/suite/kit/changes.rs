@@ -8,12 +8,13 @@
 )]
 
 use std::collections::BTreeSet;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 
 use ads_cnc::CncString;
 use ads_cnc_vectors::Hex;
 
 use crate::judge::UnrestoredValue;
+use crate::mutex::lock;
 use crate::objects::ValueAddress;
 use crate::text::escape;
 
@@ -60,7 +61,7 @@ impl Changes {
 
     /// The names of all values that have been changed so far.
     pub fn written(&self) -> Vec<String> {
-        let written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        let written = lock(&self.written);
         written.iter().cloned().collect()
     }
 
@@ -86,7 +87,7 @@ impl Changes {
 
     /// Records that the value may differ from the original one from now on.
     pub(super) fn begin(&self, change: Change) {
-        let mut written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut written = lock(&self.written);
         written.insert(change.what.clone());
         self.all().push(change);
     }
@@ -104,7 +105,6 @@ impl Changes {
     }
 
     pub(super) fn all(&self) -> MutexGuard<'_, Vec<Change>> {
-        // A panic leaves the list valid.
-        self.all.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.all)
     }
 }

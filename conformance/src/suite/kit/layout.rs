@@ -6,6 +6,7 @@ use ads_cnc_vectors::Level;
 use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Rule, Step, assumed};
+use crate::number::to_usize;
 use crate::rules::element_count;
 
 /// Size of one element in bytes. The size of a text in an array is the size of the array divided by the
@@ -29,7 +30,7 @@ fn is_tried(number: usize, count: usize) -> bool {
 pub(crate) fn places_tried(
     dimensions: &[u32],
 ) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
-    let count = usize::try_from(element_count(dimensions)).unwrap_or(usize::MAX);
+    let count = to_usize(element_count(dimensions));
     // A value has at most 2048 elements.
     let all = places(dimensions).take(2048).enumerate();
     all.filter(move |(number, _)| is_tried(*number, count))

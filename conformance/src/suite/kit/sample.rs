@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::judge::order;
+use crate::number::to_u32;
 
 /// Maximum number of items that are read of every list.
 const ITEMS_MAX: u32 = 10_000;
@@ -45,7 +46,7 @@ impl Sample {
         let begin = |part: u32| {
             let items = u64::from(last.saturating_sub(first)).saturating_mul(part.into());
             let items = items.checked_div(parts.into()).unwrap_or_default();
-            first.saturating_add(u32::try_from(items).unwrap_or(u32::MAX))
+            first.saturating_add(to_u32(items))
         };
         let between = (0..parts).map(|part| {
             let (begin, end) = (begin(part), begin(part.saturating_add(1)));
@@ -58,7 +59,7 @@ impl Sample {
 
     /// The selected items of a list that is already known.
     pub(crate) fn among<T>(self, items: Vec<T>, most: u32) -> Vec<T> {
-        let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
+        let count = to_u32(items.len());
         let chosen = self.of(0..count, most);
         let numbered = (0..).zip(items);
         let kept = numbered.filter(|(number, _)| chosen.binary_search(number).is_ok());

@@ -9,8 +9,8 @@ use ads_cnc_vectors::ids::*;
 
 use super::AnsweringCnc;
 use crate::edition::Feature;
+use crate::number::to_usize;
 use crate::simulator::model::{ChannelModel, Variable, VariableRef, handle_at, parameter_kind};
-use crate::simulator::to_len;
 
 /// The result of resolving a name on the channel interface.
 pub(super) enum Resolved {
@@ -67,7 +67,7 @@ impl AnsweringCnc<'_> {
         kind: Kind<'_>,
         index: u32,
     ) -> Result<VariableRef, AdsError> {
-        self.of_kind(channel, kind).nth(to_len(index)).ok_or(AdsError::INVALID_DATA)
+        self.of_kind(channel, kind).nth(to_usize(index)).ok_or(AdsError::INVALID_DATA)
     }
 
     pub(super) fn by_handle(

@@ -13,7 +13,7 @@ use super::super::item::{
 use super::super::types::{self, NamedType, ScalarType};
 use super::super::{ModelError, class_place};
 use super::parse::text;
-use crate::simulator::to_len;
+use crate::number::to_usize;
 use crate::text::plural;
 
 /// Maximum size of a content in bytes, so that it fits into a frame with result and length.
@@ -53,11 +53,11 @@ impl DeclaredValue<'_> {
                 let why = format!("size is only for a STRING; {name} has a fixed size");
                 return Err(self.source.error(&size.span(), why));
             }
-            (None, None) => to_len(STRING_DEFAULT),
+            (None, None) => to_usize(STRING_DEFAULT),
             (None, Some(size)) if *size.get_ref() == 0 => {
                 return Err(self.source.error(&size.span(), "the size of a STRING includes a NUL"));
             }
-            (None, Some(size)) => to_len(*size.get_ref()),
+            (None, Some(size)) => to_usize(*size.get_ref()),
         };
         let size = each.saturating_mul(self.count.unwrap_or(1));
         if size > self.max {

@@ -11,7 +11,7 @@ use super::super::document::{Document, ObjectRow};
 use super::super::error::Source;
 use super::super::item::{Item, Objects};
 use super::super::{ChannelModel, Model, ModelError};
-use crate::simulator::to_u32;
+use crate::number::to_u32;
 use crate::text::plural;
 
 /// Maximum number of objects in a list, so that all descriptors fit into one reply.

@@ -17,7 +17,7 @@ use super::document::{AxisTable, Document};
 use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
 use crate::edition::{CncVersion, Edition};
-use crate::simulator::to_len;
+use crate::number::to_usize;
 use crate::text::in_words;
 
 pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
@@ -46,10 +46,10 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
         None => None,
     };
     let spindles = match &document.spindles {
-        Some(count) if to_len(*count.get_ref()) > INSTANCES_MAX => {
+        Some(count) if to_usize(*count.get_ref()) > INSTANCES_MAX => {
             return Err(source.error(&count.span(), "expected at most 255 spindles"));
         }
-        Some(count) => to_len(*count.get_ref()),
+        Some(count) => to_usize(*count.get_ref()),
         None => 0,
     };
     let axes = axes(source, &document.axis)?;

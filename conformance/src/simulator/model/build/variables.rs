@@ -18,7 +18,7 @@ use super::super::types;
 use super::super::variable::{Variable, Variables};
 use super::items::DeclaredValue;
 use super::parse::text;
-use crate::simulator::{to_len, to_u32};
+use crate::number::{to_u32, to_usize};
 use crate::text::plural;
 
 /// Maximum length of the name of an axis, which follows the name of the variable.
@@ -34,7 +34,7 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
         return Err(source.error(&span, "expected the name of a variable, not of an element"));
     }
     let dimensions = row.dimensions.as_ref().map(|of| of.get_ref().clone()).unwrap_or_default();
-    let mut count = dimensions.iter().map(|&elements| to_len(elements));
+    let mut count = dimensions.iter().map(|&elements| to_usize(elements));
     let count = count.try_fold(1_usize, |count, elements| count.checked_mul(elements));
     let Some(count) = count.filter(|&count| count > 0) else {
         let of = row.dimensions.as_ref().map(Spanned::span).unwrap_or(span);
