@@ -241,11 +241,11 @@ impl Error {
                 }
             }
             (ErrorKind::OutOfRange, typed_value::INDEX) => {
-                let range = format_args!("out of range 0..={expected}");
-                match offset {
-                    0 => write!(f, "index {found} is {range}"),
-                    _ => write!(f, "index {found} in dimension {offset} (from 0) is {range}"),
-                }
+                let written = match offset {
+                    0 => write!(f, "index {found}"),
+                    dimension => write!(f, "index {found} in dimension {dimension} (from 0)"),
+                };
+                written.and_then(|()| write!(f, " is out of range 0..={expected}"))
             }
             (ErrorKind::TooLong, NAME) => {
                 let subject = field.subject().name();

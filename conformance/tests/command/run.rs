@@ -1,7 +1,6 @@
 //! `ads-cnc run` as users call it.
 
 use std::net::SocketAddr;
-use std::process::Command;
 
 use crate::common::Serve;
 use crate::common::file::TestFile;
@@ -248,7 +247,7 @@ fn device_information_is_optional() {
 #[test]
 fn a_lost_report_is_an_error() {
     let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     let status = command.stdout(full).stderr(std::process::Stdio::null()).status().unwrap();
     assert_eq!(status.code(), Some(70));
 }
