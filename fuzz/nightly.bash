@@ -4,7 +4,6 @@
 # The sources of all targets, and the further sources of the targets that test the tools.
 SOURCES=(codec/src fuzz/src fuzz/fuzz_targets)
 TOOL_SOURCES=(conformance/src spec-vectors/src)
-RECORD_HEADER=$'sources\tcommit\ttarget\tsanitizer\texecutions\tseconds\tfindings'
 
 # Builds the targets with a sanitizer. Each sanitizer has its own folder, so that builds do not replace each other.
 build() {
@@ -129,6 +128,10 @@ digest_of_sources() {
     local sources=("${SOURCES[@]}")
     if needs_tools "$1"; then sources+=("${TOOL_SOURCES[@]}"); fi
     git ls-tree -r HEAD -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
+}
+
+begin_record() {
+    [ -s "$record" ] || printf 'sources\tcommit\ttarget\tsanitizer\texecutions\tseconds\tfindings\n' >"$record"
 }
 
 # Prints the executions and seconds in the table of --record for these sources.
@@ -272,12 +275,15 @@ prove_target() {
 # timeout for the defect `hang`, and if its input passes without the defect.
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took kind=crash
-    [ "$number" != hang ] || kind=timeout
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))
     program="$(binary "$target" "$steady")"
     scratch="$(mktemp -d)"
     mkdir "$scratch"/{found,artifacts}
     mapfile -t options < <(options "$target")
+    if [ "$number" = hang ]; then
+        kind=timeout
+        options+=(-timeout=2)
+    fi
     mapfile -t folders < <(inputs "$target")
     start="$EPOCHREALTIME"
     ADS_CNC_SEEDED_DEFECT="$number" libfuzzer "$program" "$bound" "${options[@]}" \
