@@ -46,8 +46,10 @@ impl Defect {
 
     pub(crate) fn panic_or_hang(self) {
         assert!(self != Self::PANIC, "the seeded panic");
-        while self == Self::HANG {
-            std::hint::spin_loop();
+        if self == Self::HANG {
+            loop {
+                std::hint::spin_loop();
+            }
         }
     }
 }

@@ -117,7 +117,7 @@ impl Upstream<'_> {
     }
 
     pub(in crate::faults) fn memory(&self) -> MutexGuard<'_, Memory> {
-        lock(&self.memory)
+        lock(self.memory)
     }
 
     /// The numbers of the CNC's channels.
