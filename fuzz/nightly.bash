@@ -2,8 +2,8 @@
 # The library of fuzz/nightly: building and running targets, evaluating logs, printing tables.
 
 # The sources of all targets, and the further sources of the targets that test the tools.
-SOURCES=(codec/src fuzz/src fuzz/fuzz_targets)
-TOOL_SOURCES=(conformance/src spec-vectors/src)
+SOURCES=(codec/src codec/tests/common fuzz/src fuzz/fuzz_targets fuzz/Cargo.toml)
+TOOL_SOURCES=(conformance/src conformance/tests/common conformance/tests/program spec-vectors/src spec-vectors/data)
 
 # Builds the targets with a sanitizer. Each sanitizer has its own folder, so that builds do not replace each other.
 build() {
@@ -20,6 +20,7 @@ build() {
             --sanitizer "$sanitizer" --target-dir "$target_dir/fuzz-$sanitizer" ${name:+"$name"} ||
             broken "building the targets failed (sanitizer: $sanitizer)"
     done
+    [ -z "$record" ] || is_clean || broken "the sources changed during the build"
 }
 
 # Whether the target needs the feature `tools`.
@@ -86,14 +87,15 @@ fuzz_with_asan() { fuzz "$1" address "$asan_seconds"; }
 fuzz() {
     local target="$1" sanitizer="$2" bound="$3" log="$output/logs/$1.$2.log" status=0
     local found="$output/found/$target" findings="$output/findings/$sanitizer/$target"
-    local options folders executions rate new took start result=ok sources="" runs="$executions_max"
+    local options folders executions rate new took found_before start result=ok sources="" runs="$executions_max"
     mkdir -p "$found" "$findings"
     if [ -n "$record" ]; then
         sources="$(digest_of_sources "$target")"
-        read -r executions took < <(recorded "$sources" "$target" "$sanitizer")
+        read -r executions took found_before < <(recorded "$sources" "$target" "$sanitizer")
         bound=$((bound - took)) runs="${runs:+$((runs - executions))}"
         if [ "$bound" -le 0 ] || [ "${runs:-1}" -le 0 ]; then
-            row "$target" "$target" "$sanitizer" 0 0 0 - - 0 0 ok
+            [ "$found_before" -eq 0 ] || result=finding
+            row "$target" "$target" "$sanitizer" 0 0 0 - - 0 "$found_before" "$result"
             say "$target, sanitizer $sanitizer: done before ($executions executions, $took s)"
             return
         fi
@@ -115,7 +117,7 @@ fuzz() {
         result="executed nothing"
     fi
     if [ -n "$record" ] && [ "${executions:-0}" -gt 0 ]; then
-        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$sources" "$(git rev-parse --short=10 HEAD)" "$target" \
+        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$sources" "${commit:0:10}" "$target" \
             "$sanitizer" "${executions:-0}" $((EPOCHSECONDS - start)) "$(files "$findings")" >>"$record"
     fi
     row "$target" "$target" "$sanitizer" "$bound" "${executions:-0}" "${rate:-0}" \
@@ -127,18 +129,24 @@ fuzz() {
 digest_of_sources() {
     local sources=("${SOURCES[@]}")
     if needs_tools "$1"; then sources+=("${TOOL_SOURCES[@]}"); fi
-    git ls-tree -r HEAD -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
+    git ls-tree -r "$commit" -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
 }
 
+# Begins the table, if it is empty, and stores the commit whose sources are built.
 begin_record() {
+    commit="$(git rev-parse HEAD)"
+    is_clean || misused "--record names the commit of the sources, but they have uncommitted changes"
     [ -s "$record" ] || printf 'sources\tcommit\ttarget\tsanitizer\texecutions\tseconds\tfindings\n' >"$record"
 }
 
-# Prints the executions and seconds in the table of --record for these sources.
+# Whether the sources are those of the commit.
+is_clean() { git diff --quiet "$commit" -- "${SOURCES[@]}" "${TOOL_SOURCES[@]}"; }
+
+# Prints the executions, seconds and findings in the table of --record for these sources.
 recorded() {
     awk -F'\t' -v sources="$1" -v target="$2" -v sanitizer="$3" \
-        '$1 == sources && $3 == target && $4 == sanitizer { executions += $5; seconds += $6 }
-        END { printf "%d %d\n", executions, seconds }' "$record"
+        '$1 == sources && $3 == target && $4 == sanitizer { executions += $5; seconds += $6; found += $7 }
+        END { printf "%d %d %d\n", executions, seconds, found }' "$record"
 }
 
 row() {
@@ -271,8 +279,8 @@ prove_target() {
     [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
 }
 
-# Runs one target with one seeded defect. The defect counts as found only if the finding is a broken law, or a
-# timeout for the defect `hang`, and if its input passes without the defect.
+# Runs one target with one seeded defect. The defect counts as found only if the finding is a panic (for the
+# defect `hang`, a timeout), and if its input passes without the defect.
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took kind=crash
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))

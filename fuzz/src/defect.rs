@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 /// The seeded defect that a target has to find, if any.
 ///
 /// With a defect, the body behaves as if the code had one fault. A law that does not detect the
-/// defect is too weak. The numbers start at 1.
+/// defect is too weak. The numbers start at 1; 254 and 255 are
+/// those of [`PANIC`](Self::PANIC) and [`HANG`](Self::HANG), which every target has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Defect(u8);
 
@@ -44,6 +45,7 @@ impl Defect {
         self.0 == number
     }
 
+    /// Panics or never returns if `self` is the defect that does so.
     pub(crate) fn panic_or_hang(self) {
         assert!(self != Self::PANIC, "the seeded panic");
         if self == Self::HANG {

@@ -141,9 +141,9 @@ targets! {
          a failed write of RESPONSE_STATE is assumed not to have arrived";
     #[cfg(feature = "tools")]
     SERVICE_MACHINES: "service_machines", service::machines, service::MACHINES_DEFECTS,
-        "With any values of the five variables, a host serves no request that it did not read \
-         twice, writes in the documented order, and does not change its state after an error, \
-         except that it may wait";
+        "With any values of the five variables, a host and the request of a program read each \
+         request twice before it is served, write in the documented order, and do not change \
+         their state after an error, except that a host may wait";
     TEXT_CP1252: "text_cp1252", text::cp1252, text::DEFECTS,
         "Text of any bytes and any characters is converted in both directions as encoding_rs \
          converts it, including errors";
