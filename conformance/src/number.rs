@@ -1,11 +1,11 @@
 //! Converts between lengths and the numbers of the streams.
 
-/// An unsigned number as a `u32`; the maximum if it is greater.
+/// A number as a `u32`; the maximum if it does not fit.
 pub fn to_u32(number: impl TryInto<u32>) -> u32 {
     number.try_into().unwrap_or(u32::MAX)
 }
 
-/// An unsigned number as a length; the maximum if it is greater.
+/// A number as a length; the maximum if it does not fit.
 pub fn to_usize(number: impl TryInto<usize>) -> usize {
     number.try_into().unwrap_or(usize::MAX)
 }

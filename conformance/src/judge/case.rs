@@ -43,7 +43,7 @@ impl Case {
 
 /// Whether a word is this name, or a pattern that matches it because it has a `*` or a `?`.
 pub(crate) fn matches(word: &str, name: &str) -> bool {
-    if word.bytes().any(|byte| matches!(byte, b'*' | b'?')) {
+    if word.contains(['*', '?']) {
         Pattern::whole(word).matches(name)
     } else {
         word.eq_ignore_ascii_case(name)

@@ -163,6 +163,31 @@ fn defects_of_the_cnc_write_nothing_else() {
     assert!(written > 3000, "{written}");
 }
 
+/// Tries some of the defects with the command over TCP.
+#[test]
+fn the_command_writes_nothing_else() {
+    for (defect, named) in [
+        ("variable-handle.handle.flip", &VARIABLE),
+        ("variable-handle.handle.invert", &ARRAY),
+        ("object-descriptor.index_offset.flip", &OBJECT),
+        ("object-descriptor.index_group.flip", &OBJECT),
+        (MISREAD[0], &VARIABLE),
+    ] {
+        let cnc = Logged::start(&["--defect", defect]);
+        let file = TestFile::allowing(named.table);
+        let output = run(&cnc.serve.addr, &file, named.cases);
+        // A CNC that executes writes wrongly may leave values changed: exit code 6.
+        assert!(matches!(output.status.code(), Some(0..=4 | 6)), "{defect}: {output:?}");
+        let mut writes = cnc.end();
+        writes.remove(named.log);
+        if defect == MISREAD[0] {
+            let other = writes.remove("variable channel=1 name=V.E.Variable_2");
+            assert!(other.is_some_and(|count| count < 3), "{other:?}");
+        }
+        assert_eq!(writes, BTreeMap::new(), "{defect}");
+    }
+}
+
 /// Reads a complete frame; `None` if the connection ends.
 fn frame(stream: &mut TcpStream) -> Option<Vec<u8>> {
     let mut frame = vec![0; 6];

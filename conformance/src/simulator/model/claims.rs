@@ -12,7 +12,6 @@ impl Model {
     pub fn profile(&self) -> Profile {
         let active = || self.channels.iter().filter(|channel| channel.active);
         let is_absent = |number: &u8| !self.channels.iter().any(|one| one.number == *number);
-        let count = |many: usize| to_u32(many);
         let empty = active().flat_map(|channel| {
             let places = (1_u32..).zip(&channel.places);
             let empty = places.filter(|(_, axis)| axis.is_none());
@@ -34,8 +33,8 @@ impl Model {
             cnc_version: self.version,
             channels: active().map(|channel| channel.number.into()).collect(),
             absent_channel: (1..=u8::MAX).find(is_absent).map(u32::from),
-            platform_axes: count(self.axes.len()),
-            spindles: Some(count(self.spindles)),
+            platform_axes: to_u32(self.axes.len()),
+            spindles: Some(to_u32(self.spindles)),
             empty_places: empty.collect(),
             by_name_only: by_name_only.map(|one| one.name.to_string().into()).collect(),
             unwritten: unwritten.into_iter().map(Into::into).collect(),
