@@ -2,6 +2,8 @@
 //! headers written by hand, without the codec. They detect errors of the codec, which this project's
 //! client and the simulated CNC share.
 
+use crate::number::to_u32;
+
 /// A printed example: the expected request and its reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Literal {
@@ -44,7 +46,7 @@ impl Literal {
         front.extend(self.offset.to_le_bytes());
         let mut after = Vec::new();
         if self.command != 2 {
-            let length = u32::try_from(self.data.len()).unwrap_or(u32::MAX);
+            let length = to_u32(self.data.len());
             after.extend(length.to_le_bytes());
             after.extend(&self.data);
         }
@@ -59,7 +61,7 @@ impl Literal {
         let at = |start: usize, bytes: &[u8]| {
             frame.get(start..start.saturating_add(bytes.len())) == Some(bytes)
         };
-        let word = |number: usize| u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes();
+        let word = |number: usize| to_u32(number).to_le_bytes();
         let after_at = frame.len().saturating_sub(after.len());
         frame.len() == HEADERS.saturating_add(len)
             && at(0, &[0, 0])

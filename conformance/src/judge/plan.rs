@@ -8,6 +8,7 @@ use ads_cnc_vectors::{Source, requirement, requirements};
 use super::case::matches;
 use super::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
+use crate::number::to_u32;
 use crate::text::did_you_mean;
 
 /// The selection of cases.
@@ -76,7 +77,7 @@ type Word<'a> = (&'a str, HashSet<&'static str>);
 /// Returns a random seed.
 pub fn any_seed() -> u32 {
     let random = RandomState::new().hash_one(());
-    u32::try_from(random >> 32).unwrap_or(u32::MAX)
+    to_u32(random >> 32)
 }
 
 impl Selection {

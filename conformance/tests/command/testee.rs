@@ -6,6 +6,7 @@ use std::net::TcpStream;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::common::ads_cnc;
 use ads_cnc_conformance::exit::Exit;
 use ads_cnc_conformance::faults;
 use ads_cnc_conformance::judge::{
@@ -16,6 +17,7 @@ use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
     CodecTestee, JudgedTestee, JudgementOptions, Miniature, Testee, TesteeProcess, judge,
 };
+use ads_cnc_conformance::text::Moment;
 
 const OF_A_TESTEE: JudgementOptions<'static> =
     JudgementOptions { seed: 7, subject: CaseSubject::Testee, edition: None, strict: false };
@@ -60,6 +62,20 @@ fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
 fn exit(judged: &JudgedTestee) -> Exit {
     VerdictTally::of(judged.outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict))
         .exit()
+}
+
+/// The report contains the time at which the run began, not the time at which it was written.
+#[cfg(unix)]
+#[test]
+fn the_time_of_a_report_is_that_of_the_begin() {
+    let before = Moment::now();
+    let command = format!("sleep 4; {}", own());
+    let args = ["run", "--testee", &command, "--timeout", "20000", "--only", "VAR-11"];
+    let output = ads_cnc(&[&args[..], &["--json", "-"]].concat());
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let time = Moment::from_rfc3339(report["time"].as_str().unwrap()).unwrap();
+    assert!(before <= time && time < before.after(Duration::from_secs(4)), "{}", report["time"]);
+    assert!(Moment::now() >= before.after(Duration::from_secs(4)));
 }
 
 #[test]
