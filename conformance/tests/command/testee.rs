@@ -6,7 +6,6 @@ use std::net::TcpStream;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::ads_cnc;
 use ads_cnc_conformance::exit::Exit;
 use ads_cnc_conformance::faults;
 use ads_cnc_conformance::judge::{
@@ -17,7 +16,6 @@ use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
     CodecTestee, JudgedTestee, JudgementOptions, Miniature, Testee, TesteeProcess, judge,
 };
-use ads_cnc_conformance::text::Moment;
 
 const OF_A_TESTEE: JudgementOptions<'static> =
     JudgementOptions { seed: 7, subject: CaseSubject::Testee, edition: None, strict: false };
@@ -68,6 +66,9 @@ fn exit(judged: &JudgedTestee) -> Exit {
 #[cfg(unix)]
 #[test]
 fn the_time_of_a_report_is_that_of_the_begin() {
+    use crate::common::ads_cnc;
+    use ads_cnc_conformance::text::Moment;
+
     let before = Moment::now();
     let command = format!("sleep 4; {}", own());
     let args = ["run", "--testee", &command, "--timeout", "20000", "--only", "VAR-11"];
