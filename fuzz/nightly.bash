@@ -1,9 +1,13 @@
 # shellcheck shell=bash disable=SC2154 # the variables are those of fuzz/nightly
 # The library of fuzz/nightly: building and running targets, evaluating logs, printing tables.
 
-# The sources of all targets, and the further sources of the targets that test the tools.
-SOURCES=(codec/src codec/tests/common fuzz/src fuzz/fuzz_targets fuzz/Cargo.toml)
-TOOL_SOURCES=(conformance/src conformance/tests/common conformance/tests/program spec-vectors/src spec-vectors/data)
+# The sources whose change voids the recorded executions of a target: those of its laws and of the code under
+# test. Seeds, dictionaries and the replay determine only where a fuzzer begins.
+SOURCES=(codec/src codec/tests/common fuzz/src fuzz/fuzz_targets ':!fuzz/src/seeds*' ':!fuzz/src/dictionary.rs'
+    ':!fuzz/src/replay.rs')
+CODEC_SOURCES=("${SOURCES[@]}" ':!fuzz/src/bodies/tools')
+TOOL_SOURCES=("${SOURCES[@]}" conformance/src conformance/tests/common conformance/tests/program spec-vectors/src
+    spec-vectors/data)
 
 # Builds the targets with a sanitizer. Each sanitizer has its own folder, so that builds do not replace each other.
 build() {
@@ -125,11 +129,16 @@ fuzz() {
     say "$target, sanitizer $sanitizer: ${executions:-0} executions, $result"
 }
 
-# Prints a digest of the committed sources of a target.
+# Prints the sources of a target, one per line.
+sources_of() {
+    if needs_tools "$1"; then printf '%s\n' "${TOOL_SOURCES[@]}"; else printf '%s\n' "${CODEC_SOURCES[@]}"; fi
+}
+
+# Prints a digest of the committed sources of a target without comments and empty lines.
 digest_of_sources() {
-    local sources=("${SOURCES[@]}")
-    if needs_tools "$1"; then sources+=("${TOOL_SOURCES[@]}"); fi
-    git ls-tree -r "$commit" -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
+    local sources
+    mapfile -t sources < <(sources_of "$1")
+    git grep -hv -E '^[[:space:]]*(//.*)?$' "$commit" -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
 }
 
 # Begins the table, if it is empty, and stores the commit whose sources are built.
@@ -139,8 +148,14 @@ begin_record() {
     [ -s "$record" ] || printf 'sources\tcommit\ttarget\tsanitizer\texecutions\tseconds\tfindings\n' >"$record"
 }
 
-# Whether the sources are those of the commit.
-is_clean() { git diff --quiet "$commit" -- "${SOURCES[@]}" "${TOOL_SOURCES[@]}"; }
+# Whether the sources of the chosen targets are those of the commit.
+is_clean() {
+    local target sources
+    for target in "${targets[@]}"; do
+        mapfile -t sources < <(sources_of "$target")
+        git diff --quiet "$commit" -- "${sources[@]}" || return 1
+    done
+}
 
 # Prints the executions, seconds and findings in the table of --record for these sources.
 recorded() {
