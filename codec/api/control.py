@@ -1,5 +1,5 @@
-"""The negative control: a crate that exposes a type of another crate in every possible way. The check must
-report each of these ways."""
+"""The negative control: a crate that exposes the types and the trait of another crate in many ways. The check
+must report each of them."""
 
 import pathlib
 import re
@@ -10,7 +10,8 @@ pub struct Thing;
 pub trait Trait { type Out; fn act(&self) {} }
 """
 
-# Each item with `bad` in its name exposes the crate `stranger`; each item with `good` uses it privately.
+# Each item whose name begins with `bad`, `Bad` or `BAD` exposes the crate `stranger`, and so does the impl for
+# `stranger::Thing`. The items whose names begin with `good` or `Good` use that crate privately or not at all.
 LEAKS = """
 #![no_std]
 pub use stranger::Thing as bad_use;

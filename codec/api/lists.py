@@ -7,8 +7,8 @@ WIDTH = 100
 
 
 def signatures(elements, heads, given):
-    """Items sorted by their paths, each followed by its members. `in` marks an item of `given`: only the
-    members that `given` lacks follow it."""
+    """Lists the items, sorted by the depth of their paths and then by path, each followed by its members. `in`
+    marks an item that `given` also contains: only its members that `given` lacks are listed."""
     text = []
     for path in sorted({path for path, _ in elements}, key=lambda path: (path.count("::"), path)):
         new = (path, "") in elements or (path, "") not in given
@@ -21,12 +21,13 @@ def signatures(elements, heads, given):
 
 
 def order(line):
-    """The sort key of a member: first fields and variants, then constants, then functions."""
+    """The sort key of a member: first fields, variants and associated types, then constants, then functions."""
     return ("fn " in line) + ("fn " in line or line.startswith("const ")), line
 
 
 def packed(start, between, words):
-    """Distributes the words over lines of at most WIDTH characters, each of which begins with `start`."""
+    """Distributes the words over lines that begin with `start`. A line exceeds WIDTH characters only if it
+    contains a single word."""
     lines = []
     for word in words:
         if lines and len(lines[-1]) + len(between) + len(word) <= WIDTH:
@@ -57,7 +58,8 @@ def paragraph(way, items):
             continue
         members = items[name] | items.get(owned, set())
         title = f"{name}, {owned}" if owned != name and owned in items else name
-        # Omits the field of a newtype and the conversions between borrowed and owned type, which add nothing.
+        # Omits the members that many types have: the field of a newtype, and the conversions between the borrowed
+        # and the owned type.
         members = " ".join(sorted(members - {"0", "as_ref", "to_owned"}))
         shared.setdefault(members, []).append(title)
     plain = shared.pop("", [])

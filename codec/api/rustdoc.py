@@ -1,10 +1,10 @@
-"""Reads the public API of a crate from rustdoc's JSON: its items, and the types of other crates it exposes."""
+"""Reads the public API of a crate from rustdoc's JSON: its items, and the types of other crates that it exposes."""
 
 from signature import Signature
 
-FORMATS = {57}  # tested; other formats may have different keys
+FORMATS = {57}  # The versions of rustdoc's JSON that were tested; another version may have different keys.
 KINDS = ("struct", "enum", "union", "trait", "function", "constant", "static", "type_alias", "macro")
-MARKERS = ("StructuralPartialEq", "TrivialClone")  # added by the compiler to a derive
+MARKERS = ("StructuralPartialEq", "TrivialClone")  # Traits that the compiler implements in addition to a derived one.
 
 
 class Api(Signature):

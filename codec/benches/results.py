@@ -27,7 +27,7 @@ def rows(path):
 
 
 def toolchain():
-    """The toolchain and tools that the counts depend on."""
+    """Returns the versions of the toolchain and tools on which the counts depend."""
     def first(*command):
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\n")[0]
     libc = " ".join(platform.libc_ver())
@@ -61,7 +61,7 @@ def read(gungraun, cases):
 
 
 def counted(results):
-    """The counts by case and build: {key: {build: (units, instructions)}}."""
+    """Returns the counts by case and build: {key: {build: (units, instructions)}}."""
     counts = {}
     for build in BUILDS:
         for subject, who, units, instructions in rows(results / f"{build}.tsv"):
@@ -75,10 +75,10 @@ def each(counts, key, build):
 
 
 def missed(cases, counts, build):
-    """The cases that exceed their limits."""
+    """Yields a text for each case that exceeds a limit of instructions."""
     for case in cases:
         if case.key not in counts:
-            continue  # a long case, which only `--renew` counts
+            continue  # Only `--renew` counts long cases.
         for kind, other, most in case.limits:
             here = each(counts, case.key, build)
             if kind == "instructions":
@@ -96,7 +96,7 @@ def named(key):
 
 
 def committed():
-    """The toolchain of the committed counts, and the counts."""
+    """Returns the toolchain of the committed counts, and the counts."""
     head = COUNTS.read_text(encoding="utf-8").split("\n")[0].removeprefix("# ")
     counts = {}
     for subject, who, units, *builds in rows(COUNTS):
@@ -109,7 +109,8 @@ def listed(results):
 
 
 def check(results):
-    """Fails if a case exceeds its limit or the committed count."""
+    """Fails if a case exceeds its limit, or the committed count by more than 5 %, or if a case has no committed
+    count. Checks only the limits if the committed counts are for a different toolchain."""
     counts, cases = counted(results), listed(results)
     faults = [text for build in BUILDS for text in missed(cases, counts, build)]
     head, before = committed()
@@ -178,7 +179,7 @@ def tables(results):
 
 
 def sizes():
-    """The table of sizes, from the figures of codec/proofs/size/run --renew."""
+    """Writes the table of sizes, from the figures that codec/proofs/size/run --renew wrote."""
     figures = {}
     for target, program, *bytes_of in rows(SIZES)[1:]:
         figures.setdefault(program, {})[target] = [int(number) for number in bytes_of]
@@ -200,7 +201,7 @@ WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×", "over": "�
 
 
 def lines_of(case, counts, times):
-    """The lines of the table for a case: one for each reference, or one line without a reference."""
+    """Yields the lines of the table for a case: one for each reference, or one if it has no reference."""
     if case.key not in counts:
         return
     figures = " | ".join(f"{each(counts, case.key, build):,.1f}" for build in BUILDS)

@@ -15,7 +15,7 @@ import types
 
 HERE = pathlib.Path(__file__).resolve().parent
 package = types.ModuleType("ads_cnc")
-# A package without its __init__, because that imports the generated module.
+# Registers the package without running its __init__.py, which imports the module that this script generates.
 package.__path__ = [str(HERE / "python" / "src" / "ads_cnc")]
 sys.modules["ads_cnc"] = package
 from ads_cnc import _codec  # noqa: E402
@@ -68,7 +68,7 @@ def camel(name):
 
 
 def record(name):
-    """The class name of a record; a stream of records uses the class of the stream of one record."""
+    """Returns the class name of a record. A stream of records uses the class of the stream with one record."""
     one = name[:-1] if _codec.STREAMS[name].repeats else name
     return "".join(word.capitalize() for word in (one if one in _codec.STREAMS else name).split("-"))
 
@@ -92,7 +92,7 @@ def is_optional(stream):
 
 
 def of_stream(name, language):
-    """The type of the value of a stream."""
+    """Returns the type of the value of a stream; `name` is None for a function whose reply has no data."""
     if name is None:
         return "None" if language == "python" else "undefined"
     stream = _codec.STREAMS[name]
@@ -107,7 +107,7 @@ def of_stream(name, language):
 
 
 def parameters(function):
-    """The required and the optional parameters."""
+    """Returns the names of the required and of the optional parameters of a function."""
     optional = ["axis"] if function.reply in ("object-count", "object-descriptors") else []
     return list(function.arguments), optional + (["by_index"] if "channel" in function.arguments else [])
 

@@ -22,20 +22,21 @@ FUNCTION = re.compile(r"^(\s*)(?:pub(?:\([^)]*\))? )?(?:const )?fn (\w+|\$\w+)")
 
 
 def function(source, number):
-    """The function that contains line `number`: the last one before the line with less indentation."""
+    """Returns the name of the function that contains line `number`: the nearest line with `fn` at or above it that
+    has less indentation. Returns `-` if no such line exists."""
     depth = len(source[number - 1]) - len(source[number - 1].lstrip())
     for at in range(number, 0, -1):
         found = FUNCTION.match(source[at - 1])
         if found and (len(found[1]) < depth or at == number):
             return found[2]
-        # The closing brace of a function has the same indentation as its first line.
+        # The closing brace of a function has the same indentation as the line with `fn`.
         if found and len(found[1]) == depth and source[number - 1].strip() == "}":
             return found[2]
     return "-"
 
 
 def counted(path):
-    """The number of lines, and the lines that are not run, in order: (file, function, text)."""
+    """Returns the number of lines, and the lines that are not run as (file, function, text), sorted by file."""
     total, missed, file, source = 0, [], "", []
     for line in path.read_text(encoding="utf-8").splitlines():
         key, _, rest = line.partition(":")
@@ -52,7 +53,7 @@ def counted(path):
 
 
 def listed(text):
-    """The entries of uncovered.txt, each with its reason."""
+    """Parses uncovered.txt. Each entry is a line of code as (file, function, text), with its reason."""
     entries, reason, place = [], "", None
     for line in text.removeprefix(HEAD).splitlines():
         if line.startswith("#"):
@@ -67,7 +68,8 @@ def listed(text):
 
 
 def written(entries):
-    """The text of uncovered.txt: grouped by reason, in the order of the entries."""
+    """Formats the text of uncovered.txt. Entries with the same reason form a group; the groups and their entries
+    keep the order of `entries`."""
     groups = collections.defaultdict(list)
     for key, reason in entries:
         groups[reason].append(key)

@@ -1,5 +1,6 @@
-//! Lists all objects of a CNC: those of the COM task by their descriptors, and the elements of the
-//! SDA and GEO tasks by their attributes.
+//! Lists the objects of a CNC: those of the COM task by their descriptors, and the elements of the
+//! SDA and GEO tasks by their attributes. Channels, axes and spindles are queried up to the number
+//! `MOST`.
 //!
 //!     cargo run -p ads-cnc --example list_objects -- 127.0.0.1:48898 127.0.0.1.1.1
 
@@ -9,9 +10,9 @@ use std::fmt::Display;
 
 use ads_cnc::address::{Attribute, Channel, Class, ElementAddress, PlatformAxis};
 use ads_cnc::operation::*;
-use transport::{Cnc, Result, unless_refused};
+use transport::{Cnc, Result, unless_rejected};
 
-/// The maximum number of channels, axes and spindles to query.
+/// The highest number of a channel, axis or spindle that is queried.
 const MOST: u32 = 32;
 
 fn main() -> Result<()> {
@@ -28,7 +29,7 @@ fn main() -> Result<()> {
                 let mut reply = Vec::new();
                 let query = FindInstance::new(class, channel, axis);
                 // Some devices return an ADS error instead of this reply.
-                let Some(found) = unless_refused(cnc.call(&query, &mut reply))? else { continue };
+                let Some(found) = unless_rejected(cnc.call(&query, &mut reply))? else { continue };
                 if let Some(first) = found.first_element()? {
                     elements(&cnc, first)?;
                 }
@@ -41,7 +42,7 @@ fn main() -> Result<()> {
 /// Prints the objects of one list; prints nothing for a channel or axis that does not exist.
 fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     let mut reply = Vec::new();
-    let count = unless_refused(cnc.call(&CountObjects::new(list), &mut reply))?;
+    let count = unless_rejected(cnc.call(&CountObjects::new(list), &mut reply))?;
     let Some(count @ 1..) = count.map(u32::from) else { return Ok(()) };
     for object in cnc.call(&ReadDescriptors::new(list, 1, count)?, &mut reply)? {
         let size = object.size();

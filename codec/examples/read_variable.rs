@@ -1,4 +1,4 @@
-//! Reads a variable by its name without knowing its type: the CNC describes it.
+//! Reads a variable by its name. The program learns the type of the variable from the CNC.
 //!
 //!     cargo run -p ads-cnc --example read_variable -- 127.0.0.1:48898 127.0.0.1.1.1 1 V.E.Testvar
 
@@ -9,7 +9,7 @@ use std::env;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeByName, ReadByName};
 use ads_cnc::{DescriptionByName, VariablePath};
-use transport::{Cnc, Result, unless_refused};
+use transport::{Cnc, Result, unless_rejected};
 
 fn main() -> Result<()> {
     let cnc = Cnc::from_args()?;
@@ -32,11 +32,12 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Reads the description by name. If an older CNC lacks this function, searches all variables of the
-/// kind.
+/// Reads the description of a variable by its name. If the CNC rejects this request, because an
+/// older CNC lacks this function, searches the descriptions of all variables of the same kind.
 fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<DescriptionByName> {
     let mut reply = Vec::new();
-    if let Some(found) = unless_refused(cnc.call(&DescribeByName::new(channel, path)?, &mut reply))?
+    if let Some(found) =
+        unless_rejected(cnc.call(&DescribeByName::new(channel, path)?, &mut reply))?
     {
         return Ok(found.to_owned());
     }

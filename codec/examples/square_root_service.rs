@@ -1,6 +1,8 @@
 //! Hosts the example service of the manual on a channel: the square root of a number.
 //!
 //!     cargo run -p ads-cnc --example square_root_service -- 127.0.0.1:48898 127.0.0.1.1.1 1 [ANSWERS]
+//!
+//! With ANSWERS, the program ends after this number of answered requests.
 
 mod transport;
 

@@ -1,4 +1,4 @@
-//! Streams an NC program to a channel. **The program moves the machine.**
+//! Streams an NC program to a channel. **The NC program can move the machine.**
 //!
 //!     cargo run -p ads-cnc --example stream_program -- 127.0.0.1:48898 127.0.0.1.1.1 1 part.nc
 
@@ -12,7 +12,7 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender, SenderState};
 use transport::{Cnc, Result};
 
-/// The maximum number of repetitions of a packet.
+/// The maximum number of times that a packet is repeated because the CNC is busy.
 const REPEATS: u32 = 120;
 
 fn main() -> Result<()> {
@@ -20,7 +20,8 @@ fn main() -> Result<()> {
     let channel = Channel::new(env::args().nth(3).ok_or("no channel")?.parse()?)?;
     let program = fs::read(env::args().nth(4).ok_or("no program")?)?;
 
-    // Report all faults of the program before the first line is sent.
+    // Print the findings before the first line is sent, up to the first finding that ends
+    // streaming.
     let text = NcText::new(&program)?;
     let mut findings = text.diagnostics().inspect(|finding| eprintln!("{finding}"));
     if findings.any(|finding| finding.kind.ends_streaming()) {

@@ -1,5 +1,5 @@
-//! The tests of the codec, in a program that the first failure ends. The first pass skips tests that
-//! generate many cases; the second pass runs them on the survivors.
+//! The tests of the codec in a program that ends at the first failure. The first pass of the script
+//! `run` skips tests that generate many cases; the second pass runs them on the survivors.
 
 #[path = "../tests/main.rs"]
 mod tests;

@@ -1,7 +1,8 @@
-"""The results of the mutants.
+"""Summarises the results of cargo-mutants.
 
-`ran FOLDER K/N` records the results of a shard, `ran FOLDER FILE` prints those of a file, `merge` combines
-the shards to results.tsv and compares the survivors with survivors.md, `check` checks the committed files.
+`ran FOLDER K/N` writes the results of a shard to shards/. `ran FOLDER FILE` prints the results of one file.
+`merge` combines the shards into results.tsv and compares the survivors with survivors.md. `check` checks that
+the committed files are consistent.
 """
 
 import json
@@ -26,7 +27,7 @@ SUMMARIES = {
 
 
 def verdicts(folder):
-    """The result of each mutant, by its name with the position."""
+    """Returns the result of each mutant by its name, which contains its line and column."""
     found = {}
     file = folder / "mutants.out" / "outcomes.json"
     for outcome in json.loads(file.read_text(encoding="utf-8"))["outcomes"]:
@@ -35,7 +36,7 @@ def verdicts(folder):
         verdict = SUMMARIES[outcome["summary"]]
         if verdict == "caught":
             log = (file.parent / outcome["log_path"]).read_text(encoding="utf-8", errors="replace")
-            # Ended by the limit of processor time: detected, but not by an assertion.
+            # The limit of processor time ended the tests: the mutant is detected, but not by an assertion.
             verdict = "timeout" if "SIGXCPU" in log or "SIGKILL" in log else verdict
         found[outcome["scenario"]["Mutant"]["name"]] = verdict
     return found
@@ -79,7 +80,7 @@ def share(total):
 
 
 def measured():
-    """The totals for each file, the number of times that each mutant survived, and the shards."""
+    """Returns the totals for each file, how often each mutant survived, and the names of the shards."""
     by_file, survivors, shards = {}, Counter(), []
     for file in sorted(SHARDS.glob("*.tsv")):
         shards.append(file.stem)
@@ -95,7 +96,7 @@ def measured():
 
 
 def listed():
-    """The listed survivors, and the number of each."""
+    """Returns the mutants that survivors.md lists, and how often each is to survive."""
     rows = re.findall(
         r"^\| `(codec/src/.+?)` \| (\d+) \| .+ \|$", SURVIVORS.read_text(encoding="utf-8"), re.M
     )
@@ -103,7 +104,7 @@ def listed():
 
 
 def results():
-    """The expected text of results.tsv, and the faults of the results."""
+    """Returns the text that results.tsv must have, and the faults of the results."""
     by_file, survivors, shards = measured()
     total = sum(by_file.values(), Counter())
     percent = share(total)
@@ -127,7 +128,8 @@ def merge():
 
 
 def check():
-    """A quick check: totals are correct, enough mutants are caught, and the functions of all survivors exist."""
+    """A quick check: results.tsv has the totals of the shards, enough mutants are caught, each mutant survives as
+    often as survivors.md states, and the functions of all listed survivors exist."""
     text, faults = results()
     if RESULTS.read_text(encoding="utf-8") != text:
         faults.append("results.tsv does not equal the totals of the shards")

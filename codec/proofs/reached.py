@@ -1,5 +1,6 @@
-"""Compares the no-panic proof with the public API: the proof must call every function by its path, decode and
-encode every type of a stream, and display every type with a text. A new item is reported until it is added."""
+"""Compares the code of the no-panic proof with the public API without features: it must contain the path of every
+function, `both::<…>` for every type that implements Decode, and `show::<…>` for every type that implements
+Display, except those in EXEMPT."""
 
 import pathlib
 import re
@@ -10,13 +11,14 @@ API = HERE.parent / "api" / "none.txt"
 STREAMS = HERE.parent / "src" / "streams.rs"
 HEAD = re.compile(r"(?:non_exhaustive )?(?:struct|enum|trait) ([\w:]*\w)")
 FUNCTION = re.compile(r"(?:const )?fn (\w+)")
-# Exceptions by path, with the reason.
+# The items that the proof does not contain, each with the reason.
 FLOAT = "the formatting of floating-point numbers in core contains a panic"
 EXEMPT = {"Element, shown": FLOAT, "dynamic::DynamicValue, shown": FLOAT}
 
 
 def public(text):
-    """The paths of functions, the names of types that are decoded, the paths of types that are displayed."""
+    """Returns the paths of the functions, the names of the types that implement Decode, and the paths of the types
+    that implement Display."""
     functions, readings, shown, path = [], [], [], ""
     for line in text.splitlines():
         if line.startswith("fn "):

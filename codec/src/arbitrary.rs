@@ -1,4 +1,5 @@
-//! `Arbitrary` for the owned types. It generates only values that can be encoded.
+//! Implementations of `Arbitrary` for types that `stream!` does not declare. They generate only
+//! values that can be encoded.
 
 use alloc::vec::Vec;
 

@@ -1,11 +1,13 @@
-//! The declaration of a stream, in the form of its table in the manual. The types, their traits and the
-//! documentation of the stream are generated from it.
+//! The declaration of a stream, in the form of its table in the manual. A macro generates the types
+//! of the stream, their trait implementations and their documentation from the declaration.
 
 #[cfg(feature = "arbitrary")]
 use crate::rows::Owned;
 
-/// The kinds of rows. A line defines the type of the row in a borrowed type (a view) and in an owned type,
-/// the implementation of `Row`, and the documented size and type. `as` selects a Rust type for a number.
+/// The kinds of rows. A line that begins with `$q` defines the type of the row in a borrowed type
+/// (a view) and in an owned type, the implementation of `Row`, and the documented size and type.
+/// The lines before these define the size and the type of a row in its field table, and the rows of
+/// `packed` types. `as` selects a Rust type for a number.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
     (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
@@ -59,9 +61,9 @@ macro_rules! row {
 /// | `tuple X` | one type with a single number |
 /// | `packed XLayout` | the bytes of a stream of fixed length whose type is written by hand |
 ///
-/// A row consists of the offset that the manual prints (`@20 + 4m` after `m` counted items of 4 bytes),
-/// the field (and its name in errors and vectors if it differs), the kind of row, the requirement and
-/// the meaning. The row before a list is its `count`.
+/// A row consists of the offset that the manual prints (`@20 + 4m` after `m` counted items of 4
+/// bytes), the field (and its name in errors and golden vectors if it differs), the kind of row,
+/// the requirement and the meaning. The row before a list is its `count`.
 macro_rules! stream {
     (
         $(#[$doc:meta])*

@@ -1,4 +1,4 @@
-//! The error type of the crate.
+//! The error type of decoders, encoders and most constructors.
 
 use core::fmt;
 
@@ -9,9 +9,10 @@ use crate::operation::ReadDescriptors;
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
-/// The error type of the crate: kind, field, offset, and the expected and the found number.
+/// The error of decoders, encoders and most constructors: kind, field, offset, and the expected and
+/// the found number.
 ///
-/// It is `Copy` and has 16 bytes. Its text does not depend on the features:
+/// It is `Copy` and has 16 bytes. Its `Display` text does not depend on the features of the crate:
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -46,15 +47,18 @@ pub struct Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The stream ends within the field. Expected: bytes that the field needs. Found: bytes that remain.
+    /// The stream, value or name ends within the field. Expected: bytes that the field needs.
+    /// Found: bytes that remain.
     Truncated,
     /// Bytes follow the end of the stream. Expected: length of the stream. Found: length of the input.
     Trailing,
     /// The field or stream exceeds its maximum length. Expected: the maximum. Found: the length.
     TooLong,
-    /// A count exceeds its maximum. Expected: the maximum. Found: the count.
+    /// A count exceeds its maximum, or the number of items in the remaining bytes. Expected: the
+    /// smaller of these two limits. Found: the count.
     TooMany,
-    /// No NUL ends the text. Expected: maximum length including the NUL. Found: bytes without a NUL.
+    /// No NUL ends the text within its maximum length. Expected: the maximum length including the
+    /// NUL. Found: bytes that remain, from the start of the text.
     MissingNul,
     /// A NUL inside the text. Expected: 0. Found: index of the NUL in the text.
     InnerNul,
@@ -62,11 +66,13 @@ pub enum ErrorKind {
     NotCp1252,
     /// A character that is not a decimal digit. Expected: 0. Found: its code point.
     NotDecimal,
-    /// A number with no digits or too many digits. Expected: maximum number of digits. Found: their number.
+    /// A number with no digits or too many digits. Expected: the maximum number of digits. Found:
+    /// the number of digits.
     Digits,
-    /// A character where the syntax requires a different one. Expected: 0. Found: its code point.
+    /// A character where the syntax requires a different character. Expected: 0. Found: its code
+    /// point.
     Unexpected,
-    /// A required part is missing. Expected and found: 0.
+    /// A required part is missing, or a value has no elements. Expected and found: 0.
     Missing,
     /// A value outside its range. Expected: the nearest permitted value. Found: the value. The
     /// conversions from an [`Element`](crate::Element) define these numbers differently.
@@ -76,7 +82,8 @@ pub enum ErrorKind {
     /// The index offset of a function, where the offset of content is required. Expected: 0. Found: the
     /// offset.
     Function,
-    /// The buffer is too small for the encoded stream. Expected: bytes needed. Found: bytes available.
+    /// The buffer is too small for the encoded stream, or the read length of a received request for
+    /// the reply. Expected: bytes needed. Found: bytes available.
     BufferTooSmall,
 }
 
@@ -91,7 +98,7 @@ impl Error {
         Self { kind, field, offset, expected, found }
     }
 
-    /// The same error, for a stream that begins at this offset.
+    /// The same error, for a stream that begins at offset `by`.
     #[cfg(feature = "binrw")]
     pub(crate) const fn moved(self, by: u32) -> Self {
         Self { offset: self.offset.saturating_add(by), ..self }
@@ -107,10 +114,12 @@ impl Error {
         self.field
     }
 
-    /// The offset of the field at fault, in bytes from the start of the stream.
+    /// The offset of the fault, in bytes from the start of the stream: of the field at fault, or of
+    /// the first byte after the permitted length.
     ///
-    /// For a [`Subject`] that is not a stream, the offset counts characters of a text or name, or
-    /// indices: see the function that returns the error.
+    /// For a [`Subject`] that is not a stream, the function that returns the error defines the
+    /// offset: it counts, for example, characters of a text or name, bytes of a value, or
+    /// dimensions.
     pub const fn offset(&self) -> u32 {
         self.offset
     }
@@ -161,7 +170,7 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// A character by its code point.
+/// A character, given by its code point.
 struct Character(u32);
 
 impl fmt::Display for Character {
@@ -173,7 +182,8 @@ impl fmt::Display for Character {
     }
 }
 
-/// The name, minimum and maximum of the constructor argument that an error reports by this field.
+/// The name, minimum and maximum of the constructor argument that `field` identifies in an error;
+/// `None` for any other field.
 fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     const COUNT: Field = Field::of::<ObjectCount>("count");
     match field {
@@ -183,7 +193,8 @@ fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     }
 }
 
-/// The name and the unit of a number that must equal another number, if an error reports it by this field.
+/// The name and the unit of the number that `field` identifies in an error if the number must equal
+/// another number; `None` for any other field.
 fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
     match field {
         typed_value::COUNT => Some(("value", ["element", "elements"])),
@@ -199,7 +210,7 @@ fn is_cut(count: Field, limit: u32) -> bool {
     rows.any(|row| matches!(row.size, Size::Items { max, .. } if max != limit))
 }
 
-/// Whether the numbers of an error are index groups.
+/// Whether the numbers of an error with this field are index groups.
 fn is_group(field: Field) -> bool {
     field.subject() == Subject::IndexGroup
         || field == const { Field::of::<ObjectAddress>("index_group") }
@@ -211,7 +222,8 @@ fn type_name(number: u32) -> &'static str {
 }
 
 impl Error {
-    /// Writes an error about an argument or a value, which has no byte offset.
+    /// Writes an error whose text does not contain `at offset`: an error about an argument, a value
+    /// or the length of a name. Returns `None` for any other error.
     fn fmt_words(&self, f: &mut fmt::Formatter<'_>) -> Option<fmt::Result> {
         const NAME: Field = Field::whole_subject(Subject::VariablePath);
         let Self { kind, field, offset, expected, found } = *self;

@@ -1,5 +1,5 @@
-//! `BinRead` and `BinWrite` from the rows of the streams. Counts are checked before memory is allocated.
-//! Errors contain the position in the reader.
+//! Implementations of `BinRead` and `BinWrite` by the rows of the streams. Counts are checked
+//! before memory is allocated. Errors of a row contain the position in the reader.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -22,8 +22,8 @@ struct Source<'r, R> {
     bytes: Vec<u8>,
 }
 
-/// The number of bytes to read at once. If a length is wrong, at most this many bytes are allocated in
-/// excess of those that the reader returns.
+/// The maximum number of bytes to request from the reader at once. A wrong length therefore does
+/// not cause an allocation that is much larger than the bytes that the reader returns.
 const CHUNK: usize = 1024;
 
 impl<R: Read> Pull for Source<'_, R> {
@@ -144,12 +144,12 @@ pub(crate) fn error<'a, T: Encode + Decode<'a>>(stream: &T) -> Error {
 }
 
 /// `BinRead` and `BinWrite` for streams whose types are written by hand: pulls at most the maximum
-/// length of the stream from the reader, and decodes the bytes.
+/// length of the stream from the reader (one byte more for `Descriptors`), and decodes the bytes.
 ///
 /// | stream | why its type is written by hand |
 /// |---|---|
 /// | `AmsHeader` | an address has two rows |
-/// | `DeviceInfoReply`, `Descriptor` | text of fixed length, with setters that check it |
+/// | `DeviceInfoReply`, `Descriptor` | text of fixed length, a kind of row that only `packed` supports |
 /// | `Descriptors` | a list of records without a count |
 /// | `ReadReply`, `ReadWriteReply` | rows after the result may be absent if it is an error (ADS-6) |
 /// | `ExtendedReply` | a reply may have no bytes |

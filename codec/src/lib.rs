@@ -61,7 +61,7 @@
 //! ```
 //!
 //! # Client
-//! [`operation`] has a type for every function of the CNC, for example
+//! [`operation`] has a type for each supported function of the CNC, for example
 //! [`ReadByName`](operation::ReadByName): it returns the address of the request, encodes the request and
 //! decodes the reply. [`address`] contains the channels, axes and spindles that operations refer to.
 //! [`AdsError::into_result`](ads::AdsError::into_result) turns an ADS error number into a Rust error.
@@ -86,11 +86,13 @@
 //! services outside the CNC.
 //!
 //! # Streams
-//! A stream has two types: `XRef` borrows from the bytes and never allocates; `X`, with the feature
-//! `alloc`, owns its data. Both types accept the same bytes, reject all others with the same [`Error`], and
-//! encode to the bytes that they were decoded from. A stream of numbers only has one type. [`sections`]
-//! maps the sections of the manuals to this crate; [`layout`] contains the field table of every stream.
-//! Where the manuals contradict each other, [`errata`] lists the reading that this crate implements.
+//! A stream has two types: `XRef`, such as [`DescriptionRef`], borrows from the bytes and never
+//! allocates; `X`, such as `Description` with the feature `alloc`, owns its data. Both types accept
+//! the same bytes, reject all others with the same [`Error`], and encode to the bytes that they
+//! were decoded from. Some streams, such as [`Handle`], have a single type. [`sections`] maps the
+//! sections of the manuals to this crate; [`layout`] contains the field table of every stream.
+//! Where the manuals contradict each other, [`errata`] lists the reading that this crate
+//! implements.
 //!
 //! # Examples
 //! The folder `examples` of the package has four programs. They use the published client
@@ -106,13 +108,13 @@
 //!   length, and some ADS libraries do not return the number of received bytes.
 //! - Send each request to [`Operation::port`](operation::Operation::port): a CNC has one AMS port for
 //!   each task.
-//! - Check the [`Effect`](operation::Effect) of a function before you offer it: some change a value, and
-//!   some may move an axis.
+//! - Check the [`Effect`](operation::Effect) of a function before you offer it: some functions
+//!   change a value, and some may move an axis.
 //!
 //! # Debugging
 //! The command `ads-cnc` of the package `ads-cnc-conformance` shows bytes field by field (`explain`),
 //! serves a simulated CNC (`serve`), judges captured traffic (`check`) and prints a dissector for
-//! Wireshark (`wireshark`). With [`layout`] a program shows bytes itself.
+//! Wireshark (`wireshark`). With [`layout`], a program of your own can show bytes field by field.
 //!
 //! # Limits
 //! The crate covers the functions of a CNC and the ADS services that carry them: no notifications, sum
@@ -120,23 +122,27 @@
 //! against a machine. The bytes are those of the manuals; nothing was tried on a real machine.
 //!
 //! # IDs
-//! IDs such as ADR-1, GEN-6 or VAR-9 are requirements. The crate `ads-cnc-vectors` contains their texts,
-//! with the sections of the manuals. IDs such as E-17 are errata: see [`errata`].
+//! IDs such as ADR-1, GEN-6 or VAR-9 identify requirements. The crate `ads-cnc-vectors` contains
+//! their texts, with the sections of the manuals. IDs such as E-17 identify errata: see [`errata`].
+//! IDs such as `ads-en` identify manuals: see [`sections`].
 //!
 //! # Features
 //! - `alloc` (default): the owned types and the checks of an NC program.
-//! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the owned
-//!   types, so your own structs can contain them. `read` rejects the same bytes as `decode`. A stream
-//!   whose fields do not determine its length extends to the end of the reader.
+//! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the
+//!   owned types, so your own structs can contain them. `read` accepts the same streams as
+//!   `decode`, and leaves the bytes after a stream in the reader. A stream whose fields do not
+//!   determine its length extends to the end of the reader.
 //! - `std`: enables `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned types.
-//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned types.
-//!   A value is a map of the fields in [`layout`], without counts; a stream of one number is that
-//!   number. Codes are numbers, a NetId is a string. A text that ends in one NUL is a string; any
-//!   other text is a map of `text` and `tail`: the bytes after the NUL, or null without a NUL. The
-//!   format must be self-describing, such as JSON (for exact REAL64, enable `float_roundtrip` of
-//!   `serde_json`). The limits of a stream are checked when the value is encoded, not when it is
-//!   deserialized.
+//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned
+//!   types. A value is a map of the fields in [`layout`], without counts; a stream of one number is
+//!   that number, except that an [`ElementLength`](sda::ElementLength) is a map from the name of
+//!   its type to the number, and a [`DynamicValue`](dynamic::DynamicValue) that is not finite is a
+//!   map of its `bits`. An empty [`ExtendedReply`] is null. Codes are numbers, a NetId is a string.
+//!   A text that ends in one NUL is a string; any other text is a map of `text` and `tail`: the
+//!   bytes after the NUL, or null without a NUL. The format must be self-describing, such as JSON
+//!   (for exact REAL64, enable `float_roundtrip` of `serde_json`). The limits of a stream are
+//!   checked when the value is encoded, not when it is deserialised.
 //!
 //! ```
 //! # #[cfg(all(feature = "binrw", feature = "std"))] {

@@ -1,4 +1,5 @@
-//! Maxima of lengths and counts. Most are taken from the declarations of the streams.
+//! Maximum lengths and counts, and fixed lengths. Most are taken from the declarations of the
+//! streams.
 
 use crate::ads::{AmsTcpHeader, HeaderLayout};
 use crate::bytes::to_usize;
@@ -21,7 +22,8 @@ pub(crate) const fn most<T: Declared>(field: &str) -> usize {
     to_usize(T::LAYOUT.most(field))
 }
 
-/// Maximum number of bytes of a text in a request: 255 characters and the NUL (VAR-1, VAR-9).
+/// Maximum number of bytes of the name or kind of a variable in a request: 255 characters and the
+/// NUL (VAR-1, VAR-9).
 pub const TEXT_MAX: usize = length::<VariableNameRef<'_>>();
 /// Maximum number of characters of the name of a variable, without the NUL (VAR-9).
 pub const NAME_MAX: usize = TEXT_MAX.saturating_sub(1);
@@ -34,7 +36,8 @@ pub const VARIABLE_MAX: usize = length::<ValueRef<'_>>();
 pub const HANDLE_VALUE_MAX: usize = most::<HandleWriteRef<'_>>("value");
 /// Maximum number of bytes of a value written by name (VAR-13).
 pub const NAME_VALUE_MAX: usize = most::<NameWriteRef<'_>>("value");
-/// Maximum number of dimensions of a description by index; room for an empty name is left (VAR-24).
+/// Maximum number of dimensions of a description by index, which also contains a name of at least
+/// one byte (VAR-24).
 pub const DIMENSIONS_MAX: usize = most::<DescriptionRef<'_>>("dimensions");
 /// Maximum number of dimensions of a description by name, which contains no name (VAR-24, VAR-28).
 pub const NAMELESS_DIMENSIONS_MAX: usize = most::<DescriptionByNameRef<'_>>("dimensions");

@@ -2,7 +2,8 @@
 
 /// Declares a code: a number with names for the documented values. Other values are kept.
 ///
-/// `in hex` displays the number in hexadecimal, `in error` in hexadecimal and decimal as an ADS error.
+/// `in hex` displays the name and the number in hexadecimal; `in error` displays the number in
+/// hexadecimal and decimal, and the name, as an ADS error.
 macro_rules! code {
     (
         $(#[$doc:meta])*

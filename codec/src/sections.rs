@@ -1,5 +1,9 @@
 //! The sections of the manuals, and the modules and types that implement them. This module has no items.
 //!
+//! `ads-en` and `ads-de` are the English and the German edition of the manual "TF5200, ADS Access
+//! on CNC"; `stream-en` is the manual "TF5200, Data streaming"; `service-en` and `service-de` are
+//! the English and the German manual of the Service Interface.
+//!
 //! | manual (`ads-en` 1.05, `ads-de` 1.051) | implemented by |
 //! |---|---|
 //! | 1, code page | [`CncStr`](crate::CncStr), [`text`](crate::text) |
@@ -16,7 +20,7 @@
 //! | 4, 4.1, kinds of variables, by edition and version | [`Kind`](crate::Kind) |
 //! | 4.1, names of variables | [`VariablePath`](crate::VariablePath) |
 //! | 4.2.1, 4.2.2, the interfaces of channel and axis | [`operation::Function`](crate::operation::Function), [`address::ChannelAxis`](crate::address::ChannelAxis) |
-//! | 4.2.1, 0x4C, reserved and documented online | [`VariableNameRef`](crate::VariableNameRef), [`DescriptionByNameRef`](crate::DescriptionByNameRef) |
+//! | 4.2.1, 0x4C, which the manual reserves and the public help pages document | [`VariableNameRef`](crate::VariableNameRef), [`DescriptionByNameRef`](crate::DescriptionByNameRef) |
 //! | 4.3, streams | [`layout`](crate::layout), [`Decode`](crate::Decode), [`Encode`](crate::Encode) |
 //! | 4.3.1, number of variables | [`VariableKindRef`](crate::VariableKindRef), [`VariableCount`](crate::VariableCount) |
 //! | 4.3.2, description | [`VariableIndexKindRef`](crate::VariableIndexKindRef), [`DescriptionRef`](crate::DescriptionRef) |

@@ -10,7 +10,7 @@ use crate::ads::AmsNetId;
 use crate::dynamic::DynamicValue;
 use crate::text::{CncString, Text, TextRef};
 
-/// Implements serialization as a string, in the format of `Display` and `FromStr`.
+/// Implements serialisation as a string, in the format of `Display` and `FromStr`.
 macro_rules! strings {
     ($( $type:ty )+) => { $(
         impl Serialize for $type {
@@ -29,8 +29,8 @@ macro_rules! strings {
 
 strings! { AmsNetId CncString }
 
-/// The serialized form of a [`Text`]: a string if it ends in one NUL, otherwise a map with the bytes after
-/// its NUL.
+/// The serialised form of a [`Text`]: a string if the text ends in one NUL, otherwise a map of the
+/// text and the bytes after its NUL.
 #[derive(Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -65,7 +65,7 @@ impl From<Text> for TextShape {
     }
 }
 
-/// A text in a field of `N` bytes. The NULs that pad the text are not serialized as its tail.
+/// A text in a field of `N` bytes. The NULs that pad the text are not serialised as its tail.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "Text", into = "Text")]
 pub(crate) struct Padded<const N: usize>([u8; N]);
@@ -94,7 +94,8 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
     type Error = &'static str;
 
     fn try_from(Text { text, tail }: Text) -> Result<Self, &'static str> {
-        // A short text needs no NUL in its tail: it is padded with NULs.
+        // The NUL of a text without a tail is not copied: the rest of the field is 0, if there is
+        // any.
         let tail = tail.iter().filter(|tail| !tail.is_empty());
         let nul_and_tail = tail.flat_map(|tail| [0].iter().chain(tail));
         let mut all = text.as_bytes().iter().chain(nul_and_tail);
@@ -107,7 +108,7 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
     }
 }
 
-/// The serialized form of a REAL64: a number, or the bits of a number that is not finite.
+/// The serialised form of a REAL64: a number, or the bits of a number that is not finite.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, deny_unknown_fields, expecting = "expected REAL64: a number, or a map of `bits`")]
 pub(crate) enum Real {

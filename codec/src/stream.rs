@@ -6,8 +6,9 @@ use crate::layout::{Size, Stream};
 
 /// Decodes a stream.
 ///
-/// `XRef` types borrow from the bytes and never allocate; `X` types own their data. Both types of a stream
-/// accept the same bytes and reject all other bytes with the same [`Error`].
+/// A type `XRef`, such as [`DescriptionRef`](crate::DescriptionRef), borrows from the bytes and
+/// never allocates; a type `X`, such as `Description`, owns its data. Both types of a stream accept
+/// the same bytes and reject all other bytes with the same [`Error`].
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
 ///
@@ -27,19 +28,20 @@ use crate::layout::{Size, Stream};
     note = "for content of your own, implement `Decode` with `value::Reader`"
 )]
 pub trait Decode<'a>: Sized {
-    /// The stream that this type decodes, with its field table.
+    /// The stream that this type decodes. [`Stream::layout`] returns its field table.
     const STREAM: Stream;
 
     /// Decodes the stream, which must have exactly the length of `bytes`.
     ///
     /// # Errors
-    /// The first fault, with field and offset.
+    /// The first fault in the bytes, with its field and offset.
     fn decode(bytes: &'a [u8]) -> Result<Self, Error>;
 
     /// Decodes the stream at the front of the bytes, and returns the remaining bytes.
     ///
-    /// A stream of fixed fields ends after its last field; a stream whose last field is a list ends after
-    /// its counted items. A stream that ends in text or data extends to the end of the bytes.
+    /// A stream of fixed fields ends after its last field; a stream whose last field is a list, or
+    /// data with a length, ends after its counted items. A stream that ends in text, in data
+    /// without a length or in records without a count extends to the end of the bytes.
     ///
     /// ```
     /// use ads_cnc::{Decode, Handle, HandleReadRef, U32List};
@@ -52,11 +54,12 @@ pub trait Decode<'a>: Sized {
     /// ```
     ///
     /// # Errors
-    /// Those of [`decode`](Self::decode), except [`Trailing`](crate::ErrorKind::Trailing).
+    /// Those of [`decode`](Self::decode). [`Trailing`](crate::ErrorKind::Trailing) is only possible
+    /// for a stream that extends to the end of the bytes.
     ///
     /// # For implementors
-    /// By default, content of your own types extends to the end of the bytes. Override this method if
-    /// the content itself determines its end.
+    /// By default, a type whose [`STREAM`](Self::STREAM) is [`Stream::Content`] extends to the end
+    /// of the bytes. Override this method if the content itself determines its end.
     fn decode_prefix(bytes: &'a [u8]) -> Result<(Self, &'a [u8]), Error> {
         let (stream, rest) =
             bytes.split_at_checked(prefix(Self::STREAM, bytes)).unwrap_or((bytes, &[]));
@@ -123,7 +126,7 @@ pub trait Encode {
     /// A value that the decoder would reject.
     #[cfg(feature = "alloc")]
     fn encode_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
-        // `encode` rejects a longer stream, so do not allocate memory for it.
+        // `encode` rejects a stream longer than `LEN_MAX`, so do not allocate memory for it.
         let len = self.encoded_len().min(crate::ads::FrameRef::LEN_MAX);
         let mut bytes = alloc::vec![0; len];
         self.encode(&mut bytes)?;

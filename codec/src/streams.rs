@@ -3,9 +3,10 @@
 use crate::layout::Stream;
 use crate::stream::Decode;
 
-/// Calls a macro with all streams: for each stream, its name in [`Stream`](crate::layout::Stream), the
-/// type that borrows its data and, if there is one, the type that owns its data (which needs the
-/// feature `alloc`).
+/// Calls a macro with all streams except [`NoData`](crate::NoData): for each stream, its name in
+/// [`Stream`](crate::layout::Stream), its type and, if this type borrows its data, the type that
+/// owns its data. The types that own their data need the feature `alloc`, except
+/// [`Descriptor`](crate::Descriptor).
 ///
 /// ```
 /// use ads_cnc::layout::Stream;
@@ -64,19 +65,19 @@ macro_rules! streams {
             ObjectDescriptor: $crate::DescriptorRef<'_>, $crate::Descriptor;
             /// Object descriptors in sequence.
             ObjectDescriptors: $crate::DescriptorsRef<'_>, $crate::Descriptors;
-            /// Request of the number of variables.
+            /// Request for the number of variables.
             VariableKind: $crate::VariableKindRef<'_>, $crate::VariableKind;
             /// Number of variables.
             VariableCount: $crate::VariableCount;
-            /// Request of a description.
+            /// Request for a description or an extended description, by index.
             VariableIndexKind: $crate::VariableIndexKindRef<'_>, $crate::VariableIndexKind;
             /// Description of a variable.
             VariableDescription: $crate::DescriptionRef<'_>, $crate::Description;
-            /// Request by a variable's name.
+            /// Request that contains only the name of a variable.
             VariableName: $crate::VariableNameRef<'_>, $crate::VariableName;
             /// Handle of a variable.
             VariableHandle: $crate::Handle;
-            /// Request of a value by handle.
+            /// Request for a value by handle.
             VariableHandleRead: $crate::HandleReadRef<'_>, $crate::HandleRead;
             /// Value of a variable.
             VariableValue: $crate::ValueRef<'_>, $crate::Value;
@@ -102,17 +103,17 @@ macro_rules! streams {
             ElementWriteFlag: $crate::sda::ElementWriteFlag;
             /// Number of dynamic parameters of a kind.
             DynamicCount: $crate::dynamic::DynamicCount;
-            /// Request of a dynamic parameter by its index.
+            /// Request for a dynamic parameter by its index.
             DynamicIndex: $crate::dynamic::DynamicIndex;
             /// Name of a dynamic parameter.
             DynamicName: $crate::dynamic::DynamicNameRef<'_>, $crate::dynamic::DynamicName;
-            /// Request of a dynamic parameter by its name.
+            /// Request for a dynamic parameter by its name.
             DynamicNameRequest: $crate::dynamic::DynamicNameRequestRef<'_>, $crate::dynamic::DynamicNameRequest;
             /// Value of a dynamic parameter.
             DynamicValue: $crate::dynamic::DynamicValue;
             /// Description of a variable, requested by its name.
             VariableDescriptionByName: $crate::DescriptionByNameRef<'_>, $crate::DescriptionByName;
-            /// NC text in one write to the stream.
+            /// NC text in one write to the program stream.
             ProgramStream: $crate::streaming::ProgramStreamRef<'_>, $crate::streaming::ProgramStream;
         }
     };

@@ -1,4 +1,4 @@
-//! Every index group and index offset in the manuals, built and parsed.
+//! The index groups and index offsets that the manuals print, built and parsed.
 
 use ads_cnc::address::Addressing::{Index, Logical};
 use ads_cnc::address::*;
@@ -13,7 +13,7 @@ fn channel(number: u32) -> Channel {
     Channel::new(number).unwrap()
 }
 
-/// Parses a printed group and builds it again.
+/// Parses the number of a group, and checks that the parsed group has the same number.
 fn parts(printed: u32) -> Group {
     let group = IndexGroup::new(printed).parts().unwrap_or_else(|| panic!("{printed:#x}"));
     assert_eq!(group.index_group().get(), printed);
@@ -28,7 +28,7 @@ fn com(addressing: Addressing, access: Access, table: ComTable, instance: u8) ->
     Group::Com(ComGroup { addressing, access, table, instance })
 }
 
-/// ADR-1, ADR-11: channels 1 and 6, by number and by index.
+/// A channel is addressed by its number or by its index (ADR-1, ADR-11).
 #[test]
 fn channels_by_number_and_by_index() {
     let group = |channel: Channel| channel.class(Class::Interpolator, Attribute::Content).get();
@@ -47,7 +47,8 @@ fn channels_by_number_and_by_index() {
     }
 }
 
-/// ADR-2, ADR-5: spindles have no logical address, even if one is requested.
+/// Spindles have no logical address: a class group of a spindle with logical addressing has the
+/// same number as with addressing by index (ADR-2, ADR-5).
 #[test]
 fn spindles_are_addressed_by_index_only() {
     let spindle = Spindle::new(2).unwrap();
@@ -59,7 +60,7 @@ fn spindles_are_addressed_by_index_only() {
     assert_eq!(IndexGroup::new(0x12_5302).parts(), None);
 }
 
-/// ADR-3, ADR-4, COM-6, COM-7: the groups of the COM task.
+/// The groups of the COM task are built and parsed as printed (ADR-3, ADR-4, COM-6, COM-7).
 #[test]
 fn groups_of_the_com_task() {
     let axis = PlatformAxis::new(1).unwrap();
@@ -90,7 +91,7 @@ fn groups_of_the_com_task() {
     assert_eq!(parts(0x12_0200), com(Logical, Access::Element, ComTable::Axis, 0));
 }
 
-/// ADR-5: the base of each class, which is printed for channel 0.
+/// The manuals print the group of each class for channel 0 (ADR-5).
 #[test]
 fn bases_of_the_classes() {
     for (base, addressing, of) in [
@@ -102,12 +103,13 @@ fn bases_of_the_classes() {
         (0x2_5300, Index, Class::Spindle),
     ] {
         assert_eq!(parts(base), class(addressing, of, Attribute::Content, 0));
-        // ADR-6: the object address is 0x600 above the content, without an instance.
+        // The group of object addresses has no instance, and is 0x600 above the group of content
+        // (ADR-6).
         assert_eq!(ClassGroup::object_address(of).index_group().get(), base + 0x600);
     }
 }
 
-/// ADR-6, SDA-10: the groups of the attributes of feedhold.enable, as the manuals print them.
+/// The manuals print these groups for the attributes of feedhold.enable (ADR-6, SDA-10).
 #[test]
 fn attributes_of_an_element() {
     for (printed, attribute) in [
@@ -123,7 +125,7 @@ fn attributes_of_an_element() {
     }
 }
 
-/// ADR-10, SDA-3: the printed queries of object addresses and their replies.
+/// The groups of queries of object addresses and of their replies are parsed (ADR-10, SDA-3).
 #[test]
 fn object_addresses_are_as_printed() {
     let query = |of| class(Logical, of, Attribute::ObjectAddress, 0);
@@ -133,7 +135,8 @@ fn object_addresses_are_as_printed() {
     assert_eq!(parts(0x12_2301), class(Logical, Class::Decoder, Attribute::Content, 1));
 }
 
-/// SDA-1, E-02: an object address is queried by number or by index; for spindles, by index only.
+/// An object address is queried by number or by index; that of a spindle, by index only (SDA-1,
+/// E-02).
 #[test]
 fn queries_of_object_addresses() {
     let hld = FindInstance::new(Class::Hld, 1, 0);
@@ -144,8 +147,8 @@ fn queries_of_object_addresses() {
     assert_eq!(spindle.by_index(), spindle);
 }
 
-/// SDA-2: only (0, 0) means that the instance does not exist; other replies must have the group of a
-/// class.
+/// Only the reply (0, 0) means that the instance does not exist; another reply must have the group
+/// of a class (SDA-2).
 #[test]
 fn only_address_0_0_has_no_first_element() {
     let first = |group, offset| {
@@ -163,7 +166,8 @@ fn only_address_0_0_has_no_first_element() {
     }
 }
 
-/// ADR-12: the manuals also print each base without the logical bit; both groups differ only in this bit.
+/// The manuals also print these groups without the logical bit; both groups differ only in this bit
+/// (ADR-12).
 #[test]
 fn bases_without_the_logical_bit() {
     for (without, with) in [(0x2_0100, 0x12_0100), (0x2_0200, 0x12_0200), (0x2_0300, 0x12_0300)] {
@@ -175,7 +179,7 @@ fn bases_without_the_logical_bit() {
     }
 }
 
-/// ADR-10: an undocumented group does not parse, but its number is unchanged.
+/// An undocumented group is not parsed, but its number is unchanged (ADR-10).
 #[test]
 fn undocumented_groups_do_not_parse() {
     for number in [
@@ -196,7 +200,7 @@ fn undocumented_groups_do_not_parse() {
     }
 }
 
-/// ADR-7, ADR-8: both printed strides; 0x10000 is the default.
+/// An offset is built and parsed with both printed strides; 0x10000 is the default (ADR-7, ADR-8).
 #[test]
 fn axes_with_both_strides() {
     let offset =
@@ -214,13 +218,13 @@ fn axes_with_both_strides() {
         let taken = IndexOffset::new(printed).axis_and_element(AxisStride::X10000);
         assert_eq!(taken, Ok((axis, element)));
     }
-    // The first platform axis of the HLD (E-01).
+    // The stride 0x1000 is printed for the first platform axis of the HLD (E-01).
     assert_eq!(offset(AxisStride::X1000, 1, 0), 0x1000);
     assert_eq!(offset(AxisStride::X1000, 1, 1), 0x1001);
     // An offset does not show its stride.
     assert_eq!(offset(AxisStride::X10000, 1, 1), offset(AxisStride::X1000, 16, 1));
     assert_eq!(IndexOffset::new(0x1_0001).axis_and_element(AxisStride::X1000), Ok((16, 1)));
-    // An axis of 17 bits, which is invalid with either stride.
+    // With the stride 0x1000, this offset would have an axis of 17 bits, which is invalid.
     let error = IndexOffset::new(0x1000_0000).axis_and_element(AxisStride::X1000).unwrap_err();
     assert_eq!((error.kind(), error.expected()), (ErrorKind::OutOfRange, 0xFFFF));
     assert_eq!((error.field().name(), error.found()), ("axis", 0x1_0000));
@@ -235,7 +239,8 @@ fn out_of_range<T: std::fmt::Debug>(result: Result<T, Error>) -> (&'static str, 
     (error.field().name(), error.expected(), error.found())
 }
 
-/// ADR-9, GEN-6: a number that does not fit is rejected; the error has the nearest valid number.
+/// A number that does not fit is rejected; the error contains the nearest valid number (ADR-9,
+/// GEN-6).
 #[test]
 fn numbers_that_do_not_fit_are_rejected() {
     assert_eq!(out_of_range(Channel::new(0)), ("instance", 1, 0));
@@ -253,7 +258,7 @@ fn numbers_that_do_not_fit_are_rejected() {
     assert_eq!(out_of_range(offset(narrow, 1, 0x1000)), ("element", 0xFFF, 0x1000));
 }
 
-/// SDA-4, ADR-9: the elements of an instance end at 16 bits, before the next axis.
+/// The number of an element has at most 16 bits: `nth` does not reach the next axis (SDA-4, ADR-9).
 #[test]
 fn elements_do_not_overflow_into_the_next_axis() {
     let axis = ChannelAxis::new(2).unwrap();
@@ -266,7 +271,7 @@ fn elements_do_not_overflow_into_the_next_axis() {
     }
 }
 
-/// ADR-9: class, attribute and instance do not change the other parts of a group.
+/// Class, attribute and instance do not change the other parts of a group (ADR-9).
 #[test]
 fn parts_of_a_group_are_independent() {
     for class in Class::ALL {
@@ -294,7 +299,8 @@ fn parts_of_a_group_are_independent() {
 proptest! {
     #![proptest_config(kept::cases(1000, file!()))]
 
-    /// ADR-9: axis and element are parsed from the offset, or rejected when it is built.
+    /// An offset is parsed to the axis and element from which it was built. If one of them does not
+    /// fit, the offset is not built (ADR-9).
     #[test]
     fn axis_and_element_are_independent(
         axis in prop_oneof![0..=0x2_0000_u32, any::<u32>()],

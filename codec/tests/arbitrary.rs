@@ -1,4 +1,4 @@
-//! The feature `arbitrary` generates valid values of streams.
+//! With the feature `arbitrary`, valid values of streams are generated.
 
 #![cfg(feature = "arbitrary")]
 
@@ -12,7 +12,7 @@ use super::kept;
 proptest! {
     #![proptest_config(kept::cases(200, file!()))]
 
-    /// Values of all streams encode, whatever bytes they are generated from.
+    /// Values of all streams encode without an error, from whatever bytes they are generated.
     #[test]
     fn values_encode(bytes in prop::collection::vec(any::<u8>(), 0..4000)) {
         for subject in SUBJECTS {
@@ -21,12 +21,13 @@ proptest! {
     }
 }
 
-/// The generators also produce rare values: each end of a text, replies with and without data, many items.
+/// The generated values include texts with and without a NUL, replies with and without data, and
+/// lists with few and many items.
 #[test]
 fn values_vary() {
     let mut seen = std::collections::BTreeSet::new();
     for seed in 0..400_u32 {
-        // A full-period generator is sufficiently random here.
+        // A linear congruential generator of full period is sufficiently random for this test.
         let mut state = seed.wrapping_mul(2_654_435_761).wrapping_add(1);
         let bytes: Vec<u8> = std::iter::repeat_with(|| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -37,7 +38,8 @@ fn values_vary() {
         let variable: Description = made(&bytes);
         seen.insert(match variable.name.tail {
             None => {
-                // A name without a NUL has at least one character; otherwise there would be no name.
+                // A name field has at least one byte (VAR-4), so a name without a NUL has a
+                // character.
                 assert!(!variable.name.text.as_bytes().is_empty());
                 "open name"
             }

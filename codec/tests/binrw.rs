@@ -1,4 +1,4 @@
-//! `BinRead` and `BinWrite`: behaviour that the laws of all streams do not cover.
+//! Tests of `BinRead` and `BinWrite` that the tests of all streams (`common`) do not contain.
 
 #![cfg(feature = "binrw")]
 
@@ -39,7 +39,7 @@ fn own(error: &binrw::Error) -> &Error {
 
 const READ: [u8; 12] = [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0];
 
-/// Interrupted reads are repeated; other errors of the reader are returned.
+/// A read is repeated after the error `Interrupted`; any other error of the reader is returned.
 #[test]
 fn errors_of_a_reader_are_returned() {
     let broken = |bytes| {
@@ -52,7 +52,8 @@ fn errors_of_a_reader_are_returned() {
     assert_eq!(error.kind(), io::ErrorKind::ConnectionReset);
 }
 
-/// A fault of a stream is reported as an error of the crate, with the position in the reader.
+/// Invalid bytes are reported as an [`Error`] of the crate. Its offset counts from the start of the
+/// reader's bytes; the position of the reader is restored.
 #[test]
 fn errors_have_positions() {
     let mut reader = Cursor::new(&[7, 7, 0x41, 0x23, 1, 0x20, 1, 0][..]);
@@ -74,7 +75,8 @@ fn invalid_values_are_not_written() {
     assert!(written.into_inner().is_empty());
 }
 
-/// A length of 4 MiB with three bytes after it, and counts of 4 GiB.
+/// A length of 4 MiB or 4 GiB that three bytes follow, and a count of 4 294 967 295 dimensions, are
+/// errors.
 #[test]
 fn lengths_are_checked_before_memory_is_allocated() {
     for length in [0x40_0000_u32, u32::MAX] {

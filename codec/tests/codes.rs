@@ -1,5 +1,5 @@
-//! The numbers of codes, types, classes and attributes, as the manuals and the vendors' help pages print
-//! them.
+//! The numbers and names of codes, types, classes and attributes equal those in the manuals and on
+//! the vendors' help pages.
 
 use ads_cnc::address::{Addressing, Attribute, Class, ClassGroup};
 use ads_cnc::ads::{AdsError, AdsState, Command, StateFlags};
@@ -7,7 +7,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{Synchronisation, U32List, Validity, VariableAccess, VariableType, WriteAccess};
 
-/// The numbers up to 0xFFF that have a name, and their names.
+/// The numbers up to 0xFFF of a code that have a name, with their names.
 macro_rules! names {
     ($code:ident) => {
         (0..0x1000).filter_map(|number| Some((number, $code(number).name()?))).collect::<Vec<_>>()
@@ -65,7 +65,8 @@ fn codes_of_ads_have_the_numbers_of_the_help_pages() {
     assert_eq!(names!(AdsError), errors);
 }
 
-/// Errors contain a type by its number: the code, or a greater number if variables do not use the type.
+/// The numbers of types in errors are the codes of types of variables, and 10 to 12 for the other
+/// types.
 #[test]
 fn types_have_their_sizes_and_their_numbers_in_errors() {
     let types = DataType::ALL.map(|ty| {

@@ -1,4 +1,4 @@
-//! Lists and iterators: their lengths and items.
+//! Tests of lists and iterators: their lengths and items.
 
 use std::iter::FusedIterator;
 
@@ -49,7 +49,8 @@ fn views_of_lists_return_all_items() {
     }
 }
 
-/// Checks the promise of `FusedIterator`: after its end, an iterator returns no more items.
+/// Checks that an iterator returns `count` items, and `None` from then on, as `FusedIterator`
+/// promises.
 #[track_caller]
 fn stays_at_its_end(mut items: impl FusedIterator, count: usize) {
     assert_eq!(items.by_ref().count(), count);
@@ -68,7 +69,7 @@ fn iterators_stay_at_their_end() {
     stays_at_its_end(DescriptorsRef::decode(&[0; 168]).unwrap().iter(), 2);
     let elements = Elements::new(DataType::Uns16, U32List::from(&[2]), &[1, 0, 2, 0]).unwrap();
     stays_at_its_end(elements.iter(), 2);
-    // A skip past the end is an end, too.
+    // After `nth` with an index past the end, the iterator is at its end.
     let mut skipped = elements.iter();
     assert_eq!(skipped.nth(5), None);
     stays_at_its_end(skipped, 0);

@@ -1,4 +1,5 @@
-//! Content: its address and length, and the addresses of functions, which are not content.
+//! Tests of the content of objects and elements: its address and length. Addresses of functions are
+//! not addresses of content.
 
 use ads_cnc::ErrorKind;
 use ads_cnc::address::{Channel, Class, ElementAddress, IndexGroup, IndexOffset};
@@ -14,7 +15,7 @@ fn content(group: u32, offset: u32) -> Call<'static> {
     Call { port, index_group, index_offset, ..call }
 }
 
-/// SDA-12, STM-1: the address of a function is rejected for content, by clients and servers.
+/// Clients and servers reject the address of a function as an address of content (SDA-12, STM-1).
 #[test]
 fn addresses_of_functions_are_rejected_for_content() {
     let rows = Function::ALL.iter().map(|function| function.spec());
@@ -48,21 +49,22 @@ fn addresses_of_functions_are_rejected_for_content() {
         };
         assert_eq!((error.kind(), error.found()), (ErrorKind::Function, offset.get()));
     }
-    // A Read of the offsets 0x02 … 0x05 is dispatched to `CountDynamic`, and a Read of element 0 to
-    // `CountElements`.
+    // A Read of the decoder at the offsets 0x02 to 0x05 is dispatched to `CountDynamic`, and a Read
+    // of the HLD at element 0 to `CountElements`.
     for offset in 2..=5 {
         let reached = content(0x12_2301, offset).dispatch().unwrap();
         assert_eq!(reached.function(), Function::CountDynamic);
     }
     assert_eq!(content(0x12_3301, 0).dispatch().unwrap().function(), Function::CountElements);
-    // Other classes, channel 0 and other elements of the decoder have no functions.
+    // Element 0x44 of another class, element 0x44 of channel 0, and element 7 of the decoder are
+    // content.
     for (group, offset) in [(0x12_1301, 0x44), (0x12_2300, 0x44), (0x12_2301, 7)] {
         assert_eq!(content(group, offset).dispatch().unwrap().function(), Function::ReadElement);
     }
 }
 
-/// E-01: a server dispatches the count of elements at the stride 0x1000 as a read of content, which
-/// encodes to the same call.
+/// A server dispatches a count of elements with the stride 0x1000 as a read of content, which
+/// encodes to the same call (E-01).
 #[test]
 fn the_count_of_a_platform_axis_is_a_read_of_content() {
     let axis = content(0x12_3300, 0x1000);

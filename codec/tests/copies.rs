@@ -1,4 +1,5 @@
-//! Owned copies equal their originals, and lists grow.
+//! Tests of owned types: copies equal their originals, items are added to lists, and texts are
+//! parsed.
 
 #![cfg(feature = "alloc")]
 
@@ -7,7 +8,7 @@ use ads_cnc::*;
 const DESCRIPTION: &[u8] =
     b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 
-/// A copy outlives the bytes, and encodes to the same bytes.
+/// An owned copy can be used after the bytes were freed, and encodes to the same bytes.
 #[test]
 fn copies_of_descriptions_outlive_the_bytes() {
     let (whole, nameless) = {
@@ -60,7 +61,7 @@ fn lists_contain_the_added_items_in_order() {
     assert!(name == names[1] && name == *names[1] && name != names[0]);
 }
 
-/// A Rust string is encoded as CP1252 with its NUL, or rejected.
+/// A Rust string is converted to CP1252 with a NUL after it, or rejected.
 #[test]
 fn texts_of_a_program_are_cp1252_or_rejected() {
     let text: Text = "größer".parse().unwrap();

@@ -1,4 +1,4 @@
-//! Code page 1252 (GEN-3), compared with another implementation.
+//! Tests of code page 1252 (GEN-3), in comparison with the crate `encoding_rs`.
 
 use ads_cnc::CncStr;
 use ads_cnc::text::{char_to_cp1252, cp1252_to_char};
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::common::text::{CncStrMutation, check_cp1252, check_utf8};
 use super::kept;
 
-/// Every byte has the same character as in the crate `encoding_rs`.
+/// Every byte is converted to the same character as by the crate `encoding_rs`.
 #[test]
 fn bytes_decode_as_elsewhere() {
     for byte in 0..=u8::MAX {
@@ -20,7 +20,8 @@ fn bytes_decode_as_elsewhere() {
     }
 }
 
-/// A character has a byte if and only if it has one in the crate `encoding_rs`.
+/// Every character is converted to the same byte as by the crate `encoding_rs`, or rejected by
+/// both.
 #[test]
 fn characters_encode_as_elsewhere() {
     let mut encoder = WINDOWS_1252.new_encoder();
@@ -41,7 +42,8 @@ fn characters_encode_as_elsewhere() {
     assert_eq!(with_byte, 256);
 }
 
-/// All bytes except NUL convert to characters and back, including the five without a character.
+/// All bytes except NUL are converted to characters and back, including the five bytes to which the
+/// code page assigns no character.
 #[test]
 fn texts_convert_to_characters_and_back() {
     for byte in 1..=u8::MAX {
@@ -57,7 +59,7 @@ fn texts_convert_to_characters_and_back() {
     assert!(CncStr::new("V\0x").is_err());
 }
 
-/// Owned and borrowed texts have the same bytes, order and display.
+/// Owned and borrowed texts have the same bytes, and are displayed as the same text.
 #[cfg(feature = "alloc")]
 #[test]
 fn owned_and_borrowed_texts_are_equal() {

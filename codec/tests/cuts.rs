@@ -1,6 +1,6 @@
-//! Every sample truncated at every length, and with one extra byte: the result is an error with field
-//! and offset, or a requirement permits the changed bytes. The result is the same for each type of the
-//! stream.
+//! Every sample is decoded truncated at every length, and with one extra byte. The result is an
+//! error with field and offset, or a requirement permits the changed bytes. It is the same for each
+//! type of the stream.
 
 use std::collections::BTreeSet;
 
@@ -64,7 +64,8 @@ const ALLOWED: [&str; 16] = [
     STM_5,
 ];
 
-/// The requirement that permits any number of bytes at the end of the stream.
+/// The requirement that permits any number of bytes at the end of the stream; `None` if no
+/// requirement does.
 fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     match stream {
         Stream::VariableValue | Stream::VariableHandleWrite | Stream::VariableNameWrite => {
@@ -81,10 +82,11 @@ fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
 enum Text {
     /// The text ends with a NUL; more NULs may follow.
     Terminated,
-    /// The text ends with a NUL, which more NULs may follow, or at the end of the stream.
+    /// The text ends with a NUL, after which more NULs may follow, or at the end of the stream.
     MayTerminate,
-    /// The text ends with a NUL, after which any bytes may follow, or at the end of the stream. Three
-    /// requirements permit this: the bytes after the NUL, the end of the stream, and a longer text.
+    /// The text ends with a NUL, after which any bytes may follow, or at the end of the stream. The
+    /// three strings are the requirements that permit bytes after the NUL, an end without a NUL,
+    /// and a longer text.
     Open([&'static str; 3]),
 }
 
@@ -103,7 +105,8 @@ fn text_of(stream: Stream, field: &str) -> Option<Text> {
     }
 }
 
-/// The expected result for the first `cut` bytes of a sample, from its fields as split by hand.
+/// The expected result for the first `cut` bytes of a sample, derived from the fields that the
+/// sample lists.
 fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
     let (name, start, bytes) = sample
         .places()
@@ -152,7 +155,8 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
         {
             Expected::Accepted(ADS_6)
         }
-        // The error for too few items is reported at their count, which is the previous field.
+        // The error for too few items is reported at the field that contains their count, which is
+        // before them.
         (None, _, "dimensions" | "indices") => {
             let of_items = |&(other, ..): &(&str, usize, &[u8])| other == name;
             let (_, first, _) = sample.places().find(of_items).unwrap();
@@ -164,7 +168,7 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
     }
 }
 
-/// The maximum length of a text.
+/// The maximum length of a text field in bytes.
 fn limit(stream: Stream) -> usize {
     match stream {
         Stream::DynamicName | Stream::DynamicNameRequest => 96,
@@ -226,8 +230,8 @@ fn observed(verdict: Result<(), Error>, expected: Expected) -> Expected {
     }
 }
 
-/// Missing and extra bytes are rejected with the expected error, or permitted by a listed requirement;
-/// each listed requirement occurs.
+/// Missing and extra bytes are rejected with the expected error, or permitted by a requirement in
+/// [`ALLOWED`]. Each of these requirements permits bytes of at least one sample.
 #[test]
 fn truncated_and_extended_samples_have_the_expected_result() {
     let mut met = BTreeSet::new();
@@ -266,7 +270,8 @@ fn text_after_the_nul_of_a_request_is_trailing() {
     }
 }
 
-/// A walk of the stream without fields accepts and rejects the same bytes as its decoder.
+/// The walk of `Stream::NoData`, the stream without fields, accepts and rejects the same bytes as
+/// its decoder.
 #[test]
 fn no_data_rejects_bytes() {
     assert!(Stream::NoData.walk(&[], |_| ()).is_ok());

@@ -1,4 +1,4 @@
-//! Dispatch: from the operation of a client to the request of a server, and errors.
+//! Tests of dispatch: which request a server gets from the call of a client, and which error.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,7 +30,8 @@ fn calls_are_dispatched_to_their_functions() {
     assert_eq!(reached, Function::ALL.iter().copied().collect());
 }
 
-/// A Write has no read length, and a Read has no data.
+/// The call of a Read has no data, that of a Write has no read length, and that of a ReadWrite has
+/// one.
 #[test]
 fn calls_have_only_the_parts_of_their_service() {
     for sample in CALLS {
@@ -52,7 +53,8 @@ fn error_of(change: impl FnOnce(&mut Call<'_>)) -> DispatchError {
     call.dispatch().unwrap_err()
 }
 
-/// A call with one fault is rejected for that fault, with the ADS error for the response.
+/// The dispatch error of a call with one fault names this fault, and has the ADS error for the
+/// response.
 #[test]
 fn a_call_with_one_fault_is_rejected_for_it() {
     let group = IndexGroup::new;
@@ -104,8 +106,8 @@ fn a_call_with_one_fault_is_rejected_for_it() {
             0x701,
         ),
     ];
-    for (refused, wanted, number) in cases {
-        assert_eq!((refused, refused.ads_error()), (wanted, AdsError(number)));
+    for (rejected, wanted, number) in cases {
+        assert_eq!((rejected, rejected.ads_error()), (wanted, AdsError(number)));
     }
     let DispatchError::Stream(error) = error_of(|call| call.data = b"V.E.vartest") else {
         panic!()
@@ -114,7 +116,7 @@ fn a_call_with_one_fault_is_rejected_for_it() {
     assert_eq!(DispatchError::Stream(error).ads_error(), AdsError::INVALID_SIZE);
 }
 
-/// The name of the function at this address, or the error.
+/// The name of the function that serves a call to this address, or a text for the dispatch error.
 fn reached(port: AmsPort, service: AdsService, group: u32, offset: u32) -> String {
     let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
     let mut reached = String::new();
@@ -122,7 +124,7 @@ fn reached(port: AmsPort, service: AdsService, group: u32, offset: u32) -> Strin
         let call = Call { port, service, index_group, index_offset, read_length: 84, data };
         reached = match call.dispatch() {
             Ok(request) => return request.function().spec().name.to_owned(),
-            // This data is not valid for the function: try the data of another function.
+            // The data is not valid for the function at this address: try the next data.
             Err(DispatchError::Stream(_)) => continue,
             Err(DispatchError::Port(_)) => "no port".to_owned(),
             Err(DispatchError::Group(_)) => "no group".to_owned(),
@@ -136,8 +138,9 @@ fn reached(port: AmsPort, service: AdsService, group: u32, offset: u32) -> Strin
     reached
 }
 
-/// A snapshot of the functions that Read, Write and ReadWrite reach near every group and offset. Groups
-/// with equal results are combined; so are consecutive offsets with equal results.
+/// A snapshot lists the functions that Read, Write and ReadWrite reach at the groups and offsets of
+/// all functions and at neighbouring numbers. Ports and groups with equal results are combined, and
+/// so are consecutive offsets with equal results.
 #[test]
 #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
 fn dispatch_reaches_the_same_functions() {
@@ -181,8 +184,8 @@ fn dispatch_reaches_the_same_functions() {
     });
 }
 
-/// COM-3: a read length below one descriptor is rejected; a multiple of 84 requests that number of
-/// descriptors, any other length one.
+/// A read length of less than one descriptor is rejected. A multiple of 84 requests that number of
+/// descriptors; any other length requests one (COM-3).
 #[test]
 fn read_lengths_of_descriptors() {
     let sample = CALLS.iter().find(|sample| sample.slug == "descriptor-printed").unwrap();
@@ -209,8 +212,8 @@ fn read_lengths_of_descriptors() {
 proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
-    /// Any call is rejected, or dispatched to a request that encodes to the same call. Calls are
-    /// generated near the samples, so that some are accepted.
+    /// Any call is rejected, or dispatched to a request that encodes to the same call. The calls
+    /// are samples with changed parts, so that some of them are accepted.
     #[test]
     fn any_call_is_rejected_or_encodes_to_itself(
         sample in prop::sample::select(CALLS.iter().map(|sample| sample.call).collect::<Vec<_>>()),
@@ -234,7 +237,8 @@ proptest! {
     }
 }
 
-/// A reply is decoded by its function, and rejected if it is longer than the read length.
+/// A reply is decoded if its length is valid for the function and the read length; other lengths
+/// are rejected.
 #[test]
 fn replies_are_decoded_by_their_function() {
     let reply = |slug: &str, data: &[u8]| {

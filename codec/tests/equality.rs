@@ -1,4 +1,4 @@
-//! Equality and hashes.
+//! Tests of equality and hashes.
 
 use std::collections::HashSet;
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher, Hash};
@@ -8,7 +8,8 @@ use ads_cnc::service::ServiceId;
 use ads_cnc::value::Boolean;
 use ads_cnc::*;
 
-/// Checks that all values in `same` are equal, and that `other` differs from them in value and hash.
+/// Checks that all values in `same` are equal and have equal hashes, and that `other` differs from
+/// them in value and hash.
 #[track_caller]
 fn check<T: Hash + Eq + std::fmt::Debug>(same: &[T], other: T) {
     let state = BuildHasherDefault::<DefaultHasher>::default();
@@ -50,7 +51,7 @@ fn names_are_equal_by_their_text_and_its_case() {
     check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
 }
 
-/// A request for a decoded name contains the text of the name, without its decoded end.
+/// A request for a decoded name contains the text of the name, but not the bytes after it.
 #[test]
 fn decoded_names_are_requested_by_their_text() {
     let channel = address::Channel::new(1).unwrap();
@@ -66,7 +67,8 @@ fn decoded_names_are_requested_by_their_text() {
     }
 }
 
-/// NULs after a kind are not part of the kind, but they are part of a text field (E-34).
+/// NULs after a kind are ignored when kinds are compared, but not when their text fields are
+/// (E-34).
 #[test]
 fn kinds_are_equal_by_their_text() {
     let padded = VariableKindRef::decode(b"V.E\0\0").unwrap().kind;
@@ -88,7 +90,8 @@ fn uuids_are_equal_without_regard_to_case() {
     );
 }
 
-/// Lists from streams, from memory and from names are equal if they have the same numbers.
+/// Lists of numbers from streams, from slices and from names are equal if they have the same
+/// numbers.
 #[test]
 fn lists_of_numbers_from_all_sources_are_equal() {
     let name = VariablePath::new("V.E.a[3][0]").unwrap();
@@ -109,7 +112,7 @@ fn values_to_write_are_equal_by_their_bytes() {
     check(&[WriteValue::from(&[1_u8, 0, 0, 0][..]), WriteValue::from(1_u32)], 2_u32.into());
 }
 
-/// Several bytes are TRUE; each is kept.
+/// Every byte except 0 is TRUE. The byte is kept: only 1 equals `Boolean::TRUE`.
 #[test]
 fn any_byte_but_0_is_true_and_is_kept() {
     for byte in 0..=u8::MAX {

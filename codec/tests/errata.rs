@@ -1,4 +1,4 @@
-//! The page on the errata of the manuals.
+//! A test of `src/errata.md`, the page on the errata of the manuals.
 
 #[test]
 fn the_page_contains_every_erratum_of_the_register() {

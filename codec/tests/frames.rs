@@ -1,4 +1,4 @@
-//! Frames on a TCP stream, in pieces of any length (ADS-5).
+//! Tests of frames on a TCP stream, which arrive in pieces of any length (ADS-5).
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -34,7 +34,7 @@ fn a_frame_is_returned_when_it_is_complete() {
 const TARGET: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 7, 1, 1]), port: AmsPort::SDA };
 const SOURCE: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
 
-/// A call encodes to the request of its service (ADS-1 … ADS-3), and decodes from a frame.
+/// A call encodes to the request of its service, and is decoded from a frame (ADS-1, ADS-2, ADS-3).
 #[test]
 fn a_call_encodes_to_the_request_of_its_service() {
     let call = |service, data| Call {
@@ -90,7 +90,8 @@ fn the_header_of_a_response_matches_its_request() {
     assert_eq!(of_data.response(), wanted);
 }
 
-/// A fault is reported when the last byte of the faulty field has arrived, whatever bytes follow.
+/// A fault in the AMS/TCP header is reported when its 6 bytes have arrived, and a fault in the AMS
+/// header when 38 bytes have arrived, whatever bytes follow.
 #[test]
 fn a_fault_is_reported_as_soon_as_its_bytes_arrive() {
     for (at, byte, seen, wanted) in [
@@ -111,13 +112,14 @@ fn a_fault_is_reported_as_soon_as_its_bytes_arrive() {
     }
 }
 
-/// The sum of a huge length and the length of the header does not overflow to the length of a short frame.
+/// The sum of a huge length and the length of the header does not overflow to a small number.
 #[test]
 fn lengths_do_not_wrap() {
     let mut bytes = frame(b"");
     bytes[2..6].copy_from_slice(&[0xFF; 4]);
     let error = FrameRef::split(&bytes, u32::MAX).unwrap_err();
-    // The length is rejected because it exceeds `ADS_DATA_MAX`, before it is compared with `data_length`.
+    // The length exceeds the maximum length of a frame, and is rejected before it is compared with
+    // `data_length`.
     assert_eq!((error.kind(), error.offset()), (TooLong, 2));
     let most = u32::try_from(ads_cnc::limits::ADS_DATA_MAX + 16 + 32).unwrap();
     bytes[2..6].copy_from_slice(&most.to_le_bytes());
@@ -132,7 +134,7 @@ fn config() -> ProptestConfig {
 proptest! {
     #![proptest_config(config())]
 
-    /// Frames in sequence are returned one by one, wherever the stream is split.
+    /// Frames in sequence are returned one by one, wherever the stream is cut into pieces.
     #[test]
     fn frames_are_returned_in_order(
         datas in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..40), 1..5),
@@ -162,7 +164,7 @@ proptest! {
     }
 }
 
-/// The longest frame is split and encoded; a frame with one more byte is rejected.
+/// A frame of maximum length is split and encoded; a frame with one more byte is rejected.
 #[cfg(feature = "alloc")]
 #[test]
 fn the_longest_frame_is_accepted_and_a_longer_one_rejected() {

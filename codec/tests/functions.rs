@@ -1,4 +1,5 @@
-//! Laws of every function, from the streams in its row of the table.
+//! Every function accepts the requests and replies that the streams in its row of the table of
+//! functions accept.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +15,7 @@ use super::common::{CALLS, CallSample, check_reply, check_request, each_sample};
 use super::damage::{Damage, damage};
 use super::kept;
 
-/// Every sample and vector of a stream; without a stream, only the empty data.
+/// The bytes of every sample and vector of a stream; for `None`, only empty bytes.
 fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {
     let Some(stream) = stream else { return vec![vec![]] };
     let samples = each_sample().filter(|&(other, _)| other == stream);
@@ -23,12 +24,13 @@ fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {
     samples.chain(vectors.map(|vector| vector.bytes())).collect()
 }
 
-/// The lengths to truncate at: all of a short stream; some of a long one, to save time.
+/// The lengths to which a stream is truncated: all lengths up to 300 bytes; of a longer stream only
+/// some, to save time.
 fn cuts(len: usize) -> impl Iterator<Item = usize> {
     (0..=len).filter(move |&cut| len <= 300 || cut < 40 || len - cut < 8 || cut % 101 == 0)
 }
 
-/// A call with the maximum read length of its function.
+/// The call of a sample with this data and the maximum read length of its function.
 fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
     let most = sample.function.spec().reply.map_or(0, |stream| stream.layout().max);
     let read_length = match sample.function {
@@ -38,8 +40,8 @@ fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
     Call { data, read_length, ..sample.call }
 }
 
-/// Each function accepts and rejects the same data as the stream of its request, for every sample and
-/// vector and their truncations. An accepted call encodes to the same call.
+/// Each function accepts and rejects the same data as the stream of its request, for every sample
+/// and vector of this stream and their truncations. An accepted call encodes to the same call.
 #[test]
 fn requests_are_those_of_the_table() {
     let mut accepted = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! `join`: streams from the bytes of their fields.
+//! Tests of `Stream::join`, which joins a stream from the bytes of its fields.
 
 use ads_cnc::ErrorKind::{self, BufferTooSmall, Mismatch, MissingNul, TooLong, Truncated};
 use ads_cnc::layout::{Field, Size, Stream};
@@ -41,7 +41,8 @@ fn join_is_the_inverse_of_a_walk() {
                 *part = &part[..end];
             }
         }
-        // A count without items can be omitted where a reply may end before the count.
+        // Samples with a count of 0 are skipped: `join` does not add an omitted count if the stream
+        // may end before it.
         if !parts.iter().any(|(field, part)| is_count(stream, *field) && **part == [0; 4]) {
             assert_eq!(join(stream, &short, bytes.len()).as_ref(), Ok(&bytes), "{}", sample.slug);
         }
@@ -54,7 +55,8 @@ fn join_is_the_inverse_of_a_walk() {
     assert!(counts > 20, "{counts}");
 }
 
-/// If a part is omitted, repeated or longer, the result is an error or has exactly the changed parts.
+/// If a part is omitted, repeated or longer, or the parts are rotated, the result is an error or
+/// bytes with exactly the changed parts.
 #[test]
 fn joined_bytes_have_exactly_the_parts() {
     for (stream, sample) in each_sample() {
@@ -88,7 +90,7 @@ fn trimmed((field, part): Part<'_>) -> (Field, Vec<u8>) {
     (field, part)
 }
 
-/// The stream, its parts, and the error: class, field, offset, expected and found number.
+/// The stream, its parts, and the error: kind, field, offset, expected and found number.
 type JoinCase<'a> = (Stream, &'a [(&'a str, &'a [u8])], (ErrorKind, &'a str, u32, u32, u32));
 
 #[test]
@@ -101,7 +103,7 @@ fn errors_name_the_wrong_part() {
     };
     let four = &[1, 0, 0, 0][..];
     let cases: [JoinCase<'_>; 9] = [
-        // A number with three bytes instead of four.
+        // The number has three bytes instead of four.
         (Stream::VariableHandle, &[("handle", &[1, 2, 3])], (Truncated, "handle", 0, 4, 3)),
         (Stream::VariableIndexKind, &[("kind", b"V.E\0")], (MissingNul, "kind", 4, 256, 0)),
         (
@@ -109,7 +111,7 @@ fn errors_name_the_wrong_part() {
             &[("index", four), ("kind", b"V.E")],
             (MissingNul, "kind", 4, 256, 3),
         ),
-        // Two parts in the wrong order: at the position of the kind, the kind is missing.
+        // The parts are in the wrong order, so that the kind is missing after the index.
         (
             Stream::VariableIndexKind,
             &[("kind", b"V.E\0"), ("index", four)],
@@ -120,7 +122,7 @@ fn errors_name_the_wrong_part() {
             &[("handle", four), ("handle", four)],
             (Mismatch, "handle", 4, 0, 4),
         ),
-        // After a NUL inside the name, the rest would be part of the value.
+        // The name contains a NUL. The bytes after it would be decoded as a part of the value.
         (
             Stream::VariableNameWrite,
             &[("name", b"a\0b\0"), ("value", four)],
@@ -131,7 +133,7 @@ fn errors_name_the_wrong_part() {
             &[("name", b"a"), ("value", four)],
             (Mismatch, "name", 0, 3, 1),
         ),
-        // A count that differs from the number of items.
+        // The count differs from the number of items.
         (
             Stream::VariableHandleRead,
             &[("handle", four), ("index_count", four), ("indices", four), ("indices", four)],

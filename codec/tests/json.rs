@@ -1,4 +1,5 @@
-//! The feature `serde`: every value is unchanged by serialization to JSON and back.
+//! Tests of the feature `serde`: a value is unchanged after it was serialized to JSON and
+//! deserialized.
 
 #![cfg(feature = "serde")]
 
@@ -15,7 +16,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
-/// Decodes a value, serializes and deserializes it, and compares.
+/// Decodes a value, serializes and deserializes it, and checks that it is unchanged. Returns false
+/// if the bytes are invalid.
 fn comes_back<T>(bytes: &[u8]) -> bool
 where
     T: for<'a> Decode<'a> + Encode + Serialize + DeserializeOwned + PartialEq + std::fmt::Debug,
@@ -58,7 +60,8 @@ fn shape<T: for<'a> Decode<'a> + Serialize>(bytes: &[u8]) -> Value {
     to_value(T::decode(bytes).unwrap()).unwrap()
 }
 
-/// Fields have the names of the table; counts are omitted.
+/// A stream is serialized as a map of its fields with the names of its table, without counts. A
+/// stream of one number is serialized as this number.
 #[test]
 fn streams_are_maps_of_their_fields() {
     let description = b"\x02\0\0\x20\x09\0\0\0\x01\0\0\0\x08\0\0\0\x01\0\0\0\x04\0\0\0L\xE4nge\0";
@@ -76,7 +79,8 @@ fn streams_are_maps_of_their_fields() {
     assert_eq!(header.as_object().map(serde_json::Map::len), Some(9));
 }
 
-/// Values that are more than numbers and strings: ends of texts, widths of numbers, absent data.
+/// Serialized values contain the ends of texts, the widths of numbers, the bits of a NaN, and
+/// absent data.
 #[test]
 fn ends_widths_and_absent_data_are_kept() {
     assert_eq!(shape::<VariableName>(b"a\0\0"), json!({ "name": { "text": "a", "tail": [0] } }));
@@ -103,8 +107,8 @@ fn blank() -> Description {
     Description::decode(&[&[0; 20][..], b"x"].concat()).unwrap()
 }
 
-/// A value that does not fit a type is an error when it is deserialized; a value that only does not fit the
-/// stream is an error when it is encoded.
+/// A value that the Rust type cannot hold is rejected when it is deserialized. A value that the
+/// type can hold but the stream cannot is rejected when it is encoded.
 #[test]
 fn values_are_checked() {
     let error = |json: Value| from_value::<VariableName>(json).unwrap_err().to_string();
@@ -133,7 +137,7 @@ fn values_are_checked() {
     assert!(unsendable.encode_to_vec().is_err());
 }
 
-/// The error for a text or number in an unknown form lists the known forms.
+/// The error for a text or a REAL64 in an unknown form names the known forms.
 #[test]
 fn unknown_forms_are_rejected() {
     let name = |name: Value| {
@@ -159,7 +163,8 @@ fn unknown_forms_are_rejected() {
     assert_eq!(error, "invalid type: integer `1`, expected AMS header");
 }
 
-/// Any valid value of a stream is unchanged by serialization to JSON and back.
+/// Generated values of all streams are unchanged after they were serialized to JSON and
+/// deserialized.
 #[cfg(feature = "arbitrary")]
 #[test]
 fn generated_values_are_unchanged() {

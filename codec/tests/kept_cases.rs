@@ -1,4 +1,5 @@
-//! The seeds of failed random cases are stored in files, and these cases run again. The files are optional.
+//! Tests of `kept`: the seeds of failed random cases are stored in files, and later runs repeat
+//! these cases. The files are optional.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,8 @@ use super::kept;
 const KEPT: usize = 2;
 const NEW: u32 = 3;
 
-/// Runs cases; returns them in order, and whether all of them passed.
+/// Runs random numbers as cases; `well` decides whether a case passes. Returns the numbers in
+/// order, and true if all of them passed.
 fn run(config: ProptestConfig, well: impl Fn(u64) -> bool) -> (Vec<u64>, bool) {
     let seen = std::cell::RefCell::new(Vec::new());
     let result = TestRunner::new(config).run(&any::<u64>(), |number| {

@@ -1,4 +1,5 @@
-//! Limits: the largest valid and the smallest invalid value, when decoding and encoding.
+//! Tests of limits: the greatest valid and the smallest invalid lengths and counts, for decoding
+//! and encoding.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +23,8 @@ fn streams_are_accepted_up_to_their_maximum_length() {
         bytes
     };
     let data_length = [0, 0, 0x40, 0];
-    // The fields of all other streams determine their end, so they have no maximum length to test.
+    // Not tested: streams of fixed length; descriptors, whose maximum length is not a multiple of
+    // 84; an element length, whose possible lengths are 1, 2 and 4.
     let has_limit = |stream: &Stream| !stream.layout().is_fixed() && !stream.layout().repeats;
     let mut rest: BTreeSet<_> = Stream::all().filter(has_limit).collect();
     rest.remove(&Stream::ElementLength);
@@ -31,7 +33,8 @@ fn streams_are_accepted_up_to_their_maximum_length() {
         (Stream::VariableName, filled(&[&[b'V'; 255], b"\0"], 256)),
         (Stream::VariableIndexKind, filled(&[&[b'V'; 259], b"\0"], 260)),
         (Stream::VariableValue, filled(&[], 2048)),
-        // 510 indices; 506 dimensions and a name of 4 bytes; 443 dimensions and a name of 256 bytes.
+        // These streams have 510 indices; 506 dimensions and a name of 4 bytes; 443 dimensions and
+        // a name of 256 bytes.
         (Stream::VariableHandleRead, filled(&[&[1; 4], &[0xFE, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xFA, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xBB, 1, 0, 0]], 2048)),
@@ -58,7 +61,8 @@ fn streams_are_accepted_up_to_their_maximum_length() {
     assert!(rest.is_empty(), "no longest stream of {rest:?}");
 }
 
-/// A count that does not fit is rejected at the count, with the maximum in the error (VAR-24).
+/// A count of more items than the bytes after it contain is rejected. The error has the field of
+/// the count and the number of items that fit (VAR-24).
 #[test]
 fn counts_that_do_not_fit_are_rejected() {
     let counted = |before: usize, count: u32, rest: usize| {
@@ -73,7 +77,7 @@ fn counts_that_do_not_fit_are_rejected() {
         (Stream::VariableDescriptionByName, 2, 4, 1),
         (Stream::VariableHandleRead, 511, 2040, 510),
         (Stream::VariableHandleRead, 1, 0, 0),
-        // In 32 bits, four times this count overflows to 4.
+        // In 32 bits, four times this count would overflow to 4.
         (Stream::VariableHandleRead, 0x4000_0001, 4, 1),
     ] {
         let (before, counter) = match stream {
@@ -197,7 +201,7 @@ fn encoders_reject_what_decoders_reject() {
     assert_eq!(error_of(&none), fault(Truncated, "id", 0, (4, 0)));
 }
 
-/// DYN-5: parameters are counted from 1, so index 0 is rejected.
+/// Dynamic parameters are counted from 1, so index 0 is rejected (DYN-5).
 #[test]
 fn parameter_0_is_rejected() {
     let error = check(Stream::DynamicIndex, &[0; 4]).unwrap_err();

@@ -1,5 +1,5 @@
-//! Tests of the codec, in one program: most tests use the same samples and laws, and linking a program
-//! takes longer than running most of the tests.
+//! The tests of the codec, except those of allocations, in one program: most of them use the same
+//! samples and laws (`common`), and linking a program takes longer than running most of the tests.
 
 mod common;
 mod damage;
@@ -45,7 +45,8 @@ mod typed_writes;
 mod values;
 mod vectors;
 
-/// Every file of this folder is a module of this program, because Cargo does not search for tests here.
+/// Every `.rs` file of this folder is a module of this program. Cargo does not search this folder
+/// for tests, because Cargo.toml sets `autotests = false`.
 #[test]
 fn every_file_is_a_module() {
     let modules = include_str!("main.rs");
@@ -57,7 +58,7 @@ fn every_file_is_a_module() {
     }
 }
 
-/// In the library, code that can panic is an error of clippy.
+/// `src/lib.rs` denies the lints of clippy against code that can panic.
 #[test]
 fn lints_reject_panics_in_the_library() {
     let (_, lints) = include_str!("../src/lib.rs").split_once("    not(test),\n    deny(").unwrap();

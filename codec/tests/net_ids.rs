@@ -1,4 +1,4 @@
-//! NetIds as text.
+//! Tests of NetIds as text.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,8 @@ use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
 
 use super::common::{Fault, fault};
 
-/// Every byte at every position of a NetId is displayed and parsed, also with leading zeros.
+/// Every byte at every position of a NetId is displayed as a number and parsed from it, also with
+/// leading zeros.
 #[test]
 fn displayed_net_ids_are_parsed() {
     for place in 0..6 {
@@ -21,7 +22,8 @@ fn displayed_net_ids_are_parsed() {
     }
 }
 
-/// An invalid text is rejected. The offset of the error is the offset of the wrong number.
+/// An invalid text is rejected. The offset in the error is that of the wrong number, or 0 if the
+/// count of numbers is wrong.
 #[test]
 fn invalid_net_ids_are_rejected() {
     for (text, wanted) in [

@@ -1,4 +1,5 @@
-//! Any valid operation is dispatched to the same operation: `dispatch(encode(op)) = op`.
+//! A server dispatches the encoded call of any valid operation to the same operation:
+//! `dispatch(encode(op)) = op`.
 
 use ads_cnc::address::{
     Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -20,7 +21,7 @@ fn channel() -> impl Strategy<Value = Channel> {
     })
 }
 
-/// Text of at most 255 characters, in UTF-8.
+/// A text of at most 255 characters of code page 1252, without NUL.
 fn text() -> impl Strategy<Value = String> {
     prop::collection::vec((1..=u8::MAX).prop_map(cp1252_to_char), 0..=255)
         .prop_map(|characters| characters.into_iter().collect())
@@ -29,7 +30,7 @@ fn text() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
-    /// The functions of the COM task, for each kind of list.
+    /// Operations of `CountObjects` and `ReadDescriptors`, for each kind of list.
     #[test]
     fn operations_on_objects(
         channel in channel(),
@@ -43,7 +44,8 @@ proptest! {
         }
     }
 
-    /// Writes, and the functions of the axis interface.
+    /// Operations that write variables, operations of the axis interface, `DescribeByName` and
+    /// `DescribeExtended`.
     #[test]
     fn operations_that_write_and_of_axes(
         (channel, place) in (channel(), 1..=0xFFFF_u32),
@@ -63,7 +65,8 @@ proptest! {
         check_operation(DescribeExtended::new(channel, number, Kind::new(&text).unwrap()));
     }
 
-    /// The functions of the channel interface, by number and by index.
+    /// Operations of the channel interface that read variables or their descriptions, with channels
+    /// by number and by index.
     #[test]
     fn operations_on_variables(
         channel in channel(),
@@ -80,7 +83,7 @@ proptest! {
         check_operation(ReadByName::new(channel, &text).unwrap());
     }
 
-    /// Dynamic parameters of each kind.
+    /// Operations on dynamic parameters of each kind.
     #[test]
     fn operations_on_dynamic_parameters(
         channel in channel(), index in 1..=u32::MAX, text in text(),
@@ -94,7 +97,7 @@ proptest! {
         }
     }
 
-    /// Instances and elements of each class, in every channel, by number and by index.
+    /// Operations on instances and elements of each class, with channels by number and by index.
     #[test]
     fn operations_on_elements(
         channel in channel(), (number, axis) in any::<(u32, u32)>(), element in 0..=0xFFFF_u32,
@@ -118,7 +121,8 @@ proptest! {
                 check_operation(ReadElementLength::new(address));
                 check_operation(ReadElementUnit::new(address));
                 check_operation(ReadElementWriteFlag::new(address));
-                // The offset may be that of a function of the decoder, or of the first element.
+                // If the offset belongs to a function of the decoder or to a count of elements, the
+                // constructor rejects the address.
                 match ReadElement::new(address, length) {
                     Ok(read) => {
                         check_operation(read);
@@ -136,7 +140,7 @@ proptest! {
         check_operation(CountElements::new(first).unwrap());
     }
 
-    /// The content of COM objects, including the program stream.
+    /// Operations on the content of COM objects, and `WriteProgramStream`.
     #[test]
     fn operations_on_content(
         channel in channel(), axis in 1..=255_u32, offset in 0..0x2_0000_u32,
@@ -144,7 +148,7 @@ proptest! {
     ) {
         let axis = PlatformAxis::new(axis).unwrap().com(Access::Element);
         let platform = IndexGroup::new(0x12_0100);
-        // The group of all platform axes: the offset contains the axis (E-04).
+        // In the group of all platform axes, the offset contains the axis (E-04).
         let axes = IndexGroup::new(0x12_0200);
         let offset = IndexOffset::new(offset);
         for group in [platform, axis, axes, channel.com(Access::Element)] {
@@ -158,7 +162,7 @@ proptest! {
         check_operation(WriteProgramStream::new(channel, &content));
     }
 
-    /// Every function.
+    /// The operation of every function.
     #[test]
     fn operations_of_every_function(
         channel in channel(),

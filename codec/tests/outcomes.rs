@@ -1,10 +1,11 @@
 //! The codec accepts, rejects and dispatches the same inputs as version 0.1.0, with the same bytes and
 //! errors.
 //!
-//! `outcomes.tsv` has a row for each vector, sample of a call and index group: a digest of the inputs made
-//! of it and a digest of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before
-//! streams and functions were declared by macros) and with the sources of version 0.2.0. All rows were
-//! equal, without exception.
+//! `outcomes.tsv` has rows for vectors of streams, vectors of frames, samples of calls, index
+//! groups, and replies to samples of calls. A row has a digest of the inputs made of the vector,
+//! sample or group, and a digest of their outcomes. Each row was computed with version 0.1.0
+//! (commit 8993f4c, before streams and functions were declared by macros) and with the sources of
+//! version 0.2.0. All rows were equal.
 //!
 //! A new vector or sample adds rows and changes no existing row. Compare the new rows with version 0.1.0:
 //! check out 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename `DispatchError`
@@ -26,7 +27,7 @@ use super::common::{CALLS, CallSample, Fault, Subject};
 /// The number of mutations of each vector.
 const MUTATIONS: usize = 48;
 
-/// FNV-1a, 64 bits.
+/// A digest of 64 bits, computed like the hash FNV-1a.
 struct Digest(u64);
 
 impl Digest {
@@ -34,7 +35,8 @@ impl Digest {
     const PRIME: u64 = 0x100_0000_01B3;
 
     fn add(&mut self, bytes: &[u8]) {
-        // Also add the length: otherwise a byte that moves from one input to the next would change nothing.
+        // The length is added too; otherwise a byte that moves from one input to the next would
+        // change nothing.
         self.0 = (self.0 ^ bytes.len() as u64).wrapping_mul(Self::PRIME);
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(Self::PRIME);
@@ -47,7 +49,7 @@ impl Digest {
     }
 }
 
-/// splitmix64.
+/// The random number generator SplitMix64.
 struct Random(u64);
 
 impl Random {
@@ -67,11 +69,12 @@ impl Random {
     }
 }
 
-/// The computed rows, by the kind of the inputs and by the vector, sample or index group that the inputs
-/// are made of.
+/// The computed rows by kind and by name. The name is that of the vector, sample or index group of
+/// which the inputs are made.
 type Rows = BTreeMap<(&'static str, String), Row>;
 
-/// A row of `outcomes.tsv`.
+/// The number of inputs, their digest, the number of accepted inputs, and the digest of the
+/// outcomes.
 struct Row {
     inputs: u32,
     given: Digest,
@@ -108,8 +111,9 @@ fn shown(error: Error) -> String {
     format!("{kind:?} {} {field} {offset} {expected} {found}", error.field().subject().name())
 }
 
-/// The inputs made of bytes: the bytes unchanged, truncated, extended and mutated. The seed of mutations is
-/// derived from the bytes, so that a new vector does not change the inputs made of other vectors.
+/// The inputs made of these bytes: the bytes unchanged, truncated, extended and mutated. The seed
+/// of the mutations is derived from the bytes, so that a new vector does not change the inputs made
+/// of other vectors.
 fn inputs(bytes: &[u8]) -> Vec<Vec<u8>> {
     let len = bytes.len();
     // A long stream is truncated at some lengths only, to save time.
@@ -143,7 +147,7 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
             1 => drop(bytes.remove(at)),
             2 => tail[0] = byte,
             3 => tail[0] ^= 1 << (byte % 8),
-            // Replace a number at a multiple of four, where counts and lengths are.
+            // Write the number at a multiple of four, because most counts and lengths are there.
             _ => {
                 let rest = bytes.iter_mut().skip(at / 4 * 4);
                 rest.zip(number.to_le_bytes()).for_each(|(byte, new)| *byte = new);
@@ -156,7 +160,8 @@ fn vectors_of(stream: &str) -> impl Iterator<Item = &'static Vector> {
     vectors().iter().filter(move |vector| vector.stream == stream)
 }
 
-/// The outcome of a stream. Checks that the owned type has the same outcome as the view.
+/// The outcome of decoding an input as a stream. Checks that the owned type has the same outcome as
+/// the borrowed type.
 fn decoded(stream: Stream, input: &[u8]) -> Outcome {
     let mut outcomes = Subject::of(stream).readings().map(|reading| {
         let mut buf = vec![0; input.len() + 8];
@@ -180,7 +185,8 @@ fn streams(rows: &mut Rows) {
     }
 }
 
-/// The rows of frames: the outcome is the first frame that is split off the input.
+/// Adds the rows of frames. The outcome of an input is its first frame, empty bytes if the frame is
+/// not complete, or the error.
 fn frames(rows: &mut Rows) {
     for vector in vectors_of("ams-frame") {
         let row = rows.entry(("frame", vector.id.clone())).or_insert(Row::EMPTY);
@@ -217,8 +223,8 @@ fn dispatched(call: &Call<'_>) -> Outcome {
     Ok([request.function().spec().name.as_bytes(), &again].concat())
 }
 
-/// The rows of addresses: calls with the index groups of all samples and similar groups, at all offsets
-/// of functions and at other offsets.
+/// Adds the rows of addresses: calls with the index groups of all samples and with similar groups,
+/// at the offsets 0 to 0xFF, at offsets that contain an axis, and at large offsets.
 fn addresses(rows: &mut Rows) {
     let groups: BTreeSet<u32> = CALLS
         .iter()
@@ -251,7 +257,8 @@ fn addresses(rows: &mut Rows) {
     }
 }
 
-/// The rows of data: each sample of a call with its data unchanged, truncated, extended and mutated.
+/// Adds the rows of data: each sample of a call with its data unchanged, truncated, extended and
+/// mutated.
 fn data(rows: &mut Rows) {
     for sample in CALLS {
         let row = rows.entry(("data", sample.slug.to_owned())).or_insert(Row::EMPTY);
@@ -262,9 +269,9 @@ fn data(rows: &mut Rows) {
     }
 }
 
-/// The rows of replies: replies to each sample of a call, made of the vectors of the stream of the reply. A
-/// vector only has a row if the outcome of the request differs from that of the stream, because a reply is
-/// longer than the request permits.
+/// Adds the rows of replies. Each sample of a call has a row for an empty reply and a reply of one
+/// byte 0. A vector of the stream of the reply only has a row if the request has another outcome
+/// than the stream, because the reply is longer than the request permits.
 fn replies(rows: &mut Rows) {
     for CallSample { slug, call, .. } in CALLS {
         // Skip a sample that is rejected: the rows of data show its rejection.
@@ -288,13 +295,13 @@ fn replies(rows: &mut Rows) {
     }
 }
 
-/// The rows by their first two columns, kind and name.
+/// Parses the rows of a table. The keys are the first two columns, kind and name.
 fn parsed(table: &str) -> BTreeMap<(&str, &str), Vec<&str>> {
     let rows = table.lines().skip(1).map(|line| line.split('\t').collect::<Vec<_>>());
     rows.map(|row| ((row[0], row[1]), row[2..].to_vec())).collect()
 }
 
-/// A description of each row that differs.
+/// Describes each row that differs between the computed table and the file.
 fn differences(table: &str, kept: &str) -> Vec<String> {
     let (rows, kept) = (parsed(table), parsed(kept));
     let keys: BTreeSet<_> = rows.keys().chain(kept.keys()).collect();

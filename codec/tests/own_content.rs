@@ -1,4 +1,5 @@
-//! Streams of applications: arrays of fixed streams, and content that is decoded member by member.
+//! Tests of functions for applications: `to_bytes` of fixed streams, content that is decoded member
+//! by member, and streams in sequence.
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::ads::*;
@@ -85,7 +86,7 @@ fn streams_in_sequence_are_decoded() {
     let (write, rest) = NameWriteRef::decode_prefix(rest).unwrap();
     assert_eq!((read.handle, write.name.to_string()), (Handle(0x200_0004), "V.E.a".to_owned()));
     assert_eq!((write.value, rest), (&[42, 0][..], &[][..]));
-    // The count is truncated, or it exceeds the maximum of the stream.
+    // A truncated count and a count that exceeds the maximum of the stream are errors.
     let cut = HandleReadRef::decode_prefix(&bytes[..6]).map(|_| ());
     assert_eq!(fault_of(cut), fault(Truncated, "index_count", 4, (4, 2)));
     let many = [&bytes[..4], &[0xFF; 8000]].concat();

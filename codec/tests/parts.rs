@@ -1,4 +1,5 @@
-//! The parts of operations and replies equal the arguments, for clients and servers.
+//! Tests of the parts of operations and replies: they equal the arguments from which these were
+//! made.
 
 use ads_cnc::address::{
     Access, Attribute, Channel, ChannelAxis, Class, ClassGroup, ComGroup, ComTable, ElementAddress,
@@ -35,7 +36,8 @@ fn instances_are_queried_by_number_or_by_index() {
     }
 }
 
-/// An object address is the address of the first element; it has no attribute.
+/// An object address consists of the group and offset of the content of the first element.
+/// Operations on elements keep their address.
 #[test]
 fn elements_keep_their_address() {
     let axis = ChannelAxis::new(2).unwrap();
@@ -83,7 +85,8 @@ fn lists_and_objects_keep_their_address() {
     }
 }
 
-/// Objects are counted from 1; their number is limited to the number that fits one reply.
+/// The first object has the number 1; a request reads at most as many descriptors as one reply can
+/// contain.
 #[test]
 fn reads_of_descriptors_check_first_and_count() {
     const MOST: u32 = ReadDescriptors::COUNT_MAX;
@@ -130,7 +133,8 @@ fn dispatch_errors_are_not_retried() {
     }
 }
 
-/// Every axis has its own list, which differs from those of the platform and the channels.
+/// The lists of objects of the platform, of each channel and of each axis have different index
+/// groups.
 #[test]
 fn lists_have_different_addresses() {
     let groups = [ObjectList::PLATFORM, channel(1).into(), channel(2).into()];

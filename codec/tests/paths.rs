@@ -1,4 +1,4 @@
-//! Names of variables: parsing, building and errors.
+//! Tests of names of variables: parsing, building and errors.
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::layout::Subject;
@@ -15,8 +15,8 @@ fn path(name: &str) -> VariablePath<'_> {
     VariablePath::new(name).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// VAR-20: the names printed in section 4.1 of `ads-en` 1.05 and `ads-de` 1.051, and those of the
-/// examples in 4.3 that have an index or an axis.
+/// The names printed in section 4.1 of the manuals `ads-en` 1.05 and `ads-de` 1.051 are parsed and
+/// built, and so are those of the examples in section 4.3 that have an index or an axis (VAR-20).
 #[test]
 fn printed_names_are_parsed() {
     let s = "struct1";
@@ -30,14 +30,14 @@ fn printed_names_are_parsed() {
         ("V.G.NP[0].V[0]", Kind::V_G, &[("NP", &[0]), ("V", &[0])], None),
         ("V.G.NP[0].V[1]", Kind::V_G, &[("NP", &[0]), ("V", &[1])], None),
         ("V.G.WZ_AKT.SPDL_AX_NR", Kind::V_G, &[("WZ_AKT", &[]), ("SPDL_AX_NR", &[])], None),
-        // `ads-en` prints this name in English …
+        // Only `ads-en` prints this name.
         (
             "V.E.trajectory.vector.x",
             Kind::V_E,
             &[("trajectory", &[]), ("vector", &[]), ("x", &[])],
             None,
         ),
-        // … and `ads-de` prints it in German.
+        // Only `ads-de` prints this name.
         (
             "V.E.Trajektorie.Vektor.x",
             Kind::V_E,
@@ -68,8 +68,8 @@ fn printed_names_are_parsed() {
     }
 }
 
-/// E-38: one printed name contains a structure that the names printed next to it do not contain. With and
-/// without the structure, the name is valid, but it refers to different variables.
+/// One printed name contains a structure that the names printed next to it do not contain. The name
+/// is valid with and without the structure, but refers to different variables (E-38).
 #[test]
 fn the_misprint_is_another_variable() {
     let printed = path("V.E.struct1.struct1[5].struct2[8].array_sgn32");
@@ -81,7 +81,7 @@ fn the_misprint_is_another_variable() {
     assert_ne!(printed, ruled);
 }
 
-/// Notations in the manuals that are not names; the empty index is from E-10.
+/// Notations in the manuals that are not names are rejected. The empty index is from E-10.
 #[test]
 fn notations_of_the_manuals_are_rejected() {
     for (prose, wanted) in [
@@ -100,7 +100,7 @@ fn malformed_names_are_rejected_at_the_fault() {
     };
     let cut = |field, at| fault(Truncated, field, at, (1, 0));
     for (name, wanted) in [
-        // Names without a kind, or with an incomplete kind.
+        // These names have no kind, or an incomplete kind.
         ("", cut("kind", 0)),
         ("V", cut("kind", 1)),
         ("V.", cut("kind", 2)),
@@ -110,17 +110,17 @@ fn malformed_names_are_rejected_at_the_fault() {
         (".E.test", unexpected("kind", 0, '.')),
         ("V..test", unexpected("kind", 2, '.')),
         ("V[0].E.test", unexpected("kind", 1, '[')),
-        // Names without a part after the kind, and a kind with an index.
+        // These names have no part after the kind, or an index at the kind.
         ("V.E", cut("part", 3)),
         ("V.E[0].test", unexpected("part", 3, '[')),
-        // Names with an empty part.
+        // These names have an empty part.
         ("V.E.", cut("part", 4)),
         ("V.E..test", unexpected("part", 4, '.')),
         ("V.E.test.", cut("part", 9)),
         ("V.E.a[0]..b", unexpected("part", 9, '.')),
         ("V.E.[0]", unexpected("part", 4, '[')),
         ("V.E.a.[0]", unexpected("part", 6, '[')),
-        // Names with wrong brackets.
+        // These names have wrong brackets.
         ("V.E.a[", cut("index", 6)),
         ("V.E.a[3", cut("index", 7)),
         ("V.E.a[3.b", unexpected("index", 7, '.')),
@@ -136,7 +136,7 @@ fn malformed_names_are_rejected_at_the_fault() {
         ("V.E.a[0x1]", unexpected("index", 7, 'x')),
         // Offsets in errors count characters, not bytes.
         ("V.E.Länge[€]", unexpected("index", 10, '€')),
-        // Indices that exceed the largest possible array.
+        // These indices exceed the greatest valid index, 4 294 967 294.
         ("V.E.a[4294967295]", fault(OutOfRange, "index", 6, (4_294_967_294, 4_294_967_295))),
         ("V.E.ä[0][4294967296]", fault(OutOfRange, "index", 9, (4_294_967_294, 4_294_967_295))),
         ("V.E.a[99999999999999999999]", {
@@ -152,7 +152,7 @@ fn malformed_names_are_rejected_at_the_fault() {
     assert_eq!(greek.kind(), NotCp1252);
 }
 
-/// VAR-9: a name has at most 255 characters; bytes of UTF-8 do not count.
+/// A name has at most 255 characters, even if it has more bytes in UTF-8 (VAR-9).
 #[test]
 fn names_have_at_most_255_characters() {
     for letter in ["a", "ä"] {
@@ -168,7 +168,7 @@ fn names_have_at_most_255_characters() {
         let longer = Pieces::new("V.E", &[(&letter.repeat(252), &[])]);
         assert_eq!(Fault::of(longer.write(&mut [0; 512]).unwrap_err()), wanted);
     }
-    // The maximum number of indices in a name: fewer than in a request by handle.
+    // A name has at most 83 indices.
     let full = format!("V.E.ab{}", "[0]".repeat(83));
     assert_eq!((full.len(), path(&full).elements().len()), (NAME_MAX, 83));
     let endless =
@@ -176,7 +176,7 @@ fn names_have_at_most_255_characters() {
     assert_eq!(VariablePath::write(Kind::V_E, endless, &mut []).unwrap_err().kind(), TooLong);
 }
 
-/// The largest index, several dimensions and leading zeros are parsed.
+/// The greatest index, several indices and leading zeros are parsed.
 #[test]
 fn indices_go_to_the_largest_of_any_dimension() {
     let largest = path("V.E.a[4294967294][0][10]");
@@ -187,7 +187,7 @@ fn indices_go_to_the_largest_of_any_dimension() {
         path("V.E.a").write_element(elements, &mut [0; 64]).unwrap().text(),
         "V.E.a[4294967294][0][10]"
     );
-    // Leading zeros are parsed, but the texts differ.
+    // Leading zeros are permitted. Names are compared by their text, so these two differ.
     assert_eq!(path("V.E.a[007]").elements(), U32List::from(&[7]));
     assert_ne!(path("V.E.a[007]"), path("V.E.a[7]"));
     // The indices of a name can be used in a request by handle.
@@ -198,7 +198,7 @@ fn indices_go_to_the_largest_of_any_dimension() {
     assert_eq!(HandleReadRef::decode(&wire).unwrap(), by_handle);
 }
 
-/// Undocumented kinds are accepted, and any part without the characters of the syntax.
+/// Undocumented kinds are accepted, and so are parts with any characters except `.`, `[` and `]`.
 #[test]
 fn kinds_and_parts_are_open() {
     for (name, kind) in [
@@ -220,7 +220,7 @@ fn kinds_and_parts_are_open() {
     );
 }
 
-/// Names from UTF-8 and from CP1252 are equal.
+/// A name from UTF-8 equals the same name from CP1252.
 #[test]
 fn names_from_both_encodings_are_equal() {
     let (utf8, wire) = ("V.G.Größe[2].€[3]", b"V.G.Gr\xF6\xDFe[2].\x80[3]");
@@ -231,7 +231,7 @@ fn names_from_both_encodings_are_equal() {
     assert_eq!(format!("{utf8:?}"), format!("{:?}", wire));
 }
 
-/// Conversion between names of the channel interface and of the axis interface.
+/// Names for the axis interface are converted to names for the channel interface and back.
 #[test]
 fn axes_are_added_to_names_and_removed() {
     let x = CncStr::new("X").unwrap();
@@ -245,10 +245,10 @@ fn axes_are_added_to_names_and_removed() {
         let there = path(on_axis).write_axis(x, &mut buf).unwrap();
         assert_eq!((there, there.axis()), (path(on_channel), Some(x)));
         assert_eq!(there.write_without_axis(&mut [0; 64]).unwrap(), path(on_axis));
-        // The same conversion, from a name of the caller instead of a built name.
+        // A name that was parsed is converted like the name that was built.
         assert_eq!(path(on_channel).write_without_axis(&mut [0; 64]).unwrap(), path(on_axis));
     }
-    // An index before the last dot keeps its position.
+    // An index before the axis stays before the index after the axis.
     let indexed = path("V.A.LIST[2].X[3]");
     assert_eq!(indexed.write_without_axis(&mut [0; 64]).unwrap(), path("V.A.LIST[2][3]"));
 
@@ -265,7 +265,7 @@ fn axes_are_added_to_names_and_removed() {
     assert_eq!(without("V.G.a.b"), fault(Unexpected, "kind", 2, (0, 0x47)));
 }
 
-/// Invalid names are rejected; after an error, nothing is written.
+/// Builders reject invalid names, and write nothing to the buffer if they return an error.
 #[test]
 fn builders_reject_invalid_names_and_write_nothing() {
     let rejected = |build: &dyn Fn(&mut [u8]) -> Option<Error>| {
@@ -294,7 +294,7 @@ fn builders_reject_invalid_names_and_write_nothing() {
     let again = rejected(&|buf| element.write_element(U32List::from(&[2]), buf).err());
     assert_eq!(again, fault(Unexpected, "index", 5, (0, 0x5B)));
 
-    // The buffer has one byte less than needed.
+    // A buffer with one byte less than the name has is rejected.
     let short = |build: &dyn Fn(&mut [u8]) -> Option<Error>, len: usize| {
         let mut buf = [0x55; 64];
         let error = build(&mut buf[..len - 1]).expect("rejected");
@@ -337,7 +337,7 @@ fn pieces() -> impl Strategy<Value = Pieces> {
 proptest! {
     #![proptest_config(kept::cases(4000, file!()))]
 
-    /// A built name has the expected text, and parses into the same pieces.
+    /// A built name has the expected text, and is parsed into the same pieces.
     #[test]
     fn built_names_are_parsed(pieces in pieces()) {
         let name = pieces.name();

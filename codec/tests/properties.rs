@@ -1,4 +1,5 @@
-//! The laws of all streams, for random bytes and for mutated samples and vectors.
+//! Checks the laws of all streams (`common/laws.rs`) for samples and vectors, for random bytes, and
+//! for mutated samples and vectors.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +15,7 @@ use super::common::{SUBJECTS, check, each_sample};
 use super::damage::damage;
 use super::kept;
 
-/// Every sample, and every golden vector of a stream.
+/// The bytes of every sample, and of every golden vector of a stream.
 fn samples_and_vectors() -> Vec<(Stream, Vec<u8>)> {
     let samples = each_sample().map(|(stream, sample)| (stream, sample.bytes()));
     let of_stream = vectors()
@@ -23,7 +24,8 @@ fn samples_and_vectors() -> Vec<(Stream, Vec<u8>)> {
     samples.chain(of_stream).collect()
 }
 
-/// Random bytes for a stream: few bytes, many bytes, or the maximum length if the stream is short.
+/// Random bytes for a stream: at most 16 bytes, at most 120 bytes, or the maximum length of the
+/// stream if this is less than 120 bytes.
 fn random_bytes() -> impl Strategy<Value = (Stream, Vec<u8>)> {
     let byte = || prop_oneof![Just(0), 0..4_u8, any::<u8>()];
     (0..SUBJECTS.len(), 0..3).prop_flat_map(move |(subject, length)| {
@@ -74,21 +76,22 @@ fn every_byte_of_every_sample_changed_obeys_the_laws() {
 proptest! {
     #![proptest_config(kept::cases(4000, file!()))]
 
-    /// For random bytes, view, owned type and walk agree, and accepted bytes encode to themselves.
+    /// For random bytes, the borrowed type, the owned type and the walk have the same result, and
+    /// accepted bytes encode to the same bytes.
     #[test]
     fn any_bytes_obey_the_laws((stream, bytes) in random_bytes()) {
         let _ = check(stream, &bytes);
     }
 
-    /// For mutated samples and vectors, which are nearly valid, the same laws hold.
+    /// The same laws hold for mutated samples and vectors, which are nearly valid.
     #[test]
     fn damaged_samples_obey_the_laws((stream, bytes) in damaged_bytes()) {
         let _ = check(stream, &bytes);
     }
 }
 
-/// Mutated bytes of every stream include accepted and, unless the stream accepts any bytes, rejected
-/// ones. Otherwise the property above would be weak.
+/// Mutated samples and vectors of every stream include accepted bytes and, unless the only field of
+/// the stream accepts almost any bytes, rejected bytes. Otherwise the property above would be weak.
 #[test]
 fn mutations_are_accepted_and_rejected_for_every_stream() {
     let (mut runner, maker) = (TestRunner::deterministic(), damaged_bytes());
@@ -100,7 +103,7 @@ fn mutations_are_accepted_and_rejected_for_every_stream() {
     for stream in Stream::all() {
         let takes_any = matches!(stream.layout().fields, [row] if takes_any(row.size));
         assert!(seen.contains(&(stream, true)), "{stream}: none accepted");
-        assert!(takes_any || seen.contains(&(stream, false)), "{stream}: none refused");
+        assert!(takes_any || seen.contains(&(stream, false)), "{stream}: none rejected");
     }
 }
 

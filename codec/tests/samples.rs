@@ -1,4 +1,4 @@
-//! The samples: every stream has samples, and a walk splits them into the same fields as by hand.
+//! Tests of the samples: every stream has samples, and a walk finds the fields that they list.
 
 use std::collections::HashSet;
 
@@ -6,7 +6,8 @@ use ads_cnc::layout::Stream;
 
 use super::common::{SAMPLES, SUBJECTS, check, each_sample};
 
-/// Every stream has samples and types.
+/// Every stream occurs exactly once in `SAMPLES` and once in `SUBJECTS`, and has at least one
+/// sample.
 #[test]
 fn every_stream_has_samples_and_types() {
     let sampled: Vec<Stream> = SAMPLES.iter().map(|&(stream, _)| stream).collect();
@@ -29,7 +30,7 @@ fn samples_differ() {
     }
 }
 
-/// Every sample is accepted and encodes to itself, for each type.
+/// Every sample is accepted and encodes to the same bytes, by each type of its stream.
 #[test]
 fn samples_are_accepted_and_encode_to_themselves() {
     for (stream, sample) in each_sample() {
@@ -37,7 +38,7 @@ fn samples_are_accepted_and_encode_to_themselves() {
     }
 }
 
-/// A walk finds the same fields as those into which the sample is split by hand.
+/// A walk of a sample finds the fields that the sample lists.
 #[test]
 fn walks_find_the_fields_of_the_samples() {
     for (stream, sample) in each_sample() {

@@ -1,4 +1,4 @@
-//! The golden sequences of NC text: packets, errors and diagnostics.
+//! Tests with the golden sequences of NC text: packets, errors and diagnostics.
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
 #[cfg(feature = "alloc")]
@@ -8,7 +8,7 @@ use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
 use ads_cnc_vectors::SequenceReject;
 use ads_cnc_vectors::{Pieces, Sequence, SequenceExpect, SequenceInput, sequences};
 
-/// The cases of a kind. Fails if there are less than `least` cases.
+/// The golden sequences of a kind. Fails if there are fewer than `least`.
 fn cases(kind: &str, least: usize) -> Vec<&'static Sequence> {
     let found: Vec<_> = sequences().iter().filter(|case| case.kind() == kind).collect();
     assert!(found.len() >= least, "{} of {kind}", found.len());

@@ -1,4 +1,4 @@
-//! The Service Interface: variables, UUIDs, and a host with any input.
+//! Tests of the Service Interface: its variables, UUIDs, and a host with any input.
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::layout::Subject;
@@ -23,7 +23,7 @@ fn text(text: &str) -> CncStr<'_> {
     CncStr::new(text).unwrap()
 }
 
-/// The values of the variables after a request for the square root of 3.
+/// The value of a variable while a request for the square root of 3 is pending.
 fn asked(variable: ServiceVariable) -> &'static [u8] {
     match variable {
         Uuid => ROOT.as_bytes(),
@@ -34,14 +34,15 @@ fn asked(variable: ServiceVariable) -> &'static [u8] {
     }
 }
 
-/// Answers the reads of the host with the request.
+/// Passes the values of the request to the host until its next step is not a read.
 fn read(host: &mut Host<'_>) {
     while let HostStep::Read(variable) = host.step() {
         host.read(asked(variable)).unwrap();
     }
 }
 
-/// SVC-1: the five variables have the documented names, which are valid names, and types.
+/// The five variables have the documented names and types; the names are valid names of variables
+/// (SVC-1).
 #[test]
 fn the_five_variables_have_their_names_and_types() {
     let names = ServiceVariable::ALL.map(ServiceVariable::name);
@@ -66,7 +67,7 @@ fn the_five_variables_have_their_names_and_types() {
 
 #[test]
 fn uuids_are_checked_and_keep_their_case() {
-    let refused = |text| {
+    let rejected = |text| {
         let error = ServiceId::new(text).unwrap_err();
         assert_eq!(error.field().subject(), Subject::Service);
         assert_eq!(ServiceId::from_text(CncStr::new(text).unwrap()), Err(error));
@@ -74,16 +75,16 @@ fn uuids_are_checked_and_keep_their_case() {
     };
     let unexpected =
         |at, character: char| fault(Unexpected, "uuid", at, (0, u32::from(character) as usize));
-    assert_eq!(refused(""), fault(Truncated, "uuid", 0, (36, 0)));
-    assert_eq!(refused("560AACBF-6335-44a9-895A-8B27F3ED5E470"), {
+    assert_eq!(rejected(""), fault(Truncated, "uuid", 0, (36, 0)));
+    assert_eq!(rejected("560AACBF-6335-44a9-895A-8B27F3ED5E470"), {
         fault(Trailing, "uuid", 36, (36, 37))
     });
-    assert_eq!(refused("560AACBF-6335-44a9-895A-B27F3ED5SE47"), unexpected(32, 'S'));
-    assert_eq!(refused("560AACBF06335-44a9-895A-8B27F3ED5E47"), unexpected(8, '0'));
-    assert_eq!(refused("560AACBF-6335-44a9-895A--B27F3ED5E47"), unexpected(24, '-'));
-    assert_eq!(refused("560AACBF-6335-44ä9-895A-8B27F3ED5E47"), unexpected(16, 'ä'));
+    assert_eq!(rejected("560AACBF-6335-44a9-895A-B27F3ED5SE47"), unexpected(32, 'S'));
+    assert_eq!(rejected("560AACBF06335-44a9-895A-8B27F3ED5E47"), unexpected(8, '0'));
+    assert_eq!(rejected("560AACBF-6335-44a9-895A--B27F3ED5E47"), unexpected(24, '-'));
+    assert_eq!(rejected("560AACBF-6335-44ä9-895A-8B27F3ED5E47"), unexpected(16, 'ä'));
 
-    // SVC-7: comparison ignores case, and the text keeps its case.
+    // UUIDs are compared without regard to case, and their text keeps its case (SVC-7).
     let (upper, lower) = (ROOT.to_uppercase(), ROOT.to_lowercase());
     assert_eq!(id(&upper), id(&lower));
     assert_eq!(std::collections::HashSet::from([id(&upper), id(&lower)]).len(), 1);
@@ -99,7 +100,7 @@ fn uuids_are_checked_and_keep_their_case() {
     assert_eq!((uuid.to_string(), request, request_state), (upper, text("3"), 1));
 }
 
-/// SVC-1: a text has 128 bytes including the NUL, a state four bytes.
+/// A text has at most 128 bytes including the NUL, and a state has four bytes (SVC-1).
 #[test]
 fn values_have_their_sizes() {
     for (variable, field) in [(Uuid, "uuid"), (Request, "request"), (Response, "response")] {
@@ -118,7 +119,7 @@ fn values_have_their_sizes() {
     }
 }
 
-/// SVC-4, SVC-5: RESPONSE, REQUEST_STATE and RESPONSE_STATE are written, in this order.
+/// RESPONSE, REQUEST_STATE and RESPONSE_STATE are written in this order (SVC-4, SVC-5).
 #[test]
 fn an_answer_is_written_in_order() {
     let ids = [id(COMMAND), id(ROOT)];
@@ -138,8 +139,8 @@ fn an_answer_is_written_in_order() {
     assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Answered)));
 }
 
-/// SVC-5, E-35: a response state of 0 and a response longer than its field are rejected; the host then
-/// accepts another answer to the same request.
+/// A response state of 0 and a response of more than 127 characters are rejected; the host then
+/// accepts another answer to the same request (SVC-5, E-35).
 #[test]
 fn answers_that_are_rejected() {
     let ids = [id(ROOT)];
@@ -159,8 +160,8 @@ fn answers_that_are_rejected() {
     assert_eq!((value.len(), &value[125..]), (128, &b"\xE4\xE4\0"[..]));
 }
 
-/// A malformed value is an error. After it, the host waits; if the host already has an answer, it reads the
-/// value again.
+/// A malformed state or request is an error, after which the host waits. If the host already has an
+/// answer, it reads a malformed state again, and treats a malformed request as a different request.
 #[test]
 fn malformed_values_are_rejected() {
     let ids = [id(ROOT)];
@@ -183,12 +184,12 @@ fn malformed_values_are_rejected() {
     assert_eq!(host.step(), HostStep::Read(RequestState));
     host.read(asked(RequestState)).unwrap();
     host.read(asked(Uuid)).unwrap();
-    // The request is not the answered request any more, so the answer is dropped.
+    // The value is not the answered request, so the host drops the answer.
     host.read(&[b'3'; 128]).unwrap();
     assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
 
-/// After a failed write, the host reads the interface and repeats the write if necessary.
+/// After a failed write, the host reads the variables again, and repeats the write if necessary.
 #[test]
 fn failed_writes_are_checked_and_repeated() {
     for (failing, arrives) in [Response, RequestState, ResponseState]
@@ -222,7 +223,8 @@ fn failed_writes_are_checked_and_repeated() {
             }
         }
         assert_eq!(host.outcome(), Some(Outcome::Answered), "{failing}");
-        // Only the write of RESPONSE is repeated although it took effect; the repetition changes nothing.
+        // If a failed write took effect, only that of RESPONSE is repeated; the repetition changes
+        // nothing.
         let times = writes.iter().filter(|variable| **variable == failing).count();
         assert_eq!(times, if arrives && failing == Response { 2 } else { 1 }, "{failing}");
     }
@@ -256,8 +258,8 @@ fn request() -> impl Strategy<Value = [Vec<u8>; 3]> {
 proptest! {
     #![proptest_config(kept::cases(600, file!()))]
 
-    /// With any input, a host serves requests that it has read twice, checks them again before it
-    /// answers, and writes in order.
+    /// With any input, a host only serves requests that it has read twice, reads them again before
+    /// it answers, and writes the variables in order.
     #[test]
     fn a_host_obeys_the_laws_with_any_input(
         events in vec((0..24_u8, value(), request(), 0..4_u32), 0..150),
@@ -267,7 +269,8 @@ proptest! {
         for (event, value, request, state) in events {
             match event {
                 0..6 => host.read(&value),
-                // A request that is read twice in sequence, so that it is served or dropped.
+                // The host reads the same request twice in sequence, so that it serves the request
+                // or waits.
                 6..12 => request.iter().cycle().take(6).for_each(|value| host.read(value)),
                 12..14 => request.iter().for_each(|value| host.read(value)),
                 14..17 => host.written(),

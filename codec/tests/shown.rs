@@ -1,4 +1,4 @@
-//! `Display` and `Debug`. `shown_errors.rs` checks those of errors.
+//! Tests of the texts of `Display` and `Debug`. `shown_errors.rs` tests those of errors.
 
 use std::fmt::{Debug, Display};
 
@@ -25,7 +25,8 @@ fn debugs(value: impl Debug, text: &str) {
     assert_eq!(format!("{value:?}"), text);
 }
 
-/// Index groups, index offsets and error numbers are in hexadecimal, as in the manuals.
+/// Index groups, index offsets, handles and ADS errors are displayed in hexadecimal; ports and
+/// NetIds are displayed in decimal.
 #[test]
 fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(IndexGroup::new(0x12_2301), "0x122301");
@@ -48,7 +49,7 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(Handle(0x2001_2341), "0x20012341");
 }
 
-/// Codes are displayed by name; undocumented codes are displayed as numbers.
+/// Codes are displayed by name, and undocumented codes as numbers. Only READ_WRITE is writable.
 #[test]
 fn codes_are_displayed_by_name() {
     shows(VariableType::REAL64, "REAL64");
@@ -72,7 +73,8 @@ fn codes_are_displayed_by_name() {
     assert!(VariableAccess::READ_WRITE.is_writable());
 }
 
-/// Classes and attributes are displayed with the terms of the manual.
+/// Channels, axes and spindles are displayed as numbers; classes and attributes with the terms of
+/// the manual.
 #[test]
 fn parts_of_addresses_are_numbers_and_words() {
     shows(Channel::new(3).unwrap(), "3");
@@ -88,7 +90,7 @@ fn parts_of_addresses_are_numbers_and_words() {
     shows(ObjectCount(16), "16");
 }
 
-/// 0 is success, any other number is an error.
+/// The ADS error 0 is success; any other number is an error.
 #[test]
 fn results_are_errors_unless_0() {
     assert_eq!(AdsError::NO_ERROR.into_result(), Ok(()));
@@ -122,7 +124,7 @@ fn streams_and_fields_have_their_names() {
     }
 }
 
-/// The iterators of lists show the remaining items.
+/// `Debug` of an iterator of a list displays the remaining items.
 #[test]
 fn iterators_show_the_remaining_items() {
     let mut numbers = U32List::from(&[3, 9, 27]).iter();
@@ -232,9 +234,9 @@ fn streaming_displays_progress_and_not_the_text() {
         shows(DiagnosticKind::BackwardJump { to: 5 }, "$GOTO back to line 5");
     }
     let mut sender = Sender::new(text);
-    let shown = |state, refusals| {
+    let shown = |state, rejections| {
         let sent = "Progress { packets: 0, lines: 0, bytes: 0 }";
-        let state = format!("state: {state}, sent: {sent}, busy_count: {refusals}");
+        let state = format!("state: {state}, sent: {sent}, busy_count: {rejections}");
         format!("Sender {{ text: NcText(3 lines, 24 bytes), {state}, .. }}")
     };
     debugs(&sender, &shown("Ready", 0));

@@ -1,4 +1,4 @@
-//! The texts of errors.
+//! Tests of the texts of errors.
 
 use std::error::Error as _;
 
@@ -12,12 +12,13 @@ use ads_cnc::*;
 
 fn error<T: std::fmt::Debug>(result: Result<T, Error>) -> (ErrorKind, String) {
     let error = result.expect_err("rejected");
-    // `Debug` also contains the class.
+    // `Debug` displays the kind of the error before the text.
     assert_eq!(format!("{error:?}"), format!("Error({:?}, {error})", error.kind()));
     (error.kind(), error.to_string())
 }
 
-/// The text of each kind of error explains its numbers.
+/// The text of an error names the field and its offset, and explains the expected and the found
+/// number.
 #[test]
 fn errors_explain_the_fault() {
     let kind = TextRef::with_tail(CncStr::new("V.E").unwrap(), None);
@@ -113,7 +114,8 @@ fn errors_explain_the_fault() {
     }
 }
 
-/// The text of an error about an argument names the argument of the constructor, not a field.
+/// The text of an error about an argument of a constructor names the argument; that of an error in
+/// a name of a variable has the offset in the name.
 #[test]
 fn errors_of_arguments_name_the_argument() {
     let text = |error: Error| error.to_string();
@@ -155,7 +157,7 @@ fn errors_of_arguments_name_the_argument() {
     assert_eq!(read, "expected REAL32, found SGN32");
 }
 
-/// Errors of elements, indices and numbers have no byte offset.
+/// The texts of errors of elements, indices and numbers contain no byte offset.
 #[test]
 fn errors_of_values_have_no_byte_offset() {
     let text = |error: Error| error.to_string();
@@ -189,7 +191,8 @@ fn errors_of_values_have_no_byte_offset() {
     assert_eq!(to_i64, "0xffffffffffffffff does not fit LINT");
 }
 
-/// The limit of a count is the maximum of its list, or the remaining bytes.
+/// The error of a count says that the limit comes from the remaining bytes. The errors of content
+/// name its offset.
 #[test]
 fn errors_of_counts_name_their_limit() {
     let cut = DescriptionRef::decode(&[&[0; 16][..], &[1, 0, 0, 0]].concat()).unwrap_err();
@@ -204,7 +207,7 @@ fn errors_of_counts_name_their_limit() {
     assert_eq!(error.to_string(), wanted);
 }
 
-/// Each class of errors has its own text.
+/// A kind of errors is displayed as a text; these are five of them.
 #[test]
 fn kinds_have_different_texts() {
     assert_eq!(ErrorKind::Truncated.to_string(), "truncated");
@@ -214,7 +217,8 @@ fn kinds_have_different_texts() {
     assert_eq!(ErrorKind::Unexpected.to_string(), "unexpected character");
 }
 
-/// A dispatch error has a text without repetition, and an ADS error number.
+/// A dispatch error has a text and an ADS error. It has no source, because its text already
+/// contains that of the error of the stream.
 #[test]
 fn dispatch_errors_have_a_text_and_a_number() {
     let call = Call {

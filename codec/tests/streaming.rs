@@ -1,4 +1,4 @@
-//! Data streaming: texts, packets and the sender.
+//! Tests of data streaming: texts, packets and the sender.
 
 use ads_cnc::limits::{NC_LINE_MAX, STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::*;
@@ -21,7 +21,8 @@ fn texts_of_zero_and_one_byte_have_their_lines() {
     assert_eq!(packets(b"\r\r\n\n"), [b"\r\n\r\n\r\n"]);
 }
 
-/// Errors of service, address, access and size are final rejections; all other errors mean busy.
+/// ADS errors of the target, the service, the address, the access and the size are final
+/// rejections; all other errors mean busy.
 #[test]
 fn results_are_converted_to_acknowledgements() {
     use ads_cnc::ads::AdsError;
@@ -61,7 +62,8 @@ fn lines_are_accepted_up_to_990_characters() {
     }
 }
 
-/// Two lines that together have one byte less than a packet, exactly fill it, or have one byte more.
+/// Two lines are in one packet if they fit it together with their line ends, and in two packets if
+/// they have one byte more.
 #[test]
 fn packets_are_filled_to_the_last_byte() {
     for end in ENDS {
@@ -76,7 +78,7 @@ fn packets_are_filled_to_the_last_byte() {
     }
 }
 
-/// Control characters other than CR and LF are text.
+/// Control characters other than NUL, CR and LF are text.
 #[test]
 fn other_control_characters_are_text() {
     let line = "\t\x0B\x0C\x08\x0E\x7F".repeat(5);
@@ -144,7 +146,7 @@ fn a_sender_accepts_one_acknowledgement_per_packet() {
     }
 }
 
-/// Busy results are counted for each packet separately.
+/// The sender counts busy acknowledgements for each packet separately.
 #[test]
 fn a_sender_counts_busy_results() {
     let line = [&[b'X'; NC_LINE_MAX][..], b"\r\n"].concat();
@@ -162,7 +164,7 @@ fn a_sender_counts_busy_results() {
     assert_eq!((sender.busy_count(), sender.packet()), (0, None));
 }
 
-/// Random lines of many lengths with all line ends; the last line may lack its line end.
+/// A random text: lines of many lengths with any line ends; the last line may lack its line end.
 fn text() -> impl Strategy<Value = Vec<u8>> {
     let len = prop_oneof![8 => 0..60_usize, 1 => 60..=990_usize, 1 => 980..=990_usize];
     let line =
@@ -191,8 +193,9 @@ fn text() -> impl Strategy<Value = Vec<u8>> {
     )
 }
 
-/// The last line lacks its line end. If it fits into the packet with CR LF, the packet cannot be borrowed
-/// from the text; otherwise the packet consists of the lines before it, which can be borrowed.
+/// The last line of a text may lack its line end. If it fits into a packet together with CR LF and
+/// the lines before it, this packet cannot be borrowed from the text. Otherwise, the packet only
+/// consists of the lines before it, and can be borrowed.
 #[test]
 fn open_lines_are_borrowed_up_to() {
     for (last, borrowed) in [(987, None), (988, Some(&b"X\r\n"[..]))] {
@@ -209,14 +212,15 @@ proptest! {
         check_packets(&text);
     }
 
-    /// A fault inserted into a valid text is reported at its position; nothing is sent.
+    /// An invalid byte inserted into a valid text is reported at its position, and no packet is
+    /// made.
     #[test]
     fn a_fault_is_reported_at_its_position(text in text(), at in any::<prop::sample::Index>(), byte in select(vec![0, 0x80, 0xFF, 0xE4])) {
         let at = at.index(text.len() + 1);
         let line = reference_lines(&text[..at]).len() + usize::from(at == 0 || b"\r\n".contains(&text[at - 1]));
         let column = at - text[..at].iter().rposition(|byte| b"\r\n".contains(byte)).map_or(0, |end| end + 1) + 1;
-        // A byte inserted between CR and LF is a line of its own. A byte inserted into a line of 990
-        // characters makes the line too long.
+        // A byte inserted between CR and LF is a separate line. A byte inserted after 990
+        // characters of a line makes the line too long.
         let bad = [&text[..at], &[byte], &text[at..]].concat();
         prop_assert!(check_text(&bad, TextMutation::NONE).is_err());
         let error = NcText::new(&bad).unwrap_err();
@@ -228,8 +232,8 @@ proptest! {
         }
     }
 
-    /// For any acknowledgements, the accepted data is the start of the text, without gaps and
-    /// repetitions, and the counts agree.
+    /// For any acknowledgements, the packets that the sender returns are those of the text, in
+    /// order, and its progress, state and counts are the expected ones.
     #[test]
     fn a_sender_loses_and_repeats_nothing(text in text(), acks in vec(0..20_u8, 0..200), twice in any::<bool>()) {
         let mut sender = CheckedSender::new(&text, SenderMutation::NONE);
@@ -247,7 +251,7 @@ proptest! {
         sender.check_left();
     }
 
-    /// The first line end other than CR LF is reported.
+    /// The first line that does not end in CR LF is reported.
     #[test]
     fn line_ends_are_checked(text in text(), wire in any::<bool>()) {
         let text = if wire { reference_wire(&text) } else { text };

@@ -1,4 +1,5 @@
-//! The checks of a text packet by packet. The split into packets only matters where this is documented.
+//! Tests of `Checker`, which checks a text part by part. Only for a jump to a label that occurs
+//! before and after it, the diagnostics depend on how the text is divided into parts.
 #![cfg(feature = "alloc")]
 
 use ads_cnc::streaming::{CheckEvent, Checker, ProgramEnd};
@@ -10,7 +11,8 @@ use super::common::checker::{CheckedLots, check_any_lots, check_lines as check};
 use super::common::findings::findings_of as whole;
 use super::kept;
 
-/// The example in section 2.3.6 of `stream-en`, packet by packet, also with its last jump reversed.
+/// The example in section 2.3.6 of `stream-en` has no diagnostics if its packets are checked one by
+/// one. With a jump back in the second packet, it has one.
 #[test]
 fn jumps_of_the_example() {
     let packets = [
@@ -47,7 +49,8 @@ fn blocks_ends_and_programs_are_carried_over() {
     assert_eq!(check(&mut checker, b"$GOTO N2\r\n").0.len(), 1);
 }
 
-/// For a jump whose label is both before and after it, the split decides whether it goes back.
+/// A jump whose label occurs before and after it is not a jump back if the later label is in the
+/// same part.
 #[test]
 fn a_later_label_counts_if_it_is_in_the_same_part() {
     let lines = [&b"N1:\r\n"[..], b"$GOTO N1\r\n", b"N1:\r\n"];
@@ -57,7 +60,8 @@ fn a_later_label_counts_if_it_is_in_the_same_part() {
     assert_eq!(lines.map(|line| check(&mut checker, line).0.len()), [0, 1, 0]);
 }
 
-/// A program end affects later lines even if the iterator was dropped before its event.
+/// A label and a program end affect later parts even if the iterator was dropped before it returned
+/// their events.
 #[test]
 fn events_that_are_not_requested_count() {
     let mut checker = Checker::new();
@@ -66,7 +70,8 @@ fn events_that_are_not_requested_count() {
     assert_eq!(found, [3, 3]);
 }
 
-/// Events have their lines; after a program end, `remaining` returns the lines that the CNC discards.
+/// When an event is returned, `remaining` returns the lines after that of the event. After a
+/// program end, the CNC discards these lines.
 #[test]
 fn remaining_lines_are_available_after_a_program_end() {
     let lines = b"N10 X1\r\nN20 $DO X\r\nN30 M30\r\nN40 X2\r\nN50 X3\r\n";
@@ -100,7 +105,7 @@ fn bytes_that_are_not_text_are_accepted() {
     assert_eq!(ends, [(ProgramEnd::M2, 1, 5007), (ProgramEnd::M30, 5, 1)]);
 }
 
-/// The documented number of labels is remembered, but not an unlimited number.
+/// The checker remembers at least the documented number of recent labels, and forgets old labels.
 #[test]
 fn only_recent_labels_are_remembered() {
     for (length, known) in [(0, Checker::LABELS_KNOWN), (990, Checker::CHARACTERS_KNOWN / 990)] {
@@ -116,7 +121,7 @@ fn only_recent_labels_are_remembered() {
     }
 }
 
-/// Random lines whose parts are difficult to parse in combination.
+/// A random line. It consists of words that are difficult to parse in combination.
 fn line() -> impl Strategy<Value = Vec<u8>> {
     let piece = select(vec![
         "$FOR",
@@ -146,8 +151,8 @@ fn line() -> impl Strategy<Value = Vec<u8>> {
         .prop_map(|(pieces, end)| (pieces.concat() + end).into_bytes())
 }
 
-/// Random parts of random lines. No line that begins with LF follows a line that ends in CR: together, both
-/// would be one line end.
+/// A random text in parts of random lines. A line that is only LF does not follow a line that ends
+/// in CR, because CR and LF together would be one line end.
 fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
     vec(vec(line(), 1..6), 0..14).prop_filter("LF behind CR", |lots| {
         let lines: Vec<&Vec<u8>> = lots.iter().flatten().collect();
@@ -158,7 +163,8 @@ fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
 proptest! {
 #![proptest_config(kept::cases(2000, file!()))]
 
-/// The events of each part equal those of the same lines in the whole text so far.
+/// The diagnostics of each part equal those that the diagnostics of the whole text so far contain
+/// for the same lines.
 #[test]
 fn events_by_part_equal_those_of_the_text_so_far(lots in lots()) {
     let mut checked = CheckedLots::new(|_, _| ());
@@ -172,7 +178,7 @@ fn any_bytes_in_any_parts_are_accepted(lots in vec(vec(any::<u8>(), 0..60), 0..6
     check_any_lots(lots.iter().map(Vec::as_slice));
 }
 
-/// If all labels are unique, the split does not change the diagnostics.
+/// If all labels are unique, the diagnostics do not depend on the parts.
 #[test]
 fn the_split_does_not_matter_for_unique_labels(
     mut lines in vec(line(), 0..60),
@@ -180,7 +186,7 @@ fn the_split_does_not_matter_for_unique_labels(
 ) {
     let mut seen = std::collections::BTreeSet::new();
     for (at, line) in lines.iter_mut().enumerate() {
-        // Remove a label that an earlier line has, even in a comment.
+        // Rename a label that occurs in an earlier line, even in a comment.
         let mut text = String::from_utf8(line.clone()).unwrap().replace(['\r', '\n'], "");
         for label in ["N1:", "N2:", "N01 :", "[A]"] {
             if text.contains(label) && !seen.insert(label.replace(['0', ' '], "")) {

@@ -1,4 +1,4 @@
-//! The diagnostics of a text.
+//! Tests of the diagnostics of a whole text.
 #![cfg(feature = "alloc")]
 
 use ads_cnc::streaming::{DiagnosticKind, LoopWord, NcText};
@@ -19,18 +19,19 @@ fn clean(text: &str) {
     assert_eq!(findings(text), [""; 0], "{text}");
 }
 
-/// `stream-en` 2.3.3: a jump list over two packets.
+/// The example of a `$SWITCH` in two packets, from section 2.3.3 of `stream-en`.
 const SWITCH: &str = "%switchstream\nN010 G00 X0 Y0 Z0\nN020 P1=10\nN030\nN040 $SWITCH P1\n\
     N050 $CASE 1\nN060 X10\nN070 $BREAK\nN080 $CASE 5\nN090 X50\nN100 $BREAK\nN110 $CASE 9\n\
     N120 X90\nN130 $BREAK\nN140 $CASE 10\nN150 X100\nN160 $ENDSWITCH\nM30\n";
 
-/// `stream-en` 2.3.4: comments over two packets.
+/// The example of comments in two packets, from section 2.3.4 of `stream-en`.
 const COMMENT: &str = "%commentstream\nN010 G00 X0 Y0 Z0 (Move to start position)\n\
     N17 G53 G90 (Absolute dimension)\nN18 G00 X0\nN21 G54 G90 ;Zero offsets\n#COMMENT BEGIN\n\
     #HSC ON [OPMODE 2]\nN22 (==========)\nN22 (PROG NAME : Test.nc)\nN25 (HISTORY :)\n\
     N29 S30000 M03\nN32 G01 X14.4 Y9.216\n#COMMENT END\nN33 G01 X14.4 Y9.216 F30000\nM30\n";
 
-/// `stream-en` 2.3.6: a jump within a packet, and a jump that skips a packet.
+/// The example of a jump within a packet and a jump over a packet, from section 2.3.6 of
+/// `stream-en`.
 const FORWARD: &str = "N01 G01 X0 Y0 Z0 F1000\nN10 G01 X20\nN20 $GOTO N40\nN30 G01 Z40\n\
     N40: G01 X40\nN50 $GOTO N80\nN60 G01 Y20\nN70 G01 Y40\nN80: G01 X-20\nN90 G01 X-40\nM30\n";
 
@@ -39,20 +40,22 @@ fn printed_examples_are_clean() {
     clean(SWITCH);
     clean(COMMENT);
     clean(FORWARD);
-    // The examples of 2.3.1, 2.3.2 and 2.3.7; the last one has parentheses that are not closed.
+    // These are the examples of sections 2.3.1, 2.3.2 and 2.3.7. In the last one, parentheses are
+    // not closed.
     clean("N10 G01 X200 F1000\nN20 X240 Y100\nN30 X200 Y0\nN40 #FLUSH CONTINUE");
     clean("N10 G01 X200 F1000\nN20 X240 Y100\nN30 X200 Y0\nN40 L subprogram.nc\n");
     clean(
         "%streaming-spline\n#SPLINE TYPE BSPLINE\nG151\nN36335 X-1.5586 Y-16.3853 (M122\n\
         N36336 X-1.5666 Y-16.4702 Z2.9971\nN36348 X-1.657 Y-17.4202 (Z2.4442\n",
     );
-    // `$IF` and the related words.
+    // `$IF`, `$SWITCH` and the words that belong to them are not loops.
     clean(
         "$IF P1 == 1\nX1\n$ELSEIF P1 == 2\nX2\n$ELSE\nX3\n$ENDIF\n$SWITCH P1\n$DEFAULT\n$ENDSWITCH\n",
     );
 }
 
-/// A name ends at a character that it must not contain.
+/// A file name after `L` ends at a character that it cannot contain, so that an M30 after it is a
+/// program end.
 #[test]
 fn names_of_files_end() {
     for behind in [" M30", "\tM30", "[1] M30", "\"x\" M30", "(x) M30"] {
@@ -66,7 +69,8 @@ fn names_of_files_end() {
     clean("L M30\nL sub_M30.nc\nX1\n");
 }
 
-/// A comment may be between an address and its number.
+/// A comment between an address letter and its number is skipped, so that an M30 after the number
+/// is a program end.
 #[test]
 fn numbers_after_comments_are_skipped() {
     for text in ["X(a)5 M30\nX1\n", "X(a)12.5M30\nX1\n", "X(a)5.M30\nX1\n"] {
@@ -75,7 +79,7 @@ fn numbers_after_comments_are_skipped() {
     }
 }
 
-/// The same examples have a diagnostic after one change.
+/// Each of the examples has a diagnostic after one change.
 #[test]
 fn changed_examples_have_diagnostics() {
     let with = |text: &str, from: &str, to: &str| {
@@ -112,7 +116,7 @@ fn each_loop_word_is_found() {
             let kinds: Vec<_> = text.diagnostics().map(|finding| finding.kind).collect();
             assert_eq!(kinds, [DiagnosticKind::Loop(word)]);
         }
-        // A longer word, the word in quotes, and the word without `$` are not words of a loop.
+        // A longer word, a word in quotes, and a word without `$` are not loop words.
         clean(&format!("{word}X 1\n#MSG [\"{word}\"]"));
         clean(&word.to_string()[1..]);
     }
@@ -184,13 +188,13 @@ fn jumps_back_are_found_and_no_others() {
         assert!(found[0].ends_with(&format!(": $GOTO back to line {to} (STM-8)")), "{found:?}");
     }
     for no_back in [
-        // The label is after the jump, before and after the jump, or missing.
+        // The label occurs after the jump, or before and after it, or it does not occur.
         "$GOTO N1\nN1:",
         "N1:\n$GOTO N1\nN1:",
         "$GOTO N1",
         "N1:\n$GOTO N11\nN11:",
         "N1:\n$GOTO N11",
-        // The line has no jump, or a jump to an expression.
+        // The last line contains no jump, or a jump to an expression or a string.
         "N1:\n($GOTO N1)",
         "N1:\n;$GOTO N1",
         "N1:\n\"$GOTO N1\"",
@@ -200,7 +204,7 @@ fn jumps_back_are_found_and_no_others() {
         "N1:\n$GOTOX N1",
         "[A]\n$GOTO V.E.A",
         "[A]\n$GOTO [A",
-        // The first line has no such label.
+        // No line before the jump has this label.
         "N1\n$GOTO N1",
         "(N1:)\n$GOTO N1",
         ";N1:\n$GOTO N1",
@@ -210,14 +214,15 @@ fn jumps_back_are_found_and_no_others() {
         "N[1]:\n$GOTO N1",
         "N1:\n$GOTO [1]",
         "[1]\n$GOTO N1",
-        // The label belongs to another program.
+        // The label belongs to an earlier program.
         "%L sub\nN1:\nM29\n%main\n$GOTO N1",
     ] {
         let jumps: Vec<_> =
             findings(no_back).into_iter().filter(|found| found.contains("GOTO")).collect();
         assert_eq!(jumps, [""; 0], "{no_back}");
     }
-    // Each of two programs has its own label N1.
+    // Two programs have a label N1; the jump in the first program goes to the label of this
+    // program.
     let two = "%L sub\nN1:\n$GOTO N1\nM29\n%main\nN1:";
     assert_eq!(findings(two)[0], "line 3, column 1: $GOTO back to line 2 (STM-8)");
 }
@@ -278,7 +283,7 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
     ] {
         clean(&format!("{no_end}\nX1"));
     }
-    // Each program end causes a diagnostic, and the words after it cause their own diagnostics.
+    // Text after a program end causes one diagnostic, and a loop word in this text causes another.
     assert_eq!(
         findings("M30\n$DO\nX1\nM17\nX1\n%next\nM2"),
         [
@@ -297,7 +302,7 @@ fn diagnostics_have_a_requirement_and_a_consequence() {
     assert_eq!(found, [("STM-8", true), ("STM-8", true), ("STM-10", false), ("STM-9", false)]);
 }
 
-/// A text with many jumps: to near and far lines, back and forward.
+/// Jumps back are found in texts with 5000 labels and jumps, and jumps forward are not reported.
 #[test]
 fn jumps_back_are_found_among_many_labels() {
     let count = 5000;
@@ -356,7 +361,8 @@ impl Line {
     }
 }
 
-/// The expected jumps back, by their definition: line of the jump and line of the label, both from 0.
+/// The expected jumps back: the index of the line of the jump, and that of the last line with the
+/// label in the same program, if this is not after the jump.
 fn jumps_back(program: &[Line]) -> Vec<(usize, usize)> {
     let is_title = |line: &Line| matches!(line, Line::Program);
     let mut back = Vec::new();
@@ -373,7 +379,7 @@ fn jumps_back(program: &[Line]) -> Vec<(usize, usize)> {
     back
 }
 
-/// Random texts of pieces that are difficult to parse in combination.
+/// A random text of words that are difficult to parse in combination.
 fn pieces() -> impl Strategy<Value = String> {
     let piece = select(vec![
         "$FOR",
@@ -425,8 +431,8 @@ fn jumps_back_are_found_as_defined(program in program()) {
     prop_assert_eq!(found, wanted);
 }
 
-/// For any text, the diagnostics are finite, within the text, in its order, and independent of line ends.
-/// If the text is a comment, it has no diagnostics.
+/// For any text, the diagnostics satisfy `check_findings`. A text within a comment block or a
+/// comment has no diagnostics.
 #[test]
 fn findings_of_any_text(text in pieces()) {
     check_findings(text.as_bytes(), |_, _| ());

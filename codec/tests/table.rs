@@ -1,5 +1,5 @@
-//! The numbers that clients and servers must agree on, each repeated here; the numbers of functions are in
-//! a snapshot.
+//! Numbers that clients and servers must agree on. The tests repeat the numbers of codes and sizes;
+//! a snapshot contains those of functions.
 
 use ads_cnc::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
@@ -11,8 +11,8 @@ use ads_cnc::*;
 
 use super::common::CALLS;
 
-/// A snapshot of the row of each function and the read length of its call. The row contains the effect, by
-/// which a gateway may decide which calls to permit.
+/// A snapshot contains the row of each function in the table of functions, and the read length of a
+/// call. The row contains the effect, by which a gateway may decide which calls to permit.
 #[test]
 fn functions_are_where_the_manuals_put_them() {
     let mut shown = String::new();
@@ -37,7 +37,7 @@ fn functions_are_where_the_manuals_put_them() {
     });
 }
 
-/// The effect of each function that writes, by which a gateway may decide which calls to permit.
+/// Exactly these functions write, and they have these effects.
 #[test]
 fn writes_have_these_effects() {
     let writes = Function::ALL.iter().filter(|it| it.spec().effect != Effect::Query);
@@ -53,7 +53,7 @@ fn writes_have_these_effects() {
     assert_eq!(writes, wanted);
 }
 
-/// Each kind of dynamic parameters has exactly four offsets.
+/// Each function of dynamic parameters has four offsets, one for each kind.
 #[test]
 fn offsets_of_dynamic_parameters() {
     let offsets = |function: Function| -> Vec<u32> {
@@ -78,7 +78,8 @@ fn offsets_of_dynamic_parameters() {
     }
 }
 
-/// VAR-26: with axis 0, the elements of the axis interface are other functions.
+/// The functions of the axis interface have the elements 4 to 6 of the axes from 1 on. With axis 0,
+/// these offsets are no functions or different functions (VAR-26).
 #[test]
 fn the_axis_interface_begins_at_axis_1() {
     let call = |offset| Call {
@@ -98,14 +99,14 @@ fn the_axis_interface_begins_at_axis_1() {
         let error_of = DispatchError::Offset(IndexOffset::new(absent));
         assert_eq!(call(absent).dispatch(), Err(error_of));
     }
-    // With axis 0, the elements 4 and 5 are functions of the channel interface, which require ReadWrite.
+    // With axis 0, the elements 4 and 5 are counts of dynamic parameters, which require Read.
     for count in [4, 5] {
         let error_of = DispatchError::Service { expected: Read, found: ReadWrite };
         assert_eq!(call(count).dispatch(), Err(error_of));
     }
 }
 
-/// ADS-5, ADS-7, GEN-4: numbers of AMS and ADS.
+/// Commands, state flags, errors and ports have the documented numbers (ADS-5, ADS-7, GEN-4).
 #[test]
 fn numbers_of_ads() {
     let commands = [
@@ -141,7 +142,8 @@ fn numbers_of_ads() {
     assert_eq!([Read, Write, ReadWrite].map(|service| service.command().0), [2, 3, 9]);
 }
 
-/// VAR-1, VAR-5, VAR-6: names and codes of variables.
+/// Kinds, types and accesses of variables have the documented names and numbers (VAR-1, VAR-5,
+/// VAR-6).
 #[test]
 fn codes_of_variables() {
     assert_eq!(
@@ -169,7 +171,7 @@ fn codes_of_variables() {
     assert_eq!((VariableAccess::READ_ONLY.0, VariableAccess::READ_WRITE.0), (1, 2));
 }
 
-/// COM-2, SDA-9, E-08: any write access but 0 is TRUE.
+/// Any write access and any write flag except 0 is TRUE (COM-2, SDA-9, E-08).
 #[test]
 fn any_write_access_but_0_is_true() {
     let flags = [0, 1, 2, 0xFF].map(|raw| sda::ElementWriteFlag(raw).is_writable());
@@ -178,7 +180,7 @@ fn any_write_access_but_0_is_true() {
     assert_eq!(access, [false, true, true, true, true]);
 }
 
-/// GEN-5: sizes of the types of the COM task.
+/// The types of the COM task have these sizes; the size of other type names is unknown (GEN-5).
 #[test]
 fn types_of_com() {
     let sizes = [
@@ -195,7 +197,7 @@ fn types_of_com() {
     }
 }
 
-/// GEN-6, ADR-13: platform axes are counted from 1; axis 0 has no list.
+/// Platform axes are counted from 1, and axis 0 has no list of objects (GEN-6, ADR-13).
 #[test]
 fn axis_0_is_rejected() {
     let call = |group| Call {
@@ -224,8 +226,8 @@ fn axis_0_is_rejected() {
     assert!(matches!(of_channel_0.dispatch(), Err(DispatchError::Offset(_))));
 }
 
-/// The count of a dispatched request is limited, so a server that allocates by this count does not allocate
-/// 4 GiB.
+/// The count of descriptors in a dispatched request is limited, so that a server that allocates
+/// memory by this count does not allocate 4 GiB.
 #[test]
 fn counts_of_descriptors_are_bounded() {
     let call = Call {

@@ -1,4 +1,4 @@
-//! The field tables: their documentation, and their consistency with the streams.
+//! Tests of the tables of fields: their documentation, and their consistency with the streams.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -9,7 +9,8 @@ use ads_cnc::limits::*;
 
 use super::common::each_sample;
 
-/// The tables of the types that are written by hand are in `codec/doc`, generated from the field tables.
+/// Each file in `codec/doc` equals the documentation generated from the table of its stream. The
+/// documentation of handwritten types includes these files.
 #[test]
 fn documentation_shows_the_tables() {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("doc");
@@ -70,7 +71,7 @@ fn length(layout: &Layout) -> String {
     }
 }
 
-/// For a stream of records: the stream that consists of a single such record.
+/// For a stream of records, returns the stream that consists of one such record; otherwise `None`.
 fn record(stream: Stream) -> Option<Stream> {
     let fields = stream.layout().fields;
     stream.layout().repeats.then(|| {
@@ -103,13 +104,15 @@ fn size(size: Size, counter: Option<&FieldSpec>) -> String {
     }
 }
 
-/// The letter that the manual uses for a count, found in the meaning of the count.
+/// The letter (m or n) that the manual uses for a count. It occurs in the meaning of the count's
+/// row.
 fn letter(fields: &[FieldSpec]) -> &'static str {
     let words = fields.iter().flat_map(|row| row.meaning.split(|c: char| !c.is_alphanumeric()));
     words.into_iter().find(|word| ["m", "n"].contains(word)).expect("a letter for the count")
 }
 
-/// A walk finds each field at the offset of the table, including counted items.
+/// A walk of each sample finds each field, and each item of a list, at the offset that the table
+/// states.
 #[test]
 fn offsets_are_where_walks_find_the_fields() {
     for (stream, sample) in each_sample() {
@@ -126,7 +129,8 @@ fn offsets_are_where_walks_find_the_fields() {
                     _ => 0,
                 };
                 let before = text;
-                // For a text that other fields follow, the offsets of the table only include the NUL.
+                // The offsets of fields after a text of variable length assume an empty text with
+                // its NUL.
                 if let Size::CStringPrefix { .. } = row.size {
                     text = segment.bytes.len() as u32 - 1;
                 }
@@ -139,7 +143,7 @@ fn offsets_are_where_walks_find_the_fields() {
     }
 }
 
-/// Fields with a fixed offset have no gaps between them (GEN-2).
+/// In the tables, there are no gaps between fields (GEN-2).
 #[test]
 fn streams_are_packed() {
     for stream in Stream::all() {
@@ -156,7 +160,8 @@ fn streams_are_packed() {
     }
 }
 
-/// Requirement IDs have the form of the catalogue.
+/// The requirement of each field and table has the form of an ID: three letters, a hyphen and a
+/// number.
 #[test]
 fn requirements_are_ids() {
     let is_id = |id: &str| {
@@ -185,24 +190,26 @@ fn names_are_unique() {
     }
 }
 
-/// The table has the type BOOLEAN; the decoder would accept the same bytes for an UNS08.
+/// The table of the write flag has the type BOOLEAN. With the type UNS08, the decoder would accept
+/// the same bytes, so no other test would fail.
 #[test]
 fn the_write_flag_is_a_boolean() {
     assert_eq!(Stream::ElementWriteFlag.layout().fields[0].ty, Type::Boolean);
 }
 
-/// The named limits, from the declarations, equal the numbers of the requirements.
+/// The constants of limits equal the numbers in the requirements.
 #[test]
 fn limits_are_the_numbers_of_the_clauses() {
     assert_eq!([TEXT_MAX, NAME_MAX, INDEX_KIND_MAX], [256, 255, 260]);
     assert_eq!([VARIABLE_MAX, HANDLE_VALUE_MAX, NAME_VALUE_MAX], [2048, 2040, 2047]);
-    // VAR-24: the rest of 2048 bytes after the headers and the shortest name.
+    // These many numbers fit the 2048 bytes of a stream after its other fields and the shortest
+    // name (VAR-24).
     assert_eq!([DIMENSIONS_MAX, NAMELESS_DIMENSIONS_MAX, INDICES_MAX], [506, 507, 510]);
     assert_eq!([DYNAMIC_NAME_MAX, SERVICE_TEXT_MAX], [96, 128]);
     assert_eq!([DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN], [84, 32]);
     assert_eq!([AMS_TCP_HEADER_LEN, AMS_HEADER_LEN, ADS_DATA_MAX], [6, 32, 0x40_0000]);
     assert_eq!([STREAM_PACKET_MAX, STREAM_MAX, NC_LINE_MAX], [992, 4094, 990]);
-    // Maximum lengths of streams that have no named limit.
+    // For the maximum lengths of these streams, no constants exist.
     for (stream, max) in [
         (Stream::ReadReply, 8 + ADS_DATA_MAX),
         (Stream::ReadWriteReply, 8 + ADS_DATA_MAX),

@@ -1,4 +1,4 @@
-//! Values by their types: the printed values, each type, each access to elements.
+//! Tests of decoding values by their types: printed values, each type, and each access to elements.
 
 use address::{Channel, ChannelAxis};
 use ads_cnc::ErrorKind::*;
@@ -18,7 +18,8 @@ fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Result<Shape<'_>
     Shape::new(data_type, dimensions.into(), size)
 }
 
-/// The replies printed in sections 4.3.4, 4.3.5 and 4.3.10; their types SGN32 and REAL64 are assumed.
+/// The replies printed in sections 4.3.4, 4.3.5 and 4.3.10 are decoded. Their types SGN32 and
+/// REAL64 are assumed.
 #[test]
 fn printed_replies() {
     let channel = Channel::new(1).unwrap();
@@ -41,7 +42,8 @@ fn printed_replies() {
     assert!(value.iter().eq([Element::Real64(1234.2)]));
 }
 
-/// One element of each type; the expected bytes were computed with Python's `struct`.
+/// An element of each type is decoded and encoded. The expected bytes were computed with Python's
+/// `struct`.
 #[test]
 fn each_type_is_read_and_written() {
     let rows: [(DataType, &[u8], Element<'_>); 11] = [
@@ -76,7 +78,7 @@ fn each_type_is_read_and_written() {
     assert_eq!((text.text(), text.tail()), (CncStr::new("Länge").unwrap(), Some(&b"rest"[..])));
 }
 
-/// GEN-5: names of types of objects and elements; other names are unknown.
+/// Each type has a name for elements and a name for objects; other names are unknown (GEN-5).
 #[test]
 fn names_of_types() {
     let rows = [
@@ -113,7 +115,8 @@ fn names_of_types() {
     }
 }
 
-/// A client decodes a whole variable and one element by the description.
+/// A client decodes the value of a whole variable and that of one element by the description of the
+/// variable.
 #[test]
 fn values_by_description() {
     let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
@@ -124,7 +127,7 @@ fn values_by_description() {
     let one = ValueRef { bytes: &[7] };
     assert_eq!(variable.element(&one), Ok(Element::Boolean(Boolean(7))));
 
-    // The value of the array cannot be decoded as one element, nor the value of one element as the array.
+    // The value of the array is rejected as the value of one element, and vice versa.
     assert_eq!(fault_of(variable.element(&value)), fault(Trailing, "value", 1, (1, 2)));
     assert_eq!(fault_of(variable.elements(&one)), fault(Truncated, "value", 0, (2, 1)));
 
@@ -142,7 +145,7 @@ fn values_by_description() {
     }
 }
 
-/// The content of a COM object and of an element, decoded by the names of their types.
+/// The content of a COM object and that of an element are decoded by the names of their types.
 #[test]
 fn content_by_name_of_its_type() {
     let object = Descriptor::new("mc_active_single_block_r", "BOOL").unwrap().with_size(1);
@@ -157,8 +160,8 @@ fn content_by_name_of_its_type() {
     assert!(elements(element, &[], content).iter().eq([Element::Real64(123.456)]));
 }
 
-/// VAR-22, VAR-25: a STRING has any length; the texts of an array have equal shares of the bytes
-/// (assumed).
+/// A single STRING may have any length. The texts of an array have equal shares of its bytes, which
+/// is an assumption (VAR-22, VAR-25).
 #[test]
 fn texts_of_an_array_share_its_bytes() {
     let one = shape(DataType::String, &[], 21).unwrap();
@@ -212,12 +215,12 @@ fn errors_name_the_wrong_index() {
     let other = elements.items::<u32>().map(|_| ());
     assert_eq!(fault_of(other), fault(Mismatch, "type", 0, (7, 6)));
 
-    // The indices can be those of a name.
+    // The indices can come from a name.
     let path = VariablePath::new("V.E.field[1][2]").unwrap();
     assert_eq!(elements.shape().index_of(path.elements()), Ok(5));
 }
 
-/// All ways to access an element return the same element.
+/// `get`, the iterator, its reverse, `nth` and `step_by` return the same elements.
 #[test]
 fn elements_in_their_order() {
     let bytes: Vec<u8> = (0..24).collect();
@@ -256,13 +259,14 @@ fn a_dimension_of_0_has_no_element() {
         assert!(Elements::new(data_type, U32List::from(&[0]), &[1]).is_err());
         assert_eq!(fault_of(shape(data_type, &[0, 7], 1)), fault(Mismatch, "size", 0, (0, 1)));
     }
-    // The product of the other dimensions exceeds 32 bits.
+    // The product of the dimensions before the 0 exceeds 32 bits.
     let late = [u32::MAX, u32::MAX, 0];
     assert!(elements(DataType::Uns08, &late, &[]).is_empty());
     assert_eq!(ValueRef { bytes: &[] }.iter::<f64>().unwrap().len(), 0);
 }
 
-/// A product that exceeds 32 bits neither wraps nor saturates.
+/// A shape whose product of dimensions exceeds 32 bits is rejected with any size: the product
+/// neither wraps nor saturates.
 #[test]
 fn sizes_do_not_wrap() {
     let wraps = [0x1_0000, 0x1_0000];
@@ -293,7 +297,8 @@ fn values_without_a_valid_size_are_rejected() {
     }
 }
 
-/// An element converts to a number of any type that represents it exactly, and to no other.
+/// An integer converts to each number type that represents it exactly. A floating-point number only
+/// converts to its type, or from REAL32 to `f64`.
 #[test]
 fn elements_become_numbers_that_hold_them() {
     fn as_all(element: Element<'_>) -> ([bool; 8], [bool; 2]) {

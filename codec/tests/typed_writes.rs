@@ -1,4 +1,4 @@
-//! Encoding of values: printed values, errors of a shape, and random values of every type.
+//! Tests of encoding values: printed values, errors of a shape, and random values of every type.
 
 use address::{Channel, ChannelAxis, IndexGroup, IndexOffset};
 use ads_cnc::ErrorKind::*;
@@ -20,7 +20,8 @@ fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Shape<'_> {
     Shape::new(data_type, dimensions.into(), size).unwrap()
 }
 
-/// A `WriteValue` from any supported Rust type has the expected bytes.
+/// A `WriteValue` has the same bytes whether it was made from a number, a slice, a vector or
+/// elements.
 #[test]
 fn values_to_write_are_their_bytes() {
     let bytes = 1.5_f64.to_le_bytes().to_vec();
@@ -51,7 +52,8 @@ fn names_are_accepted_from_all_text_types() {
     assert_eq!(ReadByName::new(channel, &String::from("V.E.x")).unwrap(), wanted);
 }
 
-/// An owned descriptor, a borrowed descriptor and one from a list address the same object.
+/// An owned descriptor, a borrowed descriptor and a descriptor from a slice address the same
+/// object.
 #[test]
 fn objects_are_addressed_by_their_descriptors() {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(3));
@@ -63,7 +65,8 @@ fn objects_are_addressed_by_their_descriptors() {
     assert!(items.iter().all(|item| ReadObject::of(item).unwrap() == wanted));
 }
 
-/// The writes printed in sections 4.3.6, 4.3.7 and 4.3.11; their types SGN32 and REAL64 are assumed.
+/// The requests printed in sections 4.3.6, 4.3.7 and 4.3.11 are encoded. The types SGN32 and REAL64
+/// of their values are assumed.
 #[test]
 fn printed_writes() {
     let channel = Channel::new(1).unwrap();
@@ -87,7 +90,7 @@ fn printed_writes() {
     assert_eq!(op.encode(&mut buf).unwrap(), b"V.A.WCS\0\x77\xbe\x9f\x1a\x2f\xdd\x5e\x40");
 }
 
-/// VAR-12, VAR-13: requests accept values up to their limits, and reject longer ones.
+/// Requests accept values up to their limits, and reject longer values (VAR-12, VAR-13).
 #[test]
 fn requests_accept_values_up_to_their_limits() {
     let channel = Channel::new(1).unwrap();
@@ -120,7 +123,8 @@ fn requests_accept_values_up_to_their_limits() {
     assert!(content.value_to_vec().is_err() && content[1..].value_to_vec().is_ok());
 }
 
-/// A shape accepts only its type and number of elements; after an error, nothing is written.
+/// A shape only encodes values of its type and number of elements; after an error, the buffer is
+/// unchanged.
 #[test]
 fn writes_fit_the_description() {
     let dimensions = [2, 2];
@@ -145,7 +149,8 @@ fn writes_fit_the_description() {
     assert_eq!(array.element_shape().encode(&read.get(3).unwrap(), &mut buf).unwrap(), b"\x04\0");
 }
 
-/// A STRING is written with its NUL; neither text nor NUL is truncated.
+/// A STRING is written with its NUL; a text that does not fit its size together with its NUL is
+/// rejected, not truncated.
 #[test]
 fn texts_fit_their_size() {
     let mut buf = [0x55; 16];
@@ -156,7 +161,7 @@ fn texts_fit_their_size() {
     assert_eq!(one.encode_texts(&[text("")], &mut buf).unwrap(), b"\0");
     let too_long = one.encode(&text("abcd"), &mut buf);
     assert_eq!(fault_of(too_long), fault(TooLong, "value", 0, (4, 5)));
-    // A decoded text keeps its end.
+    // A decoded text without a NUL is written without a NUL.
     let open = TextRef::with_tail(text("abcd"), None);
     assert_eq!(one.encode(&open, &mut buf).unwrap(), b"abcd");
 
@@ -203,7 +208,7 @@ fn check_numbers<T: Scalar>(numbers: &[T], bits: &[u8]) {
     }
 }
 
-/// Random dimensions of an array with few elements, and random bytes for the elements.
+/// Random dimensions of an array with few elements, and two random bytes for each element.
 fn array() -> impl Strategy<Value = (Vec<u32>, Vec<u8>)> {
     vec(0..5_u32, 0..5).prop_flat_map(|dimensions| {
         let count = dimensions.iter().product::<u32>() as usize;
@@ -222,7 +227,7 @@ fn all_indices(dimensions: &[u32]) -> Vec<Vec<u32>> {
 proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
-    /// Every value of every type is encoded and decoded bit by bit.
+    /// Random values of every number type are encoded to their bits and decoded from them.
     #[test]
     fn values_are_encoded_and_decoded(
         bytes in vec(any::<u8>(), 0..40), words in vec(any::<u16>(), 0..40),
@@ -284,14 +289,15 @@ proptest! {
         prop_assert!(find(&indices).is_ok_and(|index| index < array.count()));
         indices[at] = dimensions[at].saturating_add(over % 3);
         let error = fault_of(find(&indices));
-        // The sum saturates if the dimension is 0xFFFF_FFFF.
+        // The sum is never less than the dimension, because it saturates.
         if indices[at] >= dimensions[at] {
             let (last, index) = (dimensions[at] as usize - 1, indices[at] as usize);
             prop_assert_eq!(error, fault(OutOfRange, "index", at, (last, index)));
         }
     }
 
-    /// No type, dimension, size or value makes a shape panic, loop or disagree with itself.
+    /// Shapes of any type, dimensions and size satisfy `check_shape`, and have the size and the
+    /// number of elements from which they were made.
     #[test]
     fn shapes_obey_the_laws(
         pick in 0..DataType::ALL.len(), bytes in vec(any::<u8>(), 0..64), size in any::<u32>(),

@@ -1,4 +1,5 @@
-//! The laws of all streams for values: each value encodes to bytes that decode to the value.
+//! Random values of all streams satisfy `check_value`: a value encodes to bytes that decode to this
+//! value.
 
 #![cfg(feature = "alloc")]
 
@@ -19,7 +20,7 @@ fn text(max: usize) -> impl Strategy<Value = CncString> {
     vec(1..=u8::MAX, 0..=max).prop_map(|bytes| CncStr::from_bytes(&bytes).expect("no NUL").into())
 }
 
-/// Random text of a request, with or without padding.
+/// Random text of a request, with one NUL or several.
 fn request_text() -> impl Strategy<Value = Text> {
     (text(255), 0..256_usize).prop_map(|(text, padding)| {
         let room = 255 - text.as_bytes().len();
@@ -27,7 +28,8 @@ fn request_text() -> impl Strategy<Value = Text> {
     })
 }
 
-/// Random text of a description, with any possible end; the field has at least one byte.
+/// Random text of a description, with or without a NUL and bytes after it. The field has at least
+/// one byte.
 fn open_text() -> impl Strategy<Value = Text> {
     (text(255), prop::option::of(vec(any::<u8>(), 0..256))).prop_map(|(text, tail)| {
         let room = 255 - text.as_bytes().len();
@@ -41,7 +43,7 @@ fn data() -> impl Strategy<Value = Vec<u8>> {
     vec(any::<u8>(), 0..300)
 }
 
-/// Random result and data of a reply; only a reply with an error may have no data (ADS-6).
+/// Random result and data of a reply; only a reply with an error may have no data field (ADS-6).
 fn reply() -> impl Strategy<Value = (AdsError, Option<Vec<u8>>)> {
     prop_oneof![
         (any::<u32>(), data()).prop_map(|(result, data)| (AdsError(result), Some(data))),
@@ -113,7 +115,7 @@ proptest! {
         check_value(&ReadWriteReply { result, data });
     }
 
-    /// Contents, packets of the program stream, and attributes of elements.
+    /// Values of contents, packets of the program stream, and attributes of elements are unchanged.
     #[test]
     fn contents_obey_the_laws(bytes in vec(any::<u8>(), 1..=992), text in open_text(), flag in any::<u8>()) {
         check_value(&Content { bytes: bytes.clone() });
@@ -143,14 +145,14 @@ proptest! {
         check_value(&DynamicValue::from_bits(bits));
     }
 
-    /// Single descriptors and lists.
+    /// Single descriptors and lists of descriptors are unchanged.
     #[test]
     fn descriptors_obey_the_laws(objects in vec(descriptor(), 1..5)) {
         check_value(&objects[0]);
         check_value(&objects.into_iter().collect::<Descriptors>());
     }
 
-    /// Requests with and without padding.
+    /// Requests are unchanged, with and without additional NULs after the text.
     #[test]
     fn variable_requests_obey_the_laws(
         text in request_text(), index in any::<u32>(), indices in vec(any::<u32>(), 0..=510),
@@ -161,7 +163,7 @@ proptest! {
         check_value(&HandleRead { handle: Handle(index), indices });
     }
 
-    /// Writes with and without a value.
+    /// Writes are unchanged, with and without a value.
     #[test]
     fn variable_writes_obey_the_laws(
         name in text(255), handle in any::<u32>(), indices in vec(any::<u32>(), 0..=250),
@@ -171,7 +173,7 @@ proptest! {
         check_value(&NameWrite { name, value });
     }
 
-    /// Extended descriptions, and empty replies.
+    /// Extended descriptions and empty replies are unchanged.
     #[test]
     fn extended_descriptions_obey_the_laws((synchronisation, validity) in any::<(u32, u32)>()) {
         let (synchronisation, validity) = (Synchronisation(synchronisation), Validity(validity));
@@ -179,8 +181,8 @@ proptest! {
         check_value(&ExtendedReply(None));
     }
 
-    /// Descriptions with unknown codes, many dimensions and any end of the name. A description without its
-    /// name equals the description by name.
+    /// Descriptions with unknown codes, many dimensions and any end of the name are unchanged. A
+    /// description without its name equals the description by name.
     #[test]
     fn descriptions_obey_the_laws(
         name in open_text(),
@@ -213,7 +215,8 @@ proptest! {
     }
 }
 
-/// The kind without bytes and the kind of one NUL differ, although both mean all kinds (VAR-1).
+/// A kind without bytes and a kind of one NUL encode to different bytes, although both mean all
+/// kinds (VAR-1).
 #[test]
 fn empty_kinds_keep_their_form() {
     let absent = VariableKind { kind: Text { text: CncString::default(), tail: None } };

@@ -1,4 +1,5 @@
-//! The golden vectors, decoded, as snapshots for comparison with the manual.
+//! Tests with the golden vectors. Snapshots contain their decoded values, for comparison with the
+//! manuals.
 
 #![cfg(feature = "alloc")]
 
@@ -17,7 +18,8 @@ use ads_cnc::value::DataType;
 use ads_cnc::*;
 use ads_cnc_vectors::{Expect, Vector, vectors};
 
-/// Decodes both types, encodes both again, and displays the owned value.
+/// Decodes bytes to both types of a stream, checks that both values encode to the same bytes, and
+/// formats the owned value.
 macro_rules! show {
     ($bytes:expr, $view:ty, $owned:ty) => {{
         let view = <$view>::decode($bytes).and_then(|view| view.encode_to_vec());
@@ -31,17 +33,17 @@ macro_rules! show {
     }};
 }
 
-/// The reason for rejecting bytes: the name of the class in the vectors, and the text of the error.
+/// An error: the name of its class in the vectors, and its text.
 #[derive(Debug)]
-struct Refusal(&'static str, String);
+struct Rejection(&'static str, String);
 
-impl From<Error> for Refusal {
+impl From<Error> for Rejection {
     fn from(error: Error) -> Self {
         Self(class(&error), error.to_string())
     }
 }
 
-fn decode(vector: &Vector, bytes: &[u8]) -> Result<String, Refusal> {
+fn decode(vector: &Vector, bytes: &[u8]) -> Result<String, Rejection> {
     match vector.stream.as_str() {
         "index-group" => {
             let group = IndexGroup::new(ObjectCount::decode(bytes)?.0);
@@ -96,14 +98,15 @@ fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String
     Ok(format!("{shown}\n{}", elements(vector, value)?))
 }
 
-/// Builds the group from the base and the number that was added to the base.
+/// Builds the group from its base and the number of the channel, axis or spindle, which is the
+/// difference of both.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Error> {
     let number = group.get().wrapping_sub(base.get());
     Ok(match base.parts().expect("a documented base") {
         Group::Com(com) if com.table == ComTable::Axis => {
             PlatformAxis::new(number)?.com(com.access)
         }
-        // The number of the platform is 0.
+        // Without a number, the group is that of the platform.
         Group::Com(_) if number == 0 => base,
         Group::Com(com) => channel(com.addressing, number)?.com(com.access),
         Group::Class(class) if base.get() == 0x2_5300 => {
@@ -122,7 +125,8 @@ fn channel(addressing: Addressing, number: u32) -> Result<Channel, Error> {
     }
 }
 
-/// Parses a name and builds it again.
+/// Parses a name, checks that the name built from its parts has the same parts, and formats these
+/// parts.
 fn path(bytes: &[u8]) -> Result<String, Error> {
     let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
     let again = without_zeros(bytes)?;
@@ -139,22 +143,24 @@ fn without_zeros(path: &[u8]) -> Result<Vec<u8>, Error> {
     Ok(VariablePath::write(path.kind(), path.parts(), &mut buf)?.text().bytes().collect())
 }
 
-/// Splits a frame, decodes the data of its service, and encodes both again.
-fn frame(bytes: &[u8]) -> Result<String, Refusal> {
+/// Splits off a frame, decodes the data of its service, checks that both encode to the same bytes,
+/// and formats them.
+fn frame(bytes: &[u8]) -> Result<String, Rejection> {
     let Some((frame, len)) = FrameRef::split(bytes, u32::MAX)? else {
-        // The frame is not complete. Decode what is present, to find the error for the truncated field.
+        // The frame is not complete. Decode the received part, to find the error for the truncated
+        // field.
         let (tcp, rest) = bytes.split_at(bytes.len().min(limits::AMS_TCP_HEADER_LEN));
         AmsTcpHeader::decode(tcp)?;
         let (header, data) = rest.split_at(rest.len().min(limits::AMS_HEADER_LEN));
         let header = AmsHeader::decode(header)?;
         service(&header, data)?;
-        // The data of the frame belongs to no service, so there is no field to report.
-        return Err(Refusal("truncated", format!("more of {} bytes", header.data_length)));
+        // The data present is accepted, so the error names no field.
+        return Err(Rejection("truncated", format!("more of {} bytes", header.data_length)));
     };
     // Bytes after the frame belong to the next frame; here, they are trailing bytes of the service.
     let shown = service(&frame.header(), &bytes[FrameRef::HEADERS_LEN..])?;
     if len != bytes.len() {
-        return Err(Refusal("trailing", format!("a frame of {len} bytes, and another")));
+        return Err(Rejection("trailing", format!("a frame of {len} bytes, and another")));
     }
     let mut buf = vec![0; bytes.len()];
     let again = FrameRef::new(frame.header(), frame.data())?.encode(&mut buf)?;
@@ -181,7 +187,7 @@ fn service(header: &AmsHeader, data: &[u8]) -> Result<String, Error> {
     }
 }
 
-/// The elements of a value or content, decoded by its type.
+/// Formats the elements of a value or content, decoded by the type of the vector.
 fn elements(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     let name = vector.context.kind.expect("a value has a type").name();
     let data_type = DataType::by_name(CncStr::new(name)?).expect("a type of the manuals");
@@ -190,8 +196,8 @@ fn elements(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     Ok(format!("{name} {:?}", elements.iter().collect::<Vec<_>>()))
 }
 
-/// Vectors whose class of fault, which is only advisory, differs from that of the codec, with the class of
-/// the codec.
+/// Vectors for which the error of the codec has another class than the vector states, with the
+/// class of the codec. The class in a vector is only advisory.
 const OTHERWISE: &[(&str, &str)] = &[
     // The codec decodes record by record and reports the truncated field.
     ("descriptors-cut", "truncated"),
@@ -202,9 +208,9 @@ const OTHERWISE: &[(&str, &str)] = &[
     // The codec checks the maximum length of the stream first.
     ("handle-read-2052-bytes", "too-long"),
     ("handle-write-511-indices", "too-long"),
-    // For a stream that may be empty, the codec only checks the maximum length.
+    // For an extended description, which may be empty, the codec checks the maximum length first.
     ("extended-trailing", "too-long"),
-    // The codec checks the maximum data of all services first.
+    // The codec first checks the maximum length of the data of any service.
     ("frame-tcp-length-huge", "too-long"),
     // The codec reports that the size of the value and the dimensions are inconsistent.
     ("value-strings-2-odd", "mismatch"),
@@ -224,11 +230,11 @@ fn class(error: &Error) -> &'static str {
         ErrorKind::Mismatch => "mismatch",
         ErrorKind::Unexpected => "unexpected",
         ErrorKind::InnerNul => "not-text",
-        other => panic!("no vector is refused as {other:?}"),
+        other => panic!("no vector is rejected as {other:?}"),
     }
 }
 
-/// The canonical bytes of the value of a vector.
+/// Decodes a vector and encodes its value in the canonical form.
 fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     /// Encodes the stream with one NUL after this text.
     macro_rules! plain {
@@ -276,7 +282,7 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     }
 }
 
-/// The codec encodes a plain text with one NUL, and TRUE as 1.
+/// The codec encodes a text without a tail with one NUL, and TRUE as 1.
 #[test]
 fn canonical_forms_are_written() {
     let mut seen = 0;
@@ -297,8 +303,9 @@ fn canonical_forms_are_written() {
     assert!(seen >= 26, "{seen} vectors have a canonical form");
 }
 
-/// Formats a snapshot: up to sixteen numbers of a list per line, bytes as in a manual, text as in an
-/// NC program; long output is shortened.
+/// Shortens the text of a value for a snapshot: up to sixteen numbers of a list are on one line,
+/// and bytes are shown as a hex dump with their ASCII characters. Of more than 60 lines, the first
+/// 40 are kept.
 fn short(text: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut numbers: Vec<&str> = Vec::new();
@@ -334,8 +341,9 @@ fn row_of(field: &str, row: &[&str]) -> String {
     format!("{:47}  |{}|", hex.join(" "), bytes.iter().map(seen).collect::<String>())
 }
 
-/// Every vector is accepted or rejected as it specifies, by both types of the stream, and encodes to the
-/// same bytes. A person has compared the snapshots of the decoded values with the manuals.
+/// Every vector is accepted or rejected as it specifies, by both types of the stream, and an
+/// accepted vector encodes to the same bytes. The snapshots contain the decoded values and the
+/// texts of errors.
 #[test]
 fn vectors_decode_as_they_did() {
     let mut streams: BTreeMap<&str, String> = BTreeMap::new();
@@ -346,14 +354,14 @@ fn vectors_decode_as_they_did() {
         assert_eq!(decoded.is_ok(), vector.is_accepted(), "{}: {decoded:?}", vector.id);
         let shown = match (&decoded, &vector.expect) {
             (Ok(value), _) => short(value),
-            (Err(Refusal(class, error)), Expect::Reject(reject)) => {
+            (Err(Rejection(class, error)), Expect::Reject(reject)) => {
                 let named = OTHERWISE.iter().find(|(id, _)| *id == vector.id);
                 let wanted = named.map_or(reject.class.as_str(), |(_, class)| class);
                 if *class != wanted {
                     misnamed.push(format!("{}: {wanted}, not {error}", vector.id));
                 }
                 format!(
-                    "refused: {error}\nthe vector: {} at offset {}",
+                    "rejected: {error}\nthe vector: {} at offset {}",
                     reject.class, reject.offset
                 )
             }

@@ -2,11 +2,11 @@
 
 use std::sync::OnceLock;
 
-/// The seeded defect that a target has to find, if any.
+/// A seeded defect, which a target has to find, or [`NONE`](Self::NONE).
 ///
-/// With a defect, the body behaves as if the code had one fault. A law that does not detect the
-/// defect is too weak. The numbers start at 1; 254 and 255 are
-/// those of [`PANIC`](Self::PANIC) and [`HANG`](Self::HANG), which every target has.
+/// With a defect, the body of the target behaves as if the code under test had one fault. A law
+/// that does not detect the defect is too weak. The numbers of a target's defects start at 1; 254
+/// and 255 are those of [`PANIC`](Self::PANIC) and [`HANG`](Self::HANG), which every target has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Defect(u8);
 
@@ -25,8 +25,8 @@ impl Defect {
         Self(number)
     }
 
-    /// The defect whose number is in the environment variable `ADS_CNC_SEEDED_DEFECT`, or none. The
-    /// variable may also be `panic` or `hang`.
+    /// The defect whose number is in the environment variable `ADS_CNC_SEEDED_DEFECT`, or `NONE`
+    /// without this variable. The value may also be `panic` or `hang`.
     ///
     /// # Panics
     /// If the variable has another value.
@@ -45,7 +45,7 @@ impl Defect {
         self.0 == number
     }
 
-    /// Panics or never returns if `self` is the defect that does so.
+    /// Panics for [`PANIC`](Self::PANIC), and never returns for [`HANG`](Self::HANG).
     pub(crate) fn panic_or_hang(self) {
         assert!(self != Self::PANIC, "the seeded panic");
         if self == Self::HANG {

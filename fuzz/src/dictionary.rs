@@ -61,8 +61,8 @@ fn entries(family: &str) -> BTreeSet<Vec<u8>> {
 const HIGH: &str =
     "\u{81}\u{9D}\u{A0}\u{E4}\u{FF}\u{152}\u{178}\u{192}\u{2C6}\u{2013}\u{20AC}\u{2122}\u{3A9}";
 
-/// Inputs for the targets of the family `service`: a host that finds a request, answers it and writes,
-/// and steps of the program and the hosts in turn.
+/// Parts of inputs for the targets of the family `service`: a host finds a request, answers it and
+/// writes; the program and the hosts make steps in turn.
 const EVENTS: &[&[u8]] = &[
     b"\x00\x0A\x00\x03\x00\x1D",
     b"\x0E\x01\x0D",

@@ -18,7 +18,8 @@
 #[path = "../../codec/tests/common/mod.rs"]
 mod common;
 
-// The interfaces of the simulated CNC for streaming and services, with the checks of its own tests.
+// Models of the streaming interface and the Service Interface of the simulated CNC, with which the
+// tests of the suite compare it.
 #[cfg(feature = "tools")]
 #[path = "../../conformance/tests/program/machines.rs"]
 mod machines;

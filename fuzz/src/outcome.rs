@@ -18,20 +18,20 @@ impl Outcome {
     }
 
     /// An input that was rejected, and the reason.
-    pub fn refused(why: impl Hash) -> Self {
+    pub fn rejected(why: impl Hash) -> Self {
         Self { accepted: false, digest: digest(why) }
     }
 
     /// An input without a meaning for this target.
     pub fn unread() -> Self {
-        Self::refused("unread")
+        Self::rejected("unread")
     }
 
-    /// [`Outcome::accepted`] for `Ok`, [`Outcome::refused`] for `Err`.
+    /// [`Outcome::accepted`] for `Ok`, [`Outcome::rejected`] for `Err`.
     pub fn of<T: Hash, E: Hash>(result: Result<T, E>) -> Self {
         match result {
             Ok(what) => Self::accepted(what),
-            Err(why) => Self::refused(why),
+            Err(why) => Self::rejected(why),
         }
     }
 }

@@ -38,8 +38,8 @@ fn outcomes_are_repeatable() {
     }
 }
 
-/// The corpora contain every vector and sample under its own name, and the dictionaries match the vectors
-/// and samples.
+/// The corpora contain every seed (from vectors, samples and inputs made by hand) under its name,
+/// and the dictionaries are those that `dictionary` generates.
 #[test]
 fn corpora_and_dictionaries_are_up_to_date() {
     let mut stale = Vec::new();
@@ -85,7 +85,7 @@ fn folders_match_the_targets() {
     }
 }
 
-/// The corpora are small enough for the repository.
+/// The corpora have at most 2 MiB in all, which is small enough for the repository.
 #[test]
 fn corpora_are_small() {
     let files = |target: &str| {

@@ -1,11 +1,12 @@
-//! Counts the instructions of every case with callgrind. The counts are the same on every run.
+//! Counts the instructions of every case with callgrind. With the same toolchain, the counts are
+//! the same on every run.
 
 use ads_cnc_benches::{Case, Work, gate, others};
 use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
-/// Makes the C library copy memory of any length like short memory. By default, it copies long memory with
-/// one processor instruction, which callgrind counts byte by byte, and memory larger than the caches with a
-/// third method.
+/// Makes the C library copy blocks of any length like short blocks. By default, it copies a long
+/// block with one processor instruction, which callgrind counts byte by byte, and a block larger
+/// than the caches with a third method.
 fn config() -> LibraryBenchmarkConfig {
     let thresholds = ["rep_movsb", "rep_stosb", "non_temporal"]
         .map(|it| format!("glibc.cpu.x86_{it}_threshold=0x7fffffff"));

@@ -1,4 +1,4 @@
-//! The cases, with their limits.
+//! The type of a case, and its limits.
 
 /// A measured case.
 #[derive(Clone, Copy)]
@@ -11,23 +11,25 @@ pub struct Case {
     pub prepare: fn() -> Work,
     /// The limits of the cost of the case.
     pub limits: &'static [Limit],
-    /// Whether counting the case takes too long for every change, so that only `--renew` counts it.
+    /// True if counting the case takes too long for every change, so that only `run --renew` counts
+    /// it.
     pub is_long: bool,
 }
 
 /// A limit of the cost of a case.
 #[derive(Clone, Copy)]
 pub enum Limit {
-    /// At most this multiple of the instructions of another case of the same subject.
+    /// At most this multiple of the instructions per unit of another case of the same subject.
     Instructions(&'static str, f64),
-    /// At most this multiple of the time of another case of the same subject.
+    /// At most this multiple of the time per unit of another case of the same subject. This is a
+    /// goal: a case that exceeds it is only reported.
     Time(&'static str, f64),
     /// At most this number of instructions per unit more than another case of the same subject.
     Over(&'static str, f64),
 }
 
 impl Limit {
-    /// The implementation of the other case, with which the limit compares.
+    /// The implementation of the other case, with which the limit compares the case.
     pub fn against(&self) -> &'static str {
         match self {
             Self::Instructions(other, _) | Self::Time(other, _) | Self::Over(other, _) => other,
@@ -37,14 +39,14 @@ impl Limit {
 
 /// Work that can be repeated.
 pub struct Work {
-    /// The number of units in a run: records, bytes or calls. Results are per unit.
+    /// The number of units in a run: records, calls, dimensions or bytes. Results are per unit.
     pub units: u64,
     /// Performs one run.
     pub run: Box<dyn FnMut()>,
 }
 
 impl Case {
-    /// A case of `subject`, by the implementation `who`, without limits.
+    /// A case of `subject` by `implementation`, without limits.
     pub(crate) const fn new(
         subject: &'static str,
         implementation: &'static str,
@@ -58,12 +60,13 @@ impl Case {
         Self { limits, ..self }
     }
 
-    /// Makes the case counted with `--renew` only.
+    /// Marks the case as long (see `is_long`).
     pub(crate) const fn long(self) -> Self {
         Self { is_long: true, ..self }
     }
 
-    /// Whether a limit depends on the cost of this case.
+    /// Returns true if the case is not long and has a limit, or a limit compares another case with
+    /// it.
     pub(crate) fn is_gated(&self) -> bool {
         if self.is_long {
             return false;
@@ -74,8 +77,8 @@ impl Case {
     }
 }
 
-/// Creates work that processes each input in turn. `black_box` hides from the compiler what the inputs are
-/// and that the results are unused.
+/// Creates work that processes each input in turn. `black_box` hides the inputs from the compiler,
+/// and the fact that the results are unused.
 macro_rules! each {
     ($inputs:expr, |$input:ident| $work:expr) => {
         $crate::case::each!($inputs, 1, |$input| $work)

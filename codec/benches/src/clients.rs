@@ -1,4 +1,5 @@
-//! The bytes for clients in other languages, and the time of this crate for them.
+//! Writes the bytes for clients in other languages, and measures the time of this crate for these
+//! bytes.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -26,7 +27,7 @@ pub fn write(folder: &Path) -> io::Result<()> {
     fs::write(folder.join("descriptions.bin"), all)
 }
 
-/// The description of a user-defined array: handle, type, access, size, two dimensions, name.
+/// The bytes of the description of an array of 3 × 5 numbers.
 fn description(at: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     for number in [0x0200_0000 + at, 6, 2, 4 * 3 * 5, 2, 3, 5] {
@@ -36,7 +37,7 @@ fn description(at: u32) -> Vec<u8> {
     bytes
 }
 
-/// Prints the name of each operation and the median of its nanoseconds per record.
+/// Prints the name of each measured operation and its median time in nanoseconds per record.
 pub fn time(folder: &Path) -> io::Result<()> {
     let list = fs::read(folder.join("descriptors.bin"))?;
     let all = fs::read(folder.join("descriptions.bin"))?;

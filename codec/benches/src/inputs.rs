@@ -1,4 +1,5 @@
-//! The samples of the codec: bytes of every stream, written by hand.
+//! The inputs of the cases, made from the samples of the codec, which are handwritten bytes of
+//! every stream.
 
 #[expect(dead_code, reason = "the codec's tests use more of it")]
 #[path = "../../tests/common/samples.rs"]
@@ -11,7 +12,8 @@ mod samples_elements;
 use ads_cnc::layout::Stream;
 use samples::Sample;
 
-/// The minimum number of streams in a run. A run may have more, because all samples occur equally often.
+/// The minimum number of inputs in a run. A run may have more, because all samples occur equally
+/// often.
 const STREAMS: usize = 100;
 
 fn each(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
@@ -19,13 +21,13 @@ fn each(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
     of.map(|(_, sample)| Sample::bytes(sample))
 }
 
-/// The samples, repeated so that one-time work is negligible.
+/// The samples of a stream, repeated so that one-time work is negligible.
 pub(crate) fn many(stream: Stream) -> Vec<&'static [u8]> {
     round(each(stream).collect())
 }
 
 /// Inputs that the stream rejects, among truncated samples, samples with an extra byte and long inputs.
-pub(crate) fn refused(stream: Stream, accepts: fn(&[u8]) -> bool) -> Vec<&'static [u8]> {
+pub(crate) fn rejected(stream: Stream, accepts: fn(&[u8]) -> bool) -> Vec<&'static [u8]> {
     round(faulty(stream).filter(|bytes| !accepts(bytes)).collect())
 }
 
@@ -45,8 +47,7 @@ fn round(of: Vec<Vec<u8>>) -> Vec<&'static [u8]> {
     of.repeat(times)
 }
 
-/// Every sample: unchanged, truncated at every length, with an extra byte, with every byte changed,
-/// and too long.
+/// Every sample unchanged, the inputs of [`faulty`], and every sample with one byte changed.
 #[cfg(test)]
 pub(crate) fn all(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
     let flip = |(at, by): (usize, u8), bytes: &[u8]| {

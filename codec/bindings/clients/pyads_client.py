@@ -14,7 +14,7 @@ from pyads.pyads_ex import _adsDLL as ads_lib
 NET_ID = "127.0.0.1.1.1"
 
 
-# Returns only the received bytes: Connection.read_write of pyads does not return their number.
+# Decodes only the received bytes. It calls AdsLib, because Connection.read_write of pyads does not return their number.
 def send(request):
     reply, received = ctypes.create_string_buffer(request.read_length), ctypes.c_uint32()
     to = local_port, ctypes.byref(pyads.AmsAddr(NET_ID, request.port).amsAddrStruct())

@@ -23,7 +23,7 @@ def field(name):
 
 def platform():
     name = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    # The library only needs memcpy, memset and bcmp of any C library; codec/bindings/run verifies that.
+    # The library needs no function of a C library that glibc 2.17 lacks; codec/bindings/run verifies that.
     return name.replace("linux_", "manylinux_2_17_") if name.startswith("linux_") else name
 
 

@@ -1,4 +1,4 @@
-//! A transport over the published crate `ads`. Other transports are as short.
+//! A transport that uses the published crate `ads`.
 
 use std::{env, error::Error, time::Duration};
 
@@ -7,10 +7,10 @@ use ads_cnc::operation::{AdsService, Operation};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Converts an ADS error of the CNC to `None`. Any other error is returned: those of the network, of the
-/// ADS router (numbers below 0x700) and of decoding.
+/// Converts an ADS error of the CNC (a number from 0x700 on) to `None`. Returns any other error:
+/// errors of the network, of the ADS router (numbers below 0x700) and of decoding.
 #[allow(dead_code, reason = "the examples that write need every error")]
-pub(crate) fn unless_refused<T>(result: Result<T>) -> Result<Option<T>> {
+pub(crate) fn unless_rejected<T>(result: Result<T>) -> Result<Option<T>> {
     match result {
         Err(error) => match error.downcast_ref() {
             Some(ads::Error::Ads(_, _, 0x700..)) => Ok(None),
@@ -26,7 +26,8 @@ pub(crate) struct Cnc {
 }
 
 impl Cnc {
-    /// The CNC in the first two arguments, for example `127.0.0.1:48898 127.0.0.1.1.1`.
+    /// Connects to the CNC that the first two arguments name, such as `127.0.0.1:48898
+    /// 127.0.0.1.1.1`.
     pub(crate) fn from_args() -> Result<Self> {
         let argument = |place| env::args().nth(place).ok_or("arguments: HOST:PORT NET_ID …");
         let timeouts = Timeouts::new(Duration::from_secs(5));

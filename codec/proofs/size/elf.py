@@ -9,7 +9,7 @@ class Elf:
         if self.bytes[:4] != b"\x7fELF" or self.bytes[5] != 1:
             raise ValueError(f"{path} is not a little-endian ELF file")
         self.wide = self.bytes[4] == 2
-        # Offset, size and number of the section headers, and the index of the section with their names.
+        # The offset, size and number of the section headers, and the index of the section that contains the names.
         (start,) = self.read("Q" if self.wide else "I", 40 if self.wide else 32)
         size, count, names = self.read("3H", 58 if self.wide else 46)
         heads = [self.head(start + at * size) for at in range(count)]
@@ -32,7 +32,7 @@ class Elf:
         return sum(head["size"] for head in named)
 
     def functions(self):
-        """The size of each function in bytes, by its symbol name."""
+        """Returns the size of each function in bytes by its symbol name."""
         table, names = self.sections[".symtab"], self.sections[".strtab"]
         step, form = (24, "IBBHQQ") if self.wide else (16, "IIIBBH")
         sizes = {}

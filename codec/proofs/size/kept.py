@@ -1,5 +1,5 @@
-"""Selects the functions that a program keeps, part by part, from the lists of the public API. Generic
-functions are written by hand in src/generic.rs, instantiated with the types that programs use."""
+"""Selects the functions that a program contains from the lists of the public API, by parts of the API. Generic
+functions are not selected: src/generic.rs calls them with specific types."""
 
 import pathlib
 import re
@@ -19,13 +19,14 @@ PARTS = {
     "service": r"service::",
     "views": r"",
 }
-# Traits, the part that implementations of the trait belong to (None: the part of the type), and methods.
+# Traits, the part that their methods belong to (None: the part of the type), and the names of these methods.
 TRAITS = [
     ("Decode", None, "decode"),
     ("Encode", None, "encode encoded_len"),
     ("operation::Operation", None,
      "index_group index_offset read_length encoded_len encode decode_reply"),
-    # A program contains these methods only for the operations that it calls, or `Request::encode` for all.
+    # A real program contains these methods only for the operations that it calls. If it needs all operations, it uses
+    # `Request::encode` instead.
     ("operation::Operation", "calls", "port service call"),
     ("value::EncodeValue", "values", "data_type element_count value_len encode_value"),
     ("Iterator", None, "next"),
@@ -41,7 +42,7 @@ def part(path):
 
 
 def read(features):
-    """Part and path of each function that is not generic, and the paths of the generic functions."""
+    """Returns the part and the path of each function that is not generic, and the paths of the generic functions."""
     kept, generic, head, name = [], [], "", ""
     for line in (API / f"{features}.txt").read_text(encoding="utf-8").splitlines():
         if line.startswith("fn "):
@@ -70,7 +71,8 @@ def read(features):
 
 
 def source(parts, extra=(), owned=False):
-    """Rust code that keeps the functions of these parts and `extra`, and the number of paths in it."""
+    """Returns Rust code that contains the functions of these parts and those of `extra` in a program, and their
+    number without those of src/generic.rs."""
     paths = [path for of, path in read("none")[0] if of in parts] + list(extra)
     if owned:
         paths += [path for _, path in read("alloc")[0]]
@@ -86,8 +88,8 @@ def by_hand():
 
 
 def missing(gone="\0"):
-    """The generic functions that src/generic.rs, without the text `gone`, does not keep, and the number of
-    other functions."""
+    """Returns the generic functions that are not in the text of src/generic.rs after `gone` is removed from it, and
+    the number of functions that are not generic."""
     kept, generic = read("none")
     text = re.sub(r"::<[^>]*>", "", by_hand()).replace(gone, "")
     lost = [path for path in generic if not re.search(rf"(?<![\w:]){path}\b", text)]

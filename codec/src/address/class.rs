@@ -33,7 +33,8 @@ impl ClassGroup {
         Self { addressing: class.best(), class, attribute: Attribute::ObjectAddress, instance: 0 }
     }
 
-    /// The index group with these parts. For a spindle, `addressing` is ignored: it is always by index.
+    /// The index group with these parts. For [`Class::Spindle`], `addressing` is ignored, because
+    /// spindles are always addressed by index.
     pub const fn index_group(self) -> IndexGroup {
         let addressing = match self.class {
             Class::Spindle => Addressing::Index,
@@ -96,13 +97,15 @@ numbered! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     Class {
-        /// Position controller: a CNC has only one, and the platform axes belong to it.
+        /// Position controller: a CNC has one position controller, to which the platform axes
+        /// belong.
         PositionController = 0, "position controller";
         /// Interpolator of a channel.
         Interpolator = 1, "interpolator";
         /// Decoder of a channel.
         Decoder = 2, "decoder";
-        /// High-level driver of a channel; that of the first channel also has the platform axes.
+        /// High-level driver of a channel; the driver of the first channel also has the platform
+        /// axes.
         Hld = 3, "HLD";
         /// Path preparation of a channel.
         PathPreparation = 4, "path preparation";
@@ -116,7 +119,8 @@ impl Class {
         low(self.number()) << 12
     }
 
-    /// The addressing that the manuals recommend for this class.
+    /// The addressing for this class: by index for spindles, which have no logical address;
+    /// otherwise logical, as the manuals recommend.
     const fn best(self) -> Addressing {
         match self {
             Self::Spindle => Addressing::Index,
@@ -161,7 +165,7 @@ impl Attribute {
 }
 
 impl Channel {
-    /// The index group of a class in this channel.
+    /// The index group of an attribute of a class in this channel.
     pub const fn class(self, class: Class, attribute: Attribute) -> IndexGroup {
         let (addressing, instance) = (self.addressing(), self.number());
         ClassGroup { addressing, class, attribute, instance }.index_group()
@@ -169,7 +173,7 @@ impl Channel {
 }
 
 impl Spindle {
-    /// The index group of this spindle.
+    /// The index group of an attribute of this spindle.
     pub const fn class(self, attribute: Attribute) -> IndexGroup {
         let (addressing, class) = (Addressing::Index, Class::Spindle);
         ClassGroup { addressing, class, attribute, instance: self.index() }.index_group()

@@ -10,8 +10,8 @@ use crate::layout::index_offset::ELEMENT;
 /// The largest element index (ADR-9).
 const ELEMENT_MAX: u32 = AxisStride::X10000.element_max();
 
-/// The address of an element of an instance of a class. The index group contains the attribute, the
-/// index offset the element.
+/// The address of an element of an instance of a class. The index group contains the attribute, and
+/// the index offset contains the element.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
 ///

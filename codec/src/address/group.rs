@@ -152,7 +152,8 @@ impl Addressing {
     }
 }
 
-/// Whether an index group addresses the content of elements or the description of objects (ADR-4).
+/// Whether an index group of COM addresses the content or the descriptors of objects (ADR-4).
+/// Groups of SDA and GEO always have element access.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1 and 2.1.2.
 ///
@@ -165,9 +166,9 @@ impl Addressing {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Access {
-    /// Element access, 0x20000.
+    /// Element access, 0x20000: to the content of objects.
     Element,
-    /// Object access, 0x30000.
+    /// Object access, 0x30000: to the descriptors of objects.
     Object,
 }
 
@@ -263,8 +264,8 @@ pub(super) const fn low(instance: u8) -> u32 {
 mod tests {
     use super::*;
 
-    /// ADR-10: every documented group parses, and for every 24-bit number that parses, the group built
-    /// from its parts is the same number.
+    /// Every documented group parses, and for every 24-bit number that parses, the group built from
+    /// its parts is the same number (ADR-10).
     #[test]
     #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
     fn parts_add_up_to_the_group() {

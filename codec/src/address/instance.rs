@@ -9,7 +9,7 @@ use crate::layout::Field;
 use crate::layout::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
 use crate::layout::index_offset::CHANNEL_AXIS;
 
-/// Checks that a number fits its bits in an index group or index offset (ADR-9).
+/// Checks that a number is within the [`range`] of this field, and converts it (ADR-9).
 fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
     let nearest = range(field).map_or(number, |(_, least, most)| number.max(least).min(most));
     match N::try_from(number) {
@@ -21,7 +21,8 @@ fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
 /// The largest instance number: an index group has 8 bits for it (ADR-9).
 const INSTANCE_MAX: u32 = 0xFF;
 
-/// The name, minimum and maximum of the constructor argument that an error reports by this field.
+/// The name, minimum and maximum of the constructor argument that `field` identifies in an error;
+/// `None` for any other field.
 pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     match field {
         CHANNEL => Some(("channel", 1, INSTANCE_MAX)),
@@ -35,7 +36,7 @@ pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
 /// A channel, counted from 1 (GEN-6): by its logical number, or by its index among the active channels.
 ///
 /// The index of a channel changes when a channel before it is deactivated (ADR-11). The manuals
-/// therefore recommend the number, which they call logical addressing.
+/// therefore recommend addressing by the number, which they call logical addressing.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
 ///
@@ -131,7 +132,7 @@ impl PlatformAxis {
 /// use ads_cnc::address::ChannelAxis;
 ///
 /// assert_eq!(ChannelAxis::new(2)?.offset(4)?.get(), 0x2_0004);
-/// // With axis 0, the same elements are other functions (VAR-26).
+/// // With axis 0, the offsets of these elements would be those of other functions (VAR-26).
 /// assert!(ChannelAxis::new(0).is_err());
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```

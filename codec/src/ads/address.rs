@@ -44,8 +44,12 @@ impl fmt::Debug for AmsNetId {
 impl FromStr for AmsNetId {
     type Err = Error;
 
-    /// Parses six numbers of one byte with dots between them. The offset in an error is the offset of
-    /// the number in the text.
+    /// Parses six numbers of one byte with dots between them.
+    ///
+    /// # Errors
+    /// [`ErrorKind::NotDecimal`], [`ErrorKind::Digits`] and [`ErrorKind::OutOfRange`] for a wrong
+    /// number, with its offset in the text in bytes; [`ErrorKind::Mismatch`] if there are not six
+    /// numbers.
     fn from_str(text: &str) -> Result<Self, Error> {
         let mut id = [0; 6];
         let mut parts = parts(text);
@@ -53,7 +57,8 @@ impl FromStr for AmsNetId {
         for (count, byte) in (0_u32..).zip(&mut id) {
             let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, count))?;
             let len = crate::bytes::to_u32(part.len());
-            // Check the digits here, because `u32::parse` also accepts a sign and any number of zeros.
+            // Check the digits here, because `u32::parse` also accepts a sign and any number of
+            // leading zeros.
             if let Some(odd) = part.chars().find(|character| !character.is_ascii_digit()) {
                 return Err(Error::new(ErrorKind::NotDecimal, NUMBER, at, 0, odd.into()));
             }
@@ -72,7 +77,8 @@ impl FromStr for AmsNetId {
     }
 }
 
-/// The parts of the text between its dots; not by `str::split`, which would add a panic to the program.
+/// The parts of the text between its dots. `str::split` is not used, because it would add a panic
+/// to the program.
 fn parts(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     core::iter::from_fn(move || {
@@ -110,11 +116,11 @@ impl From<AmsNetId> for [u8; 6] {
 pub struct AmsPort(pub u16);
 
 impl AmsPort {
-    /// The GEO task (GEN-4).
+    /// The port of the GEO task (GEN-4).
     pub const GEO: Self = Self(551);
-    /// The SDA task (GEN-4).
+    /// The port of the SDA task (GEN-4).
     pub const SDA: Self = Self(552);
-    /// The COM task (GEN-4).
+    /// The port of the COM task (GEN-4).
     pub const COM: Self = Self(553);
 }
 

@@ -58,8 +58,8 @@ code! {
 code! {
     /// An ADS or AMS error number; 0 is success (ADS-4).
     ///
-    /// The manuals do not document which numbers a CNC returns (ADS-7); the constants are assumptions. A
-    /// client should only distinguish 0 from other numbers.
+    /// The manuals do not document which numbers a CNC returns; the constants are the numbers that
+    /// this crate assumes (ADS-7). A client should only distinguish 0 from other numbers.
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
@@ -106,7 +106,7 @@ code! {
         INVALID_ACCESS = 0x704;
         /// The size is wrong.
         INVALID_SIZE = 0x705;
-        /// The job cannot be executed.
+        /// The request cannot be executed at present.
         INVALID_DATA = 0x706;
         /// Unknown name.
         SYMBOL_NOT_FOUND = 0x710;

@@ -51,8 +51,8 @@ impl<'a> FrameRef<'a> {
     /// A frame with this data. Sets `data_length` in the header.
     ///
     /// # Errors
-    /// [`ErrorKind::TooLong`] for more than [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX) bytes of data
-    /// after the header of the service.
+    /// [`ErrorKind::TooLong`] for more than [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX) + 16
+    /// bytes of data, the maximum length of a ReadWrite request.
     pub fn new(header: AmsHeader, data: &'a [u8]) -> Result<Self, Error> {
         let data_length = to_u32(data.len());
         check(data_length, u32::MAX)?;
@@ -64,7 +64,7 @@ impl<'a> FrameRef<'a> {
         self.header
     }
 
-    /// The bytes after the header.
+    /// The bytes after the AMS header.
     pub const fn data(&self) -> &'a [u8] {
         self.data
     }
@@ -72,9 +72,12 @@ impl<'a> FrameRef<'a> {
     /// The first frame in `received`, and its length in bytes; `None` if the frame is not complete yet.
     ///
     /// # Errors
-    /// As soon as the header is complete: a field `reserved` that is not 0, two lengths that disagree,
-    /// and a length of more than `max_data` bytes of data or of more data than any service can have.
-    /// After an error, no further frame can be found in the TCP stream: close the connection.
+    /// As soon as the header with the fault is complete: [`ErrorKind::Mismatch`] for a field
+    /// `reserved` that is not 0 and for two lengths that disagree; [`ErrorKind::OutOfRange`] for a
+    /// length that is less than that of the AMS header; [`ErrorKind::TooLong`] for more than
+    /// `max_data` bytes of data, or more than any service can have. Offsets count from the start of
+    /// the frame. After an error, no further frame can be found in the TCP stream: close the
+    /// connection.
     pub fn split(received: &'a [u8], max_data: u32) -> Result<Option<(Self, usize)>, Error> {
         let Some((tcp, rest)) = received.split_at_checked(AMS_TCP_HEADER_LEN) else {
             return Ok(None);

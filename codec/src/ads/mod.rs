@@ -36,10 +36,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The reply to a Read is a [`ReadReplyRef`], the reply to a Write a [`WriteReply`]. In `source`, use
-//! a NetId to which the target has a route, and any free port, for example above 0x8000. The target
-//! sends its replies to that NetId and port. With several requests in flight, match replies to
-//! requests by `invoke_id`.
+//! The reply to a Read is a [`ReadReplyRef`], the reply to a Write is a [`WriteReply`]. In
+//! `source`, use a NetId to which the target has a route, and any free port, for example above
+//! 0x8000. The target sends its replies to that NetId and port. With several requests in flight,
+//! match replies to requests by `invoke_id`.
 //!
 //! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (Read, Write, ReadWrite). The source
 //! of everything else in this module is the vendors' public help pages.

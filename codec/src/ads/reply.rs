@@ -1,8 +1,7 @@
-//! Replies of the three services.
+//! Replies to Read, Write and ReadWrite.
 
 use super::AdsError;
-use crate::bytes::to_usize;
-use crate::bytes::{Reader, Writer, to_u32};
+use crate::bytes::{Reader, Writer, to_u32, to_usize};
 use crate::declare::stream;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};

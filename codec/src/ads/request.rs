@@ -1,4 +1,4 @@
-//! Requests of the three services.
+//! Requests of Read, Write and ReadWrite.
 
 use crate::address::{IndexGroup, IndexOffset};
 use crate::declare::stream;

@@ -1,4 +1,4 @@
-//! Errors of fixed fields.
+//! Errors of fixed fields and of lengths.
 
 use super::to_u32;
 use crate::error::{Error, ErrorKind};

@@ -139,8 +139,9 @@ impl<'a> Reader<'a> {
         Ok(<[U32]>::ref_from_bytes(bytes).unwrap_or_default())
     }
 
-    /// Reads the rest of the stream as NUL-terminated text, possibly padded with NULs. The caller has
-    /// checked the length of the stream, so the text is not longer than `max`.
+    /// Reads the rest of the stream as NUL-terminated text, possibly padded with NULs. `max` is
+    /// only for the error: [`new`](Self::new) checks the length of a stream, and with binrw, the
+    /// whole value is checked after its rows are read.
     pub(crate) fn cstring(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();
@@ -151,11 +152,18 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads a text and its NUL, which is required. Returns the text without the NUL.
+    /// Reads a text and its NUL, which must be within the next `max` bytes. Returns the text
+    /// without the NUL.
     pub(crate) fn cstring_prefix(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
         let window = self.bytes.get(..to_usize(max)).unwrap_or(self.bytes);
         let Some((text, _)) = split_nul(window) else {
-            return Err(self.error(ErrorKind::MissingNul, field, max));
+            return Err(Error::new(
+                ErrorKind::MissingNul,
+                field,
+                self.at,
+                max,
+                to_u32(window.len()),
+            ));
         };
         // Splitting twice gives smaller code than splitting all bytes once.
         self.take(field, to_u32(text.len()).saturating_add(1))?;
@@ -216,7 +224,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads all remaining bytes, which must be one, two or four bytes.
+    /// Reads a number of one, two or four bytes: all remaining bytes if one or two remain,
+    /// otherwise four.
     #[inline]
     pub(crate) fn uns8_to_32(&mut self, field: Field) -> Result<&'a [u8], Error> {
         match self.left() {

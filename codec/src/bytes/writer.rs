@@ -12,7 +12,7 @@ pub(crate) struct Writer<'b> {
 }
 
 impl<'b> Writer<'b> {
-    /// Writes exactly `len` bytes of `buf`, or nothing.
+    /// Writes exactly `len` bytes to the front of `buf`, or returns an error and writes nothing.
     #[inline]
     pub(crate) fn run(
         stream: Stream,

@@ -168,6 +168,12 @@ impl<'a> DescriptorRef<'a> {
     }
 }
 
+impl From<DescriptorRef<'_>> for Descriptor {
+    fn from(view: DescriptorRef<'_>) -> Self {
+        view.to_owned()
+    }
+}
+
 impl Descriptor {
     accessors!('_);
 

@@ -3,7 +3,8 @@
 use super::spec::{FieldSpec, Layout, Size, is_same};
 
 impl Layout {
-    /// Whether all fixed fields are in the head of the stream, where the decoders expect them.
+    /// Whether all fixed fields are in the head of the stream (the fixed fields at its start),
+    /// where the decoders expect them.
     pub(crate) const fn is_headed(&self) -> bool {
         let (mut fields, mut is_head) = (self.fields, true);
         while let [row, rest @ ..] = fields {
@@ -34,8 +35,9 @@ impl Layout {
         false
     }
 
-    /// Whether the maximum length of the stream leaves room for the maximum length of each row. A row that
-    /// no other check limits must fill this room exactly.
+    /// Whether the maximum length of the stream leaves room for the maximum length of each row. A
+    /// list must fill this room except for a part of an item. A row whose maximum no decoder checks
+    /// must fill it exactly.
     pub(crate) const fn is_filled(&self) -> bool {
         let (mut fields, mut before) = (self.fields, 0_u32);
         while let [row, rest @ ..] = fields {

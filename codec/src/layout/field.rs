@@ -84,7 +84,7 @@ impl Field {
         self.stream()?.layout().fields.get(usize::from(self.index))
     }
 
-    /// The name of the field; `stream` for a stream as a whole.
+    /// The name of the field or part; `stream` for a stream or another subject as a whole.
     pub fn name(self) -> &'static str {
         self.subject.part(self.index).unwrap_or("stream")
     }

@@ -1,4 +1,5 @@
-//! Number and sizes of the fixed fields at the start of a record, from which an error computes its offset.
+//! The number and the sizes of the fixed fields at the start of a record. The error for a truncated
+//! record computes its offset from them.
 
 use super::spec::FieldSpec;
 use crate::bytes::to_usize;
@@ -8,7 +9,8 @@ pub(super) const fn count(fields: &[FieldSpec]) -> usize {
     measure(fields).0
 }
 
-/// The size of each of these fields in bytes. The fields have no gaps between them.
+/// The size of each fixed field at the start of a record, in bytes. The fields have no gaps between
+/// them.
 pub(super) const fn sizes<const COUNT: usize>(fields: &[FieldSpec]) -> [u8; COUNT] {
     let mut sizes = [0; COUNT];
     let (mut left, mut rows): (&mut [u8], _) = (&mut sizes, fields);

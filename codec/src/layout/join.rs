@@ -11,9 +11,10 @@ impl Stream {
     /// written. This is the inverse of [`walk`](Self::walk), for programs that know the stream only at
     /// run time.
     ///
-    /// Pass the parts in the order of the table, record by record; each item of a list is its own
-    /// part. You may omit a count, which is then computed from its items, and the NULs that pad a text
-    /// of fixed length. Any other text must include its NUL, if it has one.
+    /// Pass the parts in the order of the table, record by record. Each item of a list is a part;
+    /// data with a length is one part. You may omit a count, which is then computed from its items,
+    /// and the NULs that pad a text of fixed length. Any other text must include its NUL, if it has
+    /// a NUL.
     ///
     /// ```
     /// use ads_cnc::layout::{Field, Stream};
@@ -104,7 +105,7 @@ impl Out<'_> {
                         self.put(&[0]);
                     }
                 }
-                // After an error, both the length and the data may be absent.
+                // In a reply whose result is an error, both the length and the data may be absent.
                 size if stream.is_count(field) => {
                     let is_there = matches!(size, Size::Fixed(_)) || parts.peek().is_some();
                     count_at = (items == 0 && is_there).then_some(start);

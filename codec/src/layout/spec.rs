@@ -26,7 +26,7 @@ pub(crate) trait Declared {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Layout {
-    /// The stream's name in vectors and reports.
+    /// The stream's name in errors, golden vectors and reports.
     pub name: &'static str,
     /// A description of the stream.
     pub title: &'static str,
@@ -77,7 +77,7 @@ impl Layout {
         self.row(name).offset
     }
 
-    /// The index of the field with this name.
+    /// The index of the field with this name; `u8::MAX` if there is no such field.
     pub(super) const fn index(&self, name: &str) -> u8 {
         let (mut fields, mut index) = (self.fields, 0_u8);
         while let [row, rest @ ..] = fields {
@@ -119,9 +119,10 @@ pub(super) const fn is_same(one: &str, other: &str) -> bool {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FieldSpec {
-    /// The field's name in errors, vectors and reports.
+    /// The field's name in errors, golden vectors and reports.
     pub name: &'static str,
-    /// The offset that the manual prints, without the part that depends on a count.
+    /// The offset that the manual prints, in bytes, without the part that depends on a count or on
+    /// the length of a text.
     pub offset: u32,
     /// The number of bytes to add to `offset` for each counted item before the field.
     pub per_item: u32,
@@ -165,7 +166,7 @@ pub enum Size {
     CString {
         /// The maximum length in bytes, including NULs.
         max: u32,
-        /// Whether zero bytes are accepted as the empty text.
+        /// Whether a field without any bytes is accepted as the empty text.
         is_optional: bool,
     },
     /// NUL-terminated text before other fields of the stream.
@@ -216,8 +217,8 @@ impl Size {
         }
     }
 
-    /// The minimum length of a field in bytes. It is 1 for a text that may be absent: only the last field
-    /// of a stream can be absent.
+    /// The minimum length of a field that is present, in bytes; 0 for [`Items`](Self::Items) and
+    /// [`Uns8To32`](Self::Uns8To32).
     pub(crate) const fn least(self) -> u32 {
         match self {
             Self::TextAndTail { min, .. } | Self::Rest { min, .. } => min,
@@ -263,7 +264,7 @@ pub enum Type {
     Uns32,
     /// Unsigned, little-endian; the width is not documented.
     Unsigned,
-    /// One byte; 0 is FALSE, any other TRUE.
+    /// One byte; 0 is FALSE, any other value is TRUE.
     Boolean,
     /// IEEE 754 binary64, little-endian.
     Real64,

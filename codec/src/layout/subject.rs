@@ -70,14 +70,14 @@ macro_rules! subjects {
 }
 
 subjects! {
-    /// An index group that is built from its parts.
+    /// An index group that is built from its parts or passed to a constructor.
     IndexGroup "index-group", index_group {
         INSTANCE "instance",
         CHANNEL "instance",
         PLATFORM_AXIS "instance",
         SPINDLE "instance",
     }
-    /// An index offset that is built from its parts.
+    /// An index offset that is built from its parts or passed to a constructor.
     IndexOffset "index-offset", index_offset {
         AXIS "axis",
         CHANNEL_AXIS "axis",
@@ -103,7 +103,7 @@ subjects! {
         RESPONSE_STATE "response_state",
         RESPONSE "response",
     }
-    /// A value whose type is defined by another stream.
+    /// A value whose type is in another stream, such as a description.
     TypedValue "typed-value", typed_value {
         TYPE "type",
         SIZE "size",

@@ -14,7 +14,8 @@ use crate::variable::{ExtendedDescription, ExtendedReply};
 /// Declares [`Stream`] and the table of each stream.
 macro_rules! tables {
     ($( $(#[$doc:meta])* $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
-        /// A stream: a sequence of bytes that the manuals describe by a table.
+        /// A stream: the bytes of a request, a reply or a header, which a table of fields
+        /// describes.
         ///
         /// ```
         /// use ads_cnc::layout::Stream;
@@ -27,7 +28,7 @@ macro_rules! tables {
         #[non_exhaustive]
         pub enum Stream {
             $( $(#[$doc])* $stream, )+
-            /// The empty stream: the reply to a request without result data.
+            /// The empty stream: the reply of a function that returns no data.
             NoData,
         }
 
@@ -64,7 +65,8 @@ macro_rules! tables {
 
 crate::streams! { @documented tables }
 
-/// Declares the tables of types that are written by hand; src/io.rs lists the reasons.
+/// Declares the tables of types that are written by hand; src/io.rs lists the reasons. `NoData` has
+/// no rows.
 macro_rules! by_hand {
     ($(
         $type:ty: $stream:ident $name:literal, $title:literal, $clause:literal, $(repeats $repeats:literal,)? max $max:expr,

@@ -33,7 +33,8 @@ pub struct Segment<'a> {
 }
 
 impl Stream {
-    /// Calls `visit` for each field in order, up to the end or the first fault.
+    /// Calls `visit` for each field in order, and for each item of a list, up to the end or the
+    /// first fault.
     ///
     /// # Errors
     /// Those of the stream's decoders.

@@ -21,7 +21,6 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::index_group::INSTANCE;
 use crate::layout::index_offset::{ELEMENT, OBJECT};
 use crate::layout::{ADS_DATA, Field, Stream};
-use crate::limits::DESCRIPTOR_LEN;
 use crate::sda::ObjectAddressQuery;
 
 /// The number of bytes of one descriptor.
@@ -71,17 +70,15 @@ impl ReadDescriptors {
 
     /// The number of descriptors requested; never more than [`COUNT_MAX`](Self::COUNT_MAX).
     pub fn count(&self) -> u32 {
-        let len = to_u32(DESCRIPTOR_LEN);
-        match self.length.checked_rem(len) {
-            Some(0) => self.length.checked_div(len).unwrap_or(1).min(Self::COUNT_MAX),
+        match self.length.checked_rem(RECORD) {
+            Some(0) => self.length.checked_div(RECORD).unwrap_or(1).min(Self::COUNT_MAX),
             _ => 1,
         }
     }
 
     pub(super) fn check_length(length: u32) -> Result<u32, Error> {
-        let least = to_u32(DESCRIPTOR_LEN);
-        if length < least {
-            Err(Error::new(ErrorKind::BufferTooSmall, DESCRIPTORS, 0, least, length))
+        if length < RECORD {
+            Err(Error::new(ErrorKind::BufferTooSmall, DESCRIPTORS, 0, RECORD, length))
         } else {
             Ok(length)
         }
@@ -135,7 +132,7 @@ fn length(length: u32) -> Result<u32, Error> {
     }
 }
 
-/// Reads of content: any read length is valid and limits the reply.
+/// Reads of content: any read length of a received request is valid and limits the reply.
 macro_rules! reads_content {
     ($( $operation:ident )+) => { $(
         impl $operation {
@@ -245,7 +242,7 @@ impl<'a> WriteObject<'a> {
 }
 
 impl ReadElement {
-    /// Reads the content of an element with this length.
+    /// Reads the content of an element; `size` is the length of the content in bytes.
     ///
     /// # Errors
     /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first

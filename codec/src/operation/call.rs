@@ -73,7 +73,8 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, or only access to content with a different service.
+    /// No function of the index group has this offset, except access to content, which requires a
+    /// different service.
     Offset(IndexOffset),
     /// The function requires another service.
     Service {
@@ -82,7 +83,7 @@ pub enum DispatchError {
         /// The service of the request.
         found: AdsService,
     },
-    /// The data is not a valid request for the function.
+    /// The data is not a valid request for the function, or the read length is too short.
     Stream(Error),
 }
 

@@ -33,8 +33,8 @@ macro_rules! documented {
         $($item)+
     };
     (CountVariables $($item:tt)+) => {
-        /// Reads the number of variables of a kind in a channel; [`Kind::ALL`] returns the sum of all
-        /// kinds.
+        /// Reads the number of variables of a kind in a channel; [`Kind::ALL`] requests the sum of
+        /// V.E, V.G and V.A.
         ///
         /// ```
         /// use ads_cnc::address::Channel;

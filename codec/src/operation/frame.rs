@@ -57,7 +57,7 @@ impl<'a> Call<'a> {
 
 /// Encodes the request of the service: the data of a frame to the port of the call.
 ///
-/// A Read with data is rejected with [`Trailing`](crate::ErrorKind::Trailing), like in
+/// A Read with data is rejected with [`Trailing`](crate::ErrorKind::Trailing), as by
 /// [`dispatch`](Call::dispatch). The read length of a Write is not encoded.
 impl Encode for Call<'_> {
     fn encoded_len(&self) -> usize {

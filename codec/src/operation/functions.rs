@@ -115,7 +115,7 @@ functions! {
         by_hand(object: Object; content: Value) ContentRef { bytes: content } => NoData;
 }
 
-/// Displays the function's [name](FunctionSpec::name) in reports.
+/// Displays the [name](FunctionSpec::name) of the function.
 impl fmt::Display for Function {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.spec().name)

@@ -10,13 +10,13 @@
 //! let mut buf = [0; 256];
 //! assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_2301, 0x48));
 //! assert_eq!(op.encode(&mut buf)?, b"V.E.Testvar\0");
-//! // Send `request` by ReadWrite, then decode the reply.
+//! // Send the encoded bytes by ReadWrite, then decode the reply.
 //! assert_eq!(op.decode_reply(&[123, 0, 0, 0])?.bytes, [123, 0, 0, 0]);
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
 //! A server passes a received request to [`Call::dispatch`] and answers the [`Request`] with a
-//! [`Reply`]. A dispatched request encodes to the received bytes.
+//! [`Reply`]. A dispatched request encodes to the received data.
 
 mod address;
 mod argument;

@@ -107,7 +107,7 @@ pub enum OffsetRule {
     At(u32),
     /// Four offsets, one for each kind of dynamic parameters.
     OfKind([u32; 4]),
-    /// This offset and all greater ones.
+    /// This offset and all greater offsets.
     AtLeast(u32),
     /// `axis * 0x10000` plus this element, for every axis from 1 on (VAR-26).
     OfAxis(u32),

@@ -43,7 +43,7 @@ impl fmt::Display for AdsService {
     }
 }
 
-/// A task of the CNC, each with its AMS port (GEN-4).
+/// A task of the CNC. Each task has its own AMS port (GEN-4).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 1.
 ///
@@ -86,7 +86,7 @@ impl Task {
         }
     }
 
-    /// The task with this port; `None` if no task has it.
+    /// The task with this port; `None` if no task has this port.
     #[inline]
     pub fn from_port(port: AmsPort) -> Option<Self> {
         match port {

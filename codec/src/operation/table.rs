@@ -37,12 +37,14 @@ pub struct FunctionSpec {
     pub reply: Option<Stream>,
     /// The ID of the requirement that defines the function.
     pub clause: &'static str,
-    /// The section in `ads-en` 1.05 and `ads-de` 1.051, or in the document that is named.
+    /// The section in `ads-en` 1.05 and `ads-de` 1.051; for another document, its name and the
+    /// section; `online` for the vendors' public help pages.
     pub section: &'static str,
 }
 
 impl FunctionSpec {
-    /// Whether the function accesses content, which has any offset that no other function has (SDA-12).
+    /// Whether the function accesses content. Content may have any offset that no other function
+    /// has (SDA-12).
     pub const fn is_content(&self) -> bool {
         matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
     }
@@ -69,7 +71,7 @@ impl FunctionSpec {
 pub enum Effect {
     /// No effect.
     Query,
-    /// Changes a value.
+    /// Changes a value, which may set the machine in motion indirectly.
     Write,
     /// May move an axis.
     Motion,
@@ -86,7 +88,7 @@ macro_rules! functions {
     )+) => {
         /// A documented function.
         ///
-        /// Its [row](FunctionSpec::section) contains its section in the manual.
+        /// [`FunctionSpec::section`] is the section of the manual that documents the function.
         ///
         /// ```
         /// use ads_cnc::operation::{AdsService, Function, Task};

@@ -22,7 +22,8 @@ pub(crate) fn text(u: Any<'_, '_>, max: usize) -> arbitrary::Result<CncString> {
     Ok(CncString::without_nul(bytes))
 }
 
-/// Generates a text and its NUL, followed by NULs if `is_padded`, otherwise by any bytes.
+/// Generates a text and its NUL, followed by NULs if `is_padded`, otherwise by any bytes; at most
+/// `max` bytes together.
 pub(crate) fn ended(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::Result<Text> {
     let text = text(u, max.saturating_sub(1))?;
     let left = max.saturating_sub(1).saturating_sub(text.as_bytes().len());

@@ -33,7 +33,7 @@ pub(crate) trait Row {
         field: Field,
         at: usize,
     ) -> Result<Self::View<'a>, Error>;
-    /// The length of the encoded row, including a count.
+    /// The length of the encoded row in bytes, including the count of a list.
     fn len(view: Self::View<'_>) -> usize;
     /// Rejects values that `read` would reject. The row, including its count, begins at offset `at`.
     #[inline]
@@ -80,7 +80,8 @@ pub(crate) trait Owned: Row {
     fn any(u: any::Any<'_, '_>, room: usize) -> arbitrary::Result<Self::Type>;
 }
 
-/// The bytes of a head at offset `at`. `stream!` checks the offsets of its rows, so they are in the head.
+/// The bytes of a head at offset `at`. `stream!` checks the offsets of its rows, so these bytes are
+/// in the head.
 #[inline(always)]
 fn part<const N: usize>(head: &[u8], at: usize) -> [u8; N] {
     head.get(at..).and_then(<[u8]>::first_chunk).copied().unwrap_or([0; N])

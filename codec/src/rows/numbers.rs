@@ -97,7 +97,7 @@ where
     }
 }
 
-/// A UNS32 that must not be 0.
+/// An UNS32 that must not be 0.
 pub(crate) struct NonZero;
 
 impl Row for NonZero {

@@ -43,7 +43,8 @@ impl<const MIN: u32, const MAX: u32> Row for TextAndTail<MIN, MAX> {
     }
 }
 
-/// NUL-terminated text; more NULs may pad it. If `IS_OPTIONAL`, zero bytes are the empty text.
+/// NUL-terminated text; more NULs may pad it. If `IS_OPTIONAL`, a field without any bytes is the
+/// empty text.
 pub(crate) struct CString<const MAX: u32, const IS_OPTIONAL: bool>;
 
 impl<const MAX: u32, const IS_OPTIONAL: bool> Row for CString<MAX, IS_OPTIONAL> {

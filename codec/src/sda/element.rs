@@ -138,13 +138,14 @@ impl Encode for ElementLength {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        // A length with a width of one or two bytes was decoded from that width, so it fits.
+        // A length with a width of one or two bytes was created from a number of that width, so it
+        // fits.
         let all = self.length.to_le_bytes();
         Writer::copy(Self::STREAM, all.get(..self.encoded_len()).unwrap_or_default(), buf)
     }
 }
 
-/// The serialized form: the length, tagged with the type that has its width.
+/// The serialised form: the length, tagged with the type that has its width.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "UPPERCASE")]

@@ -19,6 +19,8 @@ stream! {
     /// | HLD | from 1 to the number of configured channels, 0 for platform axes (E-30) | 0, or from 1 to the number of configured axes |
     /// | spindle | index of the spindle, from 0 | 0 |
     ///
+    /// `BAHN_BAVO_AXMAX` is a constant of the CNC, whose value the manuals do not print (E-84).
+    ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths of the numbers are assumed.
     ///
     /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated) or

@@ -7,10 +7,10 @@ use crate::text::CncStr;
 
 /// A host of one or more services on the Service Interface of a channel.
 ///
-/// The host reads REQUEST_STATE. If the state is not 0, it reads UUID; if the UUID is that of one of its
-/// services, it reads REQUEST. It then reads the three variables again, because the program may have
-/// called another service between two reads. If the values are unchanged, the host hands out the request
-/// (SVC-2). When it has the answer, the host
+/// The host reads REQUEST_STATE. If the state is not 0, it reads UUID; if the UUID is that of one
+/// of its services, it reads REQUEST. It then reads the three variables again, because the program
+/// may have called another service between two reads. If the values are unchanged, the host returns
+/// the request in [`HostStep::Serve`] (SVC-2). When it has the answer, the host
 /// 1. reads the three variables once more, and drops the answer if a value has changed: the program
 ///    gave up or called another service, or the CNC was reset,
 /// 2. writes RESPONSE,
@@ -82,7 +82,7 @@ enum Phase {
     PollState,
     PollUuid,
     PollRequest,
-    // Checks that the request is unchanged, before it is handed out and before it is answered.
+    // Checks that the request is unchanged, before it is served and before it is answered.
     CheckState,
     CheckUuid,
     CheckRequest,
@@ -179,7 +179,8 @@ pub enum Outcome {
 }
 
 impl<'s> Host<'s> {
-    /// Creates a host of these services. If two services have the same UUID, the first one is called.
+    /// Creates a host of these services. If two services have the same UUID, the first of them is
+    /// called.
     pub const fn new(services: &'s [ServiceId]) -> Self {
         Self {
             services,
@@ -226,7 +227,8 @@ impl<'s> Host<'s> {
     /// # Errors
     /// - [`Truncated`](crate::ErrorKind::Truncated), [`Trailing`](crate::ErrorKind::Trailing): a state
     ///   that does not have four bytes,
-    /// - [`TooLong`](crate::ErrorKind::TooLong): a request of more than 128 bytes including its NUL.
+    /// - [`TooLong`](crate::ErrorKind::TooLong): a new request of more than 128 bytes including its
+    ///   NUL.
     ///
     /// After an invalid value, a host that looks for a request waits for the next
     /// [`poll`](Self::poll); in any later phase, it reads the value again.
@@ -279,7 +281,8 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// The phase `next` if the values are unchanged; otherwise the request was withdrawn.
+    /// The phase `next` if the values are unchanged; otherwise the phase after a request was
+    /// withdrawn.
     fn go_on(&mut self, is_unchanged: bool, next: Phase) -> Phase {
         match is_unchanged {
             true => next,
@@ -307,7 +310,7 @@ impl<'s> Host<'s> {
         Phase::Idle
     }
 
-    /// Answers the request that [`step`](Self::step) has handed out. Does nothing without a request.
+    /// Answers the request that [`step`](Self::step) has returned. Does nothing without a request.
     ///
     /// # Errors
     /// After an error, nothing is written, and the caller can pass another answer:

@@ -43,7 +43,8 @@ macro_rules! service_variables {
 }
 
 service_variables! {
-    /// A variable of the Service Interface (SVC-1). Each channel has its own set of five.
+    /// A variable of the Service Interface (SVC-1). Each channel has its own five
+    /// variables.
     ///
     /// Manual: `service-en` and `service-de` 1.03, section 2. The C code of the example shows that the
     /// states are UNS32.

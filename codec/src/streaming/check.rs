@@ -22,7 +22,7 @@ use super::words::{LoopWord, ProgramEnd};
 pub struct Diagnostic {
     /// The line, from 1.
     pub line: u32,
-    /// The column, from 1.
+    /// The column, from 1, in bytes.
     pub column: u32,
     /// The class of the diagnostic.
     pub kind: DiagnosticKind,
@@ -50,8 +50,9 @@ pub enum DiagnosticKind {
         /// The line of the label.
         to: u32,
     },
-    /// The first line after a program end. If the CNC has read the line together with the program end,
-    /// the line is lost; otherwise it stays in the interface and precedes the next program (STM-10).
+    /// The first line after a program end that is neither blank nor a comment. If the CNC has read
+    /// the line together with the program end, the line is lost; otherwise it stays in the
+    /// interface and precedes the next program (STM-10).
     AfterEnd {
         /// The program end.
         end: ProgramEnd,

@@ -50,7 +50,8 @@ pub struct Checker {
 #[derive(Clone)]
 struct CheckerState {
     labels: Labels,
-    /// The last program end, if no line with code has followed.
+    /// The first program end of a line and the number of the line, if no line with code has
+    /// followed.
     end: Option<(ProgramEnd, u32)>,
 }
 
@@ -73,7 +74,7 @@ pub enum CheckEvent {
         end: ProgramEnd,
         /// The line, from 1.
         line: u32,
-        /// The column, from 1.
+        /// The column, from 1, in bytes.
         column: u32,
     },
 }
@@ -89,10 +90,12 @@ impl CheckEvent {
 }
 
 impl Checker {
-    /// The minimum number of labels that a checker remembers.
+    /// The minimum number of recent labels that a checker remembers, if they have at most
+    /// [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together.
     pub const LABELS_KNOWN: usize = labels::LABELS;
 
-    /// The maximum total number of characters of the labels that a checker remembers.
+    /// The total number of characters up to which a checker remembers the last
+    /// [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels.
     pub const CHARACTERS_KNOWN: usize = labels::CHARACTERS;
 
     /// Creates a checker at the first line of a program.
@@ -195,7 +198,8 @@ pub struct CheckEvents<'c> {
 }
 
 impl<'c> CheckEvents<'c> {
-    /// The lines after the line of the last event; all lines before the first event.
+    /// The lines after the line of the event that was returned last; before the first call of
+    /// `next`, all lines; after `next` has returned `None`, no lines.
     pub const fn remaining(&self) -> &'c [u8] {
         self.scan.remaining()
     }
@@ -229,7 +233,8 @@ impl fmt::Debug for CheckEvents<'_> {
 /// public help pages on the NC language, *assumed* marks rules without a source:
 /// - Words and labels are compared without regard to case (assumed). A `$` word ends after its letters;
 ///   nothing may separate `$` and the word (online).
-/// - Parentheses nest (online). Text between two `"` in a line is neither code nor comment (assumed).
+/// - Parentheses nest (online). Text between two `"` in a line contains no words and begins no
+///   comment (assumed).
 /// - `#COMMENT BEGIN` and `END` are recognised only at the start of a line, after an optional `/` and
 ///   block number. The blocks do not nest, and their other content is skipped (online: nesting can be
 ///   enabled).
@@ -238,14 +243,14 @@ impl fmt::Debug for CheckEvents<'_> {
 ///   permitted (names and blanks: online). A label belongs to its program; each line that begins with
 ///   `%` begins a program (online).
 /// - A jump goes forward if its label is in any later line. It goes back if the label is in the same
-///   or an earlier line, and not in a later one (assumed). A missing label causes no diagnostic,
+///   or an earlier line, and not in a later line (assumed). A missing label causes no diagnostic,
 ///   because a later text may contain it. A jump to an expression (`$GOTO NV.E.X`) is not checked.
 /// - A program end is M2, M30, M17 or M29, with any leading zeros (M02: online, the others assumed),
 ///   and no `.` or `_` after the digits. It counts even if `$IF` or a jump may skip it (assumed),
 ///   because the lines after it are lost or remain when it is executed.
-/// - Each line with a program end causes one diagnostic, for the first later line that is neither
-///   blank nor a comment (assumed).
-/// - A line that is joined to the next one by `\` is checked as two lines (assumed).
+/// - Each line with a program end causes at most one diagnostic, for the first later line that is
+///   neither blank nor a comment (assumed).
+/// - A line that is joined to the next line by `\` is checked as two lines (assumed).
 ///
 /// The text is read twice: first to record the last line of each label, then to find words. The labels
 /// need memory for their names, plus about 80 bytes each.

@@ -2,8 +2,8 @@
 
 /// The error for a line that cannot be streamed: the position, and the expected and found characters.
 ///
-/// It is `Copy` and has 16 bytes. It describes the first fault of a text, which is detected before
-/// anything is sent.
+/// It is `Copy` and has 16 bytes. It describes the first fault of a text to be sent, which is
+/// detected before anything is sent, or of received data.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1, 3.2 and 4.1.
 ///

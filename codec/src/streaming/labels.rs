@@ -5,17 +5,19 @@ use alloc::vec::Vec;
 
 use super::scan::Label;
 
-/// The minimum number of recent labels that a checker remembers, if they have at most [`CHARACTERS`].
+/// The minimum number of recent labels that a checker remembers, if they have at most
+/// [`CHARACTERS`] characters together.
 pub(super) const LABELS: usize = 8192;
 
-/// The maximum total number of characters of the recent labels that a checker remembers.
+/// The total number of characters up to which a checker remembers the last [`LABELS`] labels.
 pub(super) const CHARACTERS: usize = 256 * 1024;
 
-/// The last line of each label of the current program, and of earlier programs in the same lines.
+/// The last line of each label of the current program, and of earlier programs in the part of the
+/// text that is being checked.
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     recent: Generation,
-    /// The previous generation, discarded when the recent one is full.
+    /// The previous generation, discarded when the recent generation is full.
     before: Generation,
     /// The maximum number of labels of a generation.
     labels: usize,

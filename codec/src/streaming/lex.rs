@@ -1,7 +1,7 @@
 //! The tokens of a line.
 
-/// The block number of a line, if it has one, and the text after it. A `/` may precede the number. Blanks
-/// before and after each of them are skipped.
+/// The block number of a line, if it has one, and the text after it. A `/`, with or without digits,
+/// may precede the number. Blanks before and after each of them are skipped.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     let mut at = skip_while(line, is_blank);
     if let [b'/', after @ ..] = at {
@@ -15,8 +15,8 @@ pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     (None, at)
 }
 
-/// The digits at the start of a text, after any blanks, and the text after the digits; `None` if the text
-/// does not start with a digit.
+/// The digits at the start of a text, after any blanks, and the text after the digits; `None` if no
+/// digit is there.
 pub(super) fn number_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     let (digits, rest) = split_while(skip_while(text, is_blank), u8::is_ascii_digit);
     (!digits.is_empty()).then_some((digits, rest))
@@ -110,7 +110,7 @@ pub(super) fn after_parentheses(mut rest: &[u8]) -> &[u8] {
     rest
 }
 
-/// The text after the bytes that satisfy a condition.
+/// The text after the bytes at its start that satisfy a condition.
 pub(super) fn skip_while(mut bytes: &[u8], is: impl Fn(&u8) -> bool) -> &[u8] {
     while let [byte, after @ ..] = bytes {
         if !is(byte) {

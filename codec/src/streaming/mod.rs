@@ -10,7 +10,8 @@
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
 //! A packet consists of whole lines of ASCII text, each ended by CR LF, without a NUL and without a
-//! leading length (STM-4, STM-7). The module does no I/O; only `Diagnostics` and `Checker` allocate.
+//! leading length (STM-4, STM-7). The module does no I/O; only `ProgramStream`, `Diagnostics` and
+//! `Checker` allocate.
 //!
 //! ```
 //! use ads_cnc::streaming::{Ack, NcText, Sender};

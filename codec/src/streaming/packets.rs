@@ -6,8 +6,8 @@ use crate::limits::STREAM_PACKET_MAX;
 /// The packets of a text: whole lines, each ended by CR LF, as many as fit into 992 bytes.
 ///
 /// All packets together are the text with CR LF after each line. Text whose lines already end in CR LF
-/// is not copied: its packets are slices of the text. A line that is joined to the next one by `\` is
-/// treated like any other, so the two lines may be in different packets (assumed).
+/// is not copied: its packets are slices of the text. A line that is joined to the next line by `\`
+/// is treated like any other line, so the two lines may be in different packets (assumed).
 ///
 /// Manual: `stream-en`, sections 2.2 and 3.1 (STM-2, STM-4, STM-7).
 ///
@@ -61,8 +61,9 @@ impl<'a> Packets<'a> {
         }
     }
 
-    /// The next packet, borrowed from the text; `None` after the last line, or if a line end must be
-    /// added or replaced: then use [`next_into`](Self::next_into).
+    /// The next packet, borrowed from the text; `None` after the last line, if any line end of the
+    /// text must be replaced, or if CR LF must be added to this packet: then use
+    /// [`next_into`](Self::next_into).
     ///
     /// If [`is_wire`](super::NcText::is_wire) returns `true`, all packets can be borrowed. If only the
     /// end of the last line is missing, all packets but the last can be borrowed.

@@ -75,7 +75,7 @@ pub(super) struct Scan<'a> {
     stage: Stage,
     /// Whether it is known that the rest of the line has no closing bracket.
     open: bool,
-    /// The line after its block number.
+    /// The rest of the line after its block number.
     body: &'a [u8],
     /// The label of the line, and the text after it.
     label: Option<(Label<'a>, &'a [u8])>,
@@ -116,7 +116,7 @@ impl<'a> Scan<'a> {
         ScanState { lines: self.number, program: self.program, block: self.block }
     }
 
-    /// The lines after the current one.
+    /// The lines after the current line.
     pub(super) const fn remaining(&self) -> &'a [u8] {
         self.below
     }
@@ -131,7 +131,7 @@ impl<'a> Scan<'a> {
         None
     }
 
-    /// The position in the current line that has `left` bytes after it.
+    /// The position in the current line from which `left` bytes remain.
     fn position_with(&self, left: usize) -> Position {
         let before = self.line.len().saturating_sub(left);
         Position { line: self.number, column: to_u32(before).saturating_add(1) }
@@ -284,7 +284,8 @@ impl<'a> Scan<'a> {
                 (self.number(digits), rest)
             }
             [b'[', name @ ..] if !self.open => {
-                // Remember this, because later brackets of the line are not closed either.
+                // Remember that the bracket is not closed: later brackets of the line are not
+                // closed either.
                 let Some((name, rest)) = name_of(name) else {
                     self.open = true;
                     return None;

@@ -130,7 +130,8 @@ pub struct UnexpectedAck;
 /// [`Ack::Rejected`], the sender returns no more packets. While a packet is in flight,
 /// [`packet`](Self::packet) returns it again without counting it twice.
 ///
-/// The sender contains a buffer for one packet, for text that is [not sent unchanged](NcText::is_wire).
+/// The sender contains a buffer for one packet, for text whose line ends must be replaced or added:
+/// see [`NcText::is_wire`].
 ///
 /// Manual: `stream-en`, sections 2.2, 4.2 and 5 (STM-2, STM-4, STM-6).
 ///
@@ -175,7 +176,7 @@ impl<'a> Sender<'a> {
         }
     }
 
-    /// The packet to write now; `None` if all packets were accepted or one was rejected.
+    /// The packet to write now; `None` if all packets were accepted or a packet was rejected.
     #[must_use = "the packet has to be written to the CNC"]
     pub fn packet(&mut self) -> Option<&[u8]> {
         if matches!(self.state, SenderState::Stopped | SenderState::Done) {

@@ -27,7 +27,7 @@ pub struct CncStr<'a>(Source<'a>);
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bytes(&'a [u8]),
-    /// A Rust string with characters outside ASCII, which all have CP1252 bytes.
+    /// A Rust string with a character outside ASCII. All its characters have CP1252 bytes.
     Str(&'a str),
 }
 
@@ -35,10 +35,12 @@ impl<'a> CncStr<'a> {
     /// The empty text.
     pub const EMPTY: CncStr<'static> = CncStr(Source::Bytes(&[]));
 
-    /// Checks that all characters of a Rust string are in CP1252.
+    /// Creates a text from a Rust string. All its characters must be in CP1252, and none may be
+    /// NUL.
     ///
     /// # Errors
-    /// [`ErrorKind::NotCp1252`], [`ErrorKind::InnerNul`]; the offset counts characters.
+    /// [`ErrorKind::NotCp1252`], or [`ErrorKind::InnerNul`] for a NUL; the offset counts
+    /// characters.
     pub fn new(text: &'a str) -> Result<Self, Error> {
         let mut ascii = true;
         for (at, character) in (0_u32..).zip(text.chars()) {
@@ -54,10 +56,11 @@ impl<'a> CncStr<'a> {
         Ok(Self(if ascii { Source::Bytes(text.as_bytes()) } else { Source::Str(text) }))
     }
 
-    /// Checks CP1252 bytes. Any byte but NUL is valid, including the five without a character.
+    /// Creates a text from CP1252 bytes. Any byte but NUL is valid, including the five bytes that
+    /// have no character in the code page.
     ///
     /// # Errors
-    /// [`ErrorKind::InnerNul`]
+    /// [`ErrorKind::InnerNul`] for a NUL in the bytes.
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, Error> {
         let at = text_len(bytes);
         if at < bytes.len() {

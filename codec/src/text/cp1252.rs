@@ -2,8 +2,9 @@
 
 /// The characters of the bytes 0x80..=0x9F. Any other byte has the character with the same code point.
 ///
-/// The code page has no characters for the bytes 81, 8D, 8F, 90 and 9D. These bytes are converted to the
-/// control characters with the same code points, so that every byte converts to a character and back.
+/// The code page has no characters for the bytes 0x81, 0x8D, 0x8F, 0x90 and 0x9D. These bytes are
+/// converted to the control characters with the same code points, so that every byte converts to a
+/// character and back.
 const HIGH: [char; 32] = [
     '\u{20AC}', '\u{81}', '\u{201A}', '\u{0192}', '\u{201E}', '\u{2026}', '\u{2020}', '\u{2021}',
     '\u{02C6}', '\u{2030}', '\u{0160}', '\u{2039}', '\u{0152}', '\u{8D}', '\u{017D}', '\u{8F}',

@@ -12,7 +12,7 @@ pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((text, rest.get(1..)?))
 }
 
-/// The number of bytes before the first NUL, or of all bytes.
+/// The number of bytes before the first NUL; without a NUL, the number of all bytes.
 pub(crate) fn text_len(bytes: &[u8]) -> usize {
     bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len())
 }

@@ -125,7 +125,7 @@ impl<'a> TextRef<'a> {
         Ok(len)
     }
 
-    /// Checks that only NULs follow the NUL.
+    /// Checks that all bytes after the first NUL, the `tail`, are NULs.
     #[inline]
     fn check_padding(&self, tail: &[u8], field: Field, at: u32) -> Result<(), Error> {
         if tail.iter().all(|&byte| byte == 0) {

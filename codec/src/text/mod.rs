@@ -1,4 +1,4 @@
-//! Text in code page 1252 (GEN-3), by itself and as a field of a stream.
+//! Text in code page 1252, by itself and as a field of a stream (GEN-3).
 //!
 //! | | borrowed | owned (feature `alloc`) |
 //! |---|---|---|

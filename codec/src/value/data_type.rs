@@ -120,8 +120,8 @@ data_types! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
-    /// The number is the code of the type for variables; a type that variables do not use has a number for
-    /// errors only. Only objects use the types LINT and LWORD.
+    /// The number in the table is the code of the type for variables; a type that variables do not
+    /// use has a number for errors only. Only objects use the types LINT and LWORD.
     DataType;
     /// One byte; 0 is FALSE, any other value is TRUE.
     Boolean: BOOLEAN = 1, "BOOL", 1;

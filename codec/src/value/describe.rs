@@ -1,4 +1,4 @@
-//! From the description of a value to its elements.
+//! Methods of descriptions, descriptors and values that decode a value by its type.
 
 use super::shape::known;
 use super::{DataType, Element, Elements, Shape};
@@ -51,7 +51,8 @@ macro_rules! describes {
 describes! { DescriptionRef DescriptionByNameRef }
 
 impl<'a> ValueRef<'a> {
-    /// The elements of a value of this type and these dimensions; an empty list for a single element.
+    /// The elements of a value of this type and these dimensions; for a single element,
+    /// `dimensions` is empty.
     ///
     /// [`DescriptionRef::elements`] also checks the size in a description.
     ///
@@ -97,7 +98,7 @@ mod owned {
     macro_rules! describes {
         ($( $description:ident )+) => { $(
             impl $description {
-                /// Like the method of the borrowed type of the description.
+                /// Like the method `shape` of the borrowed type of this description.
                 ///
                 /// # Errors
                 /// Those of [`Shape::for_variable`].
@@ -105,7 +106,7 @@ mod owned {
                     self.as_ref().shape()
                 }
 
-                /// Like the method of the borrowed type of the description.
+                /// Like the method `elements` of the borrowed type of this description.
                 ///
                 /// # Errors
                 /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
@@ -113,7 +114,7 @@ mod owned {
                     self.as_ref().elements(value)
                 }
 
-                /// Like the method of the borrowed type of the description.
+                /// Like the method `element` of the borrowed type of this description.
                 ///
                 /// # Errors
                 /// Those of [`elements`](Self::elements).

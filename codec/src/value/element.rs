@@ -20,7 +20,7 @@ macro_rules! element {
     ($( $variant:ident: $number:ty; )+) => {
         /// One element of a value.
         ///
-        /// `TryFrom` converts it:
+        /// `TryFrom` converts an element:
         ///
         /// | from | to |
         /// |---|---|
@@ -136,7 +136,8 @@ pub struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// The elements of a value with this type and these dimensions; no dimensions for a single element.
+    /// The elements of a value with this type and these dimensions; for a single element,
+    /// `dimensions` is empty.
     ///
     /// In an array of texts, all texts have the same number of bytes (assumed).
     ///

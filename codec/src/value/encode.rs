@@ -13,7 +13,7 @@ use crate::text::{CncStr, TextRef};
 /// of these, a text, an [`Element`] or [`Elements`].
 ///
 /// The bytes are the value in a request, or the content of an object or element. A [`CncStr`] is
-/// written with one NUL, a [`TextRef`] with its own end.
+/// written with one NUL, a [`TextRef`] with the end that it contains.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
 ///
@@ -50,8 +50,8 @@ pub trait EncodeValue: sealed::Sealed {
     /// has at most 2040 bytes in a request by handle, and 2047 in a request by name.
     ///
     /// # Errors
-    /// [`ErrorKind::BufferTooSmall`], and [`ErrorKind::TooLong`] for a value that exceeds the limit of
-    /// all requests. On error, nothing is written.
+    /// [`ErrorKind::BufferTooSmall`], and [`ErrorKind::TooLong`] for a value of more than
+    /// [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX) bytes. On error, nothing is written.
     fn encode_value<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
     /// Encodes the value into a new vector.

@@ -19,8 +19,9 @@
 //! **assumes** row-major order: the last index varies fastest (VAR-21). It also assumes that each text
 //! in an array of STRING has the same number of bytes.
 //!
-//! Errors have the subject `typed-value`. For a wrong index or dimension, the offset of the error is the
-//! position in the list, from 0. The table of [`DataType`] lists the numbers of types in errors.
+//! Errors have the subject `typed-value`, except those of [`Reader`] and [`content_error`]. For a
+//! wrong index or an empty dimension, the offset of the error is the position of the dimension,
+//! from 0. The table of [`DataType`] lists the numbers of types in errors.
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};

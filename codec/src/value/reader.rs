@@ -1,4 +1,4 @@
-//! Content of the application's own types.
+//! Decoding of content whose layout only the application knows.
 
 use zerocopy::{FromBytes as _, FromZeros as _};
 
@@ -99,8 +99,8 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Creates an error for content whose layout only the application knows, for its own implementations of
-/// [`Decode`](crate::Decode) and [`Encode`](crate::Encode).
+/// Creates an error for content whose layout only the application knows, for the application's
+/// implementations of [`Decode`](crate::Decode) and [`Encode`](crate::Encode).
 ///
 /// ```
 /// use ads_cnc::layout::Stream;

@@ -41,14 +41,14 @@ pub struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// The shape of a value of `size` bytes; no dimensions for a single element.
+    /// The shape of a value of `size` bytes; for a single element, `dimensions` is empty.
     ///
     /// In an array of STRING, all texts have the same number of bytes, at least one (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a wrong size. [`Error::expected`] is the size of the elements; for
-    /// STRING, it is `size` rounded down to a multiple of the number of elements. [`Error::found`] is
-    /// `size`.
+    /// [`ErrorKind::Mismatch`] for a wrong size. [`Error::expected`] is the size of the elements,
+    /// or `u32::MAX` if that size exceeds 32 bits; for STRING, it is `size` rounded down to a
+    /// multiple of the number of elements, but at least this number. [`Error::found`] is `size`.
     pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
         if let Some(each) = data_type.size() {
@@ -176,9 +176,10 @@ impl<'a> Shape<'a> {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a different type or number of elements, [`ErrorKind::TooLong`] for
-    /// a STRING that is too long, and those of [`EncodeValue::encode_value`]. The limits of a request
-    /// are checked when the request is encoded.
+    /// [`ErrorKind::Mismatch`] for a different type or number of elements, or a different size of
+    /// an array of STRING; [`ErrorKind::TooLong`] for a single STRING that is too long; and those
+    /// of [`EncodeValue::encode_value`]. The limits of a request are checked when the request is
+    /// encoded.
     pub fn encode<'b, V: EncodeValue + ?Sized>(
         &self,
         value: &V,
@@ -201,8 +202,8 @@ impl<'a> Shape<'a> {
         value.encode_value(buf)
     }
 
-    /// Encodes texts, each with its NUL and, in an array, padded with NULs to the size of an element
-    /// (assumed).
+    /// Encodes texts, each with its NUL. Several texts are padded with NULs to the size of an
+    /// element (assumed); a single text is not padded.
     ///
     /// ```
     /// use ads_cnc::value::{DataType, Shape};

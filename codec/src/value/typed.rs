@@ -49,7 +49,7 @@ macro_rules! typed_reads {
         ///
         /// Only the number of bytes is checked.
         #[doc = $checked]
-        /// also checks the type.
+        /// returns [`Elements`], whose methods also check the type.
         ///
         /// ```
         #[doc = $example]
@@ -221,9 +221,9 @@ macro_rules! from_integers {
         ///
         /// # Errors
         /// [`ErrorKind::Mismatch`] for an element that is not an integer; [`ErrorKind::OutOfRange`]
-        /// for a number that does not fit: [`Error::expected`] is the number of this type in errors,
-        /// [`Error::found`] and [`Error::offset`] are the low and the high 32 bits of the absolute
-        /// value.
+        /// for a number that does not fit: [`Error::expected`] is the number of this type in the
+        /// table of [`DataType`], [`Error::found`] and [`Error::offset`] are the low and the high
+        /// 32 bits of the absolute value.
         impl TryFrom<Element<'_>> for $type {
             type Error = Error;
 

@@ -8,7 +8,7 @@ stream! {
     /// The handle of a variable.
     ///
     /// A handle is valid until the controller restarts. The handle of an axis variable belongs to the
-    /// index of the axis.
+    /// index of the axis, not to the axis.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.3.
     ///

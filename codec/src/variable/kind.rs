@@ -121,7 +121,8 @@ stream! {
     /// use ads_cnc::{Decode, VariableKindRef};
     ///
     /// assert_eq!(VariableKindRef::decode(b"V.E\0")?.kind.text(), "V.E");
-    /// // An empty kind requests the sum of all kinds. It is encoded as one NUL.
+    /// // The empty kind requests the sum of V.E, V.G and V.A. `Kind::ALL` is encoded as one NUL,
+    /// // but a request without any bytes is also accepted.
     /// assert!(VariableKindRef::decode(b"")?.kind.text().is_empty());
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```

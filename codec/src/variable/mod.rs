@@ -1,4 +1,5 @@
-//! Variables with a flexible data type: the streams of the channel interface (VAR-1 …).
+//! Variables with a flexible data type: the streams of the channel interface and of the axis
+//! interface (VAR-1 … VAR-26, VAR-28).
 
 mod codes;
 mod description;

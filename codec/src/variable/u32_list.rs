@@ -106,7 +106,7 @@ impl<'a> U32List<'a> {
             Source::Memory(numbers) => {
                 let slots = out.next(self.encoded_len()).chunks_exact_mut(4);
                 for (slot, number) in slots.zip(numbers) {
-                    // Optimised for size, `copy_from_slice` would contain a panic.
+                    // With optimisation for size, `copy_from_slice` would contain a panic.
                     slot.iter_mut().zip(number.to_le_bytes()).for_each(|(to, from)| *to = from);
                 }
             }

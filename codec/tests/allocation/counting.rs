@@ -3,7 +3,8 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-/// The allocator. It counts per thread, because tests run in parallel.
+/// The allocator. It counts the allocations of each thread separately, because tests run in
+/// parallel.
 struct Counting;
 
 thread_local! {
@@ -26,7 +27,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        // Memory that another thread allocated is not subtracted.
+        // Does not fall below 0 if a thread frees memory that another thread allocated.
         LIVE.set(LIVE.get().saturating_sub(layout.size()));
         // SAFETY: the caller upholds the same contract.
         unsafe { System.dealloc(memory, layout) }
@@ -36,7 +37,8 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// Runs a function; returns the maximum number of allocated bytes and the number of allocations.
+/// Runs a function; returns the maximum by which the allocated bytes of this thread exceed those
+/// before the call, and the number of allocations.
 pub(crate) fn measure(run: impl FnOnce()) -> (usize, usize) {
     let before = (LIVE.get(), COUNT.get());
     PEAK.set(before.0);
@@ -49,13 +51,13 @@ pub(crate) fn allocations(run: impl FnOnce()) -> usize {
     measure(run).1
 }
 
-/// The number of allocations of this thread, and the total of allocated bytes, including freed ones.
+/// The number of allocations of this thread so far, and the sum of their sizes in bytes.
 #[cfg(feature = "alloc")]
 pub(crate) fn allocated() -> (usize, usize) {
     (COUNT.get(), BYTES.get())
 }
 
-/// The counters detect allocations; otherwise no test of this file could fail.
+/// The counters detect allocations; otherwise the tests of this program could not fail.
 #[test]
 fn counters_detect_allocations() {
     let before = BYTES.get();

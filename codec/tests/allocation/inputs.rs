@@ -1,23 +1,27 @@
-//! The inputs: every golden vector, every sample, and malicious variants of them.
+//! The inputs of the tests: every golden vector of a stream, every sample, and malicious variants
+//! of them.
 
 use ads_cnc::layout::Stream;
 use ads_cnc_vectors::vectors;
 
 use crate::common::each_sample;
 
-/// Counts that exceed the number of items in any stream; each has four bytes.
+/// Numbers of four bytes that are written over the bytes of an input. As counts or lengths, they
+/// exceed the items that follow in every vector and sample.
 const HUGE: [u32; 6] = [u32::MAX, 0x8000_0000, 0x7FFF_FFFF, 0x4000_0001, 0x0100_0000, 0xFFFF];
 
-/// The length of a long input, so long that a decoder that allocates a multiple of it exceeds the limit.
+/// The maximum length in bytes of the inputs that [`each_long`] accepts. It is so great that a
+/// decoder that copies such an input three times exceeds the limit in `excess`.
 pub(crate) const LONG: usize = 0x4000;
 
-/// Every golden vector of a stream, accepted or rejected.
+/// Every golden vector of a stream, including vectors that the decoder must reject.
 pub(crate) fn each_vector() -> impl Iterator<Item = (Stream, Vec<u8>)> {
     vectors().iter().filter_map(|vector| Some((Stream::by_name(&vector.stream)?, vector.bytes())))
 }
 
-/// Every vector and sample: unchanged, truncated at every length, and with every number huge or
-/// inconsistent with the length; also every sample extended to the maximum length and beyond.
+/// Calls `visit` with every vector and sample: unchanged, truncated at every length, and with four
+/// bytes at one offset (see [`ends`]) replaced by a number that is huge or close to the number of
+/// bytes after it. Also calls it with long variants of every sample ([`each_long`]).
 pub(crate) fn each_input(mut visit: impl FnMut(Stream, &[u8])) {
     let samples = || each_sample().map(|(stream, sample)| (stream, sample.bytes()));
     for (stream, bytes) in each_vector().chain(samples()) {
@@ -36,7 +40,7 @@ pub(crate) fn each_input(mut visit: impl FnMut(Stream, &[u8])) {
     samples().for_each(|(stream, bytes)| each_long(stream, &bytes, &mut visit));
 }
 
-/// The first 128 and the last 64 indices below a count; all indices if the count is small.
+/// The first 128 and the last 63 indices below `places`; all indices if `places` is at most 191.
 fn ends(places: usize) -> impl Iterator<Item = usize> {
     (0..places).filter(move |at| *at < 128 || *at + 64 > places)
 }
@@ -46,8 +50,10 @@ fn counts(left: u32) -> [u32; 6] {
     [left, left + 1, left.saturating_sub(1), left / 4, left / 4 + 1, (left / 4).saturating_sub(1)]
 }
 
-/// A long input that repeats the sample, and one that extends it; in each of them, numbers are replaced
-/// by counts close to the number of bytes after them.
+/// Calls `visit` with an input that repeats the sample up to a length of [`LONG`] or the maximum
+/// length of the stream, and with inputs that extend the sample to this length and to one byte more
+/// than the maximum. In the extended inputs of this length, every four bytes of the sample are also
+/// replaced by numbers close to the number of bytes after them.
 fn each_long(stream: Stream, sample: &[u8], visit: &mut impl FnMut(Stream, &[u8])) {
     let max = stream.layout().max as usize;
     let len = max.min(LONG);

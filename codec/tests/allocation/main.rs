@@ -24,7 +24,8 @@ use inputs::{each_input, each_vector};
 /// A decoder that returns the encoded length of the decoded value.
 type Decoder = fn(&[u8]) -> Result<usize, Error>;
 
-/// The bytes that decoding allocates in excess of twice the length of the input plus 4 KiB.
+/// The number of bytes by which the memory that decoding holds at its peak exceeds twice the length
+/// of the input plus 4 KiB.
 fn excess(decode: Decoder, bytes: &[u8]) -> usize {
     let (held, _) = measure(|| {
         let _ = black_box(decode(bytes));
@@ -36,8 +37,8 @@ fn start(bytes: &[u8]) -> &[u8] {
     &bytes[..bytes.len().min(64)]
 }
 
-/// The test of owned types can fail: it detects a decoder that allocates as much as a wrong count states,
-/// and a decoder that copies the input too often.
+/// `excess` detects a decoder that allocates memory for a wrong count, and a decoder that copies
+/// the input three times.
 #[test]
 fn decoders_that_allocate_too_much_are_detected() {
     let believes: Decoder = |bytes| {
@@ -74,8 +75,9 @@ fn views_walks_and_encoders_allocate_nothing() {
     });
 }
 
-/// Calls all public functions that borrow, with every vector as input. They are the functions of the
-/// no-panic proof, which a script compares with the list of the public API.
+/// The code of the no-panic proof (`everything`) allocates nothing with any vector of at most 4096
+/// bytes as input. It calls the public functions that borrow; the script `proofs/reached.py`
+/// compares it with the list of the public API.
 #[test]
 fn borrowing_functions_allocate_nothing() {
     for (stream, bytes) in each_vector().filter(|(_, bytes)| bytes.len() <= 4096) {
@@ -86,8 +88,8 @@ fn borrowing_functions_allocate_nothing() {
     }
 }
 
-/// Dispatch, requests and replies allocate nothing: for every sample of a call, with its own data and with
-/// the data of every vector, complete and truncated.
+/// Dispatch, requests and replies allocate nothing, for every sample of a call: with the data of
+/// the sample, and with every vector of at most 4096 bytes as data, with and without its last byte.
 #[test]
 fn dispatch_and_replies_allocate_nothing() {
     let vectors: Vec<_> = each_vector().filter(|(_, bytes)| bytes.len() <= 4096).collect();
@@ -130,7 +132,7 @@ fn dispatch_errors_allocate_nothing() {
     }
 }
 
-/// Splitting frames allocates nothing, whatever the lengths in their headers.
+/// Splitting frames allocates nothing, even if a length in the header is wrong.
 #[test]
 fn frames_allocate_nothing() {
     let data = [0; 64];
@@ -152,12 +154,12 @@ fn frames_allocate_nothing() {
     }
 }
 
-/// Packets and the sender allocate nothing.
+/// Texts, packets, the sender and the check of line ends allocate nothing.
 #[test]
 fn streaming_allocates_nothing() {
     let jumps: String = (0..200).map(|n| format!("N{n}: X1\n$GOTO N{}\n", n / 2)).collect();
-    let refused = format!("X1\n{}", "Y".repeat(991));
-    let count = allocations(|| assert!(NcText::new(refused.as_bytes()).is_err()));
+    let rejected = format!("X1\n{}", "Y".repeat(991));
+    let count = allocations(|| assert!(NcText::new(rejected.as_bytes()).is_err()));
     assert_eq!(count, 0);
     for text in [jumps.clone(), jumps.replace('\n', "\r\n"), "$FOR\nM30\nX1".into()] {
         let (peak, count) = measure(|| {
@@ -192,8 +194,8 @@ fn names_allocate_nothing() {
     assert_eq!(count, 0);
 }
 
-/// Values of all types are decoded and encoded without allocating; owned values only allocate their
-/// bytes.
+/// Values of all types are decoded and encoded without allocating; `to_vec` allocates only the
+/// items.
 #[test]
 fn typed_values_hold_no_more_than_their_bytes() {
     use ads_cnc::value::{DataType, Elements, EncodeValue};

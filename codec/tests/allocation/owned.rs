@@ -12,7 +12,8 @@ use crate::{excess, start};
 
 #[test]
 fn memory_of_decoding_is_limited_by_the_input() {
-    // By stream: the number of rejected inputs, the number and the maximum length of accepted inputs.
+    // For each stream: the number of rejected inputs, the number of accepted inputs, and the
+    // maximum encoded length of their values.
     let mut seen: BTreeMap<Stream, (u32, u32, usize)> = BTreeMap::new();
     each_input(|stream, bytes| {
         let decode = Subject::of(stream).owned.len;
@@ -23,20 +24,21 @@ fn memory_of_decoding_is_limited_by_the_input() {
             bytes.len(),
             start(bytes)
         );
-        let (refused, accepted, longest) = seen.entry(stream).or_default();
+        let (rejected, accepted, longest) = seen.entry(stream).or_default();
         match decode(bytes) {
             Ok(len) => (*accepted, *longest) = (*accepted + 1, len.max(*longest)),
-            Err(_) => *refused += 1,
+            Err(_) => *rejected += 1,
         }
     });
     for stream in Stream::all() {
-        let (refused, accepted, longest) = seen[&stream];
+        let (rejected, accepted, longest) = seen[&stream];
         let long = (stream.layout().max as usize).min(LONG) / 2;
-        assert!(refused > 0 && accepted > 0 && longest >= long, "{stream}: {:?}", seen[&stream]);
+        assert!(rejected > 0 && accepted > 0 && longest >= long, "{stream}: {:?}", seen[&stream]);
     }
 }
 
-/// The allocations of decoding and of copying the value: number and bytes of each.
+/// The number of allocations and of allocated bytes, first of decoding and then of copying the
+/// value. `twice` calls its second argument after each of the two.
 fn decoded_and_copied(twice: fn(&[u8], &mut dyn FnMut()), bytes: &[u8]) -> [(usize, usize); 2] {
     let mut marks = [allocated(); 3];
     let mut next = 1;
@@ -88,7 +90,8 @@ fn owned_texts_are_allocated_once() {
     }
 }
 
-/// The test above can fail: decoders whose buffers grow or are discarded allocate more than a copy.
+/// `decoding_allocates_as_much_as_a_copy` can fail: decoders whose buffers grow or are discarded
+/// allocate more than a copy.
 #[test]
 fn growth_and_waste_are_detected() {
     let grown: fn(&[u8], &mut dyn FnMut()) = |bytes, call| {
@@ -125,7 +128,7 @@ fn encoding_an_owned_value_allocates_nothing() {
     });
 }
 
-/// The tests above can fail: the allocations of decoding are counted.
+/// The allocations of decoding are counted; otherwise the tests above could not fail.
 #[test]
 fn allocations_of_decoding_are_detected() {
     let owned = Subject::of(Stream::VariableHandleRead).owned;
@@ -136,13 +139,14 @@ fn allocations_of_decoding_are_detected() {
     assert!(decoding > 0);
 }
 
-/// The memory of a checker is limited for an endless program, whatever the length of its labels and
-/// whether or not new programs begin.
+/// The memory of a checker is limited for an endless stream of lines: with short labels, with long
+/// labels, and if every label begins a new program.
 #[test]
 fn memory_of_a_checker_is_limited() {
     use ads_cnc::streaming::Checker;
 
-    // The checker keeps two generations of labels. A label needs part of a node, a key and characters.
+    // The checker keeps two generations of labels. A label needs a part of a node of a B-tree, a
+    // key and its characters.
     const MOST: usize = 2 * (Checker::LABELS_KNOWN * 160 + 2 * Checker::CHARACTERS_KNOWN);
     for (length, each) in [(1, "[{}]"), (990, "[{}]"), (1, "%\n[{}]")] {
         let held = |labels: usize| {
@@ -157,14 +161,14 @@ fn memory_of_a_checker_is_limited() {
         let (long, endless) = (held(3 * known), held(6 * known));
         assert!(endless <= MOST, "{endless} of {MOST}");
         assert!(endless <= long + long / 4, "{length}: {long}, then {endless}");
-        // Labels of another program are discarded at once.
+        // If each label begins a new program, the labels before it are discarded.
         let forgets = each.starts_with('%');
         assert_eq!(forgets, endless < 4096, "{endless}");
         assert_ne!(forgets, long > Checker::CHARACTERS_KNOWN / 2, "{long}");
     }
 }
 
-/// The check of a whole text needs memory only for the different labels of the text.
+/// The diagnostics of a text need memory only for the different labels of the text.
 #[test]
 fn memory_of_diagnostics_is_limited_by_the_labels() {
     use ads_cnc::streaming::NcText;
@@ -178,7 +182,7 @@ fn memory_of_diagnostics_is_limited_by_the_labels() {
     let names = 20_000 * "N10000".len();
     let labels = peak(&|n| format!("N{}:\n", 10_000 + n));
     assert!((names..20_000 * 88).contains(&labels), "{labels}");
-    // Repeated labels need no memory.
+    // A repeated label needs no further memory.
     let again = peak(&|n| format!("N{}:\n", n % 65));
     assert!(again < 65 * 160, "{again}");
 }

@@ -1,10 +1,10 @@
-//! Calls as a CNC receives them, written by hand.
+//! Calls as a CNC receives them: their parts are written by hand, not encoded by the codec.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{AdsService, Call, Function};
 
-/// A call of a function.
+/// A call, and the function to which it is dispatched.
 pub(crate) struct CallSample {
     pub(crate) slug: &'static str,
     pub(crate) function: Function,
@@ -56,8 +56,8 @@ const fn sample(
     CallSample { slug, function, call }
 }
 
-/// At least one call of each function, with logical addressing and by index. If the manuals print values
-/// for a call, it has these values.
+/// At least one call of each function, and calls by index of some functions. If the manuals print
+/// values for a call, it has these values.
 pub(crate) const CALLS: &[CallSample] = &[
     read("objects-of-channel-1", Function::CountObjects, (0x13_0101, 0, 4)),
     read("objects-of-platform", Function::CountObjects, (0x13_0100, 0, 4)),
@@ -100,7 +100,7 @@ pub(crate) const CALLS: &[CallSample] = &[
         (0x2_2302, 0x48, 2048),
         b"V.E.Testvar\0\0\0\0",
     ),
-    // GEO also serves the classes (ADR-10, assumed).
+    // The GEO task also serves the classes. This is an assumption (ADR-10).
     sample(
         "handle-from-geo",
         Function::HandleByName,
@@ -185,7 +185,8 @@ pub(crate) const CALLS: &[CallSample] = &[
     sda("elements-of-decoder-axis", Function::CountElements, (0x12_2301, 0x2_0000, 4)),
     sda("elements-of-spindle", Function::CountElements, (0x2_5302, 0, 4)),
     sda("content-printed", Function::ReadElement, (0x12_3301, 1, 1)),
-    // The first element with the stride 0x1000 is an ordinary element with the other stride (E-01).
+    // With the stride 0x1000, offset 0x1000 is element 0 of axis 1. With the stride 0x10000, which
+    // dispatch uses, it is element 0x1000 (E-01).
     sda("content-platform-axis", Function::ReadElement, (0x12_3300, 0x1000, 4)),
     sda("content-position-controller", Function::ReadElement, (0x12_0300, 0x1_0001, 8)),
     sda("content-of-reserved-offset", Function::ReadElement, (0x12_2301, 0x4D, 4)),
@@ -222,7 +223,8 @@ pub(crate) const CALLS: &[CallSample] = &[
     read("object-printed-platform", Function::ReadObject, (0x12_0100, 0x251, 4)),
     read("object-printed-axis", Function::ReadObject, (0x12_0201, 0x1_0001, 4)),
     read("object-printed-channel", Function::ReadObject, (0x12_0101, 1, 4)),
-    // The program stream is an object of channels, not of the platform.
+    // Offset 0x90 is the program stream only in the groups of channels. In the group of the
+    // platform, it is an object.
     read("object-platform-0x90", Function::ReadObject, (0x12_0100, 0x90, 4)),
     sample(
         "write-object-printed",

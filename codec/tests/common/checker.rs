@@ -1,11 +1,12 @@
-//! Laws of the diagnostics of a program that arrives packet by packet.
+//! Laws of `Checker`, which reports the diagnostics of a program that arrives packet by packet.
 
 use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 
 use super::findings::{DiagnosticsMutation, findings_of};
 use super::streaming::reference_lines;
 
-/// Checks lines; returns the diagnostics and the program ends. An open comment block is not reported here.
+/// Passes lines to the checker. Returns the reported diagnostics, and the reported program ends
+/// with line and column. They do not include an open comment block.
 pub(crate) fn check_lines(
     checker: &mut Checker,
     lines: &[u8],
@@ -20,7 +21,8 @@ pub(crate) fn check_lines(
     (findings, ends)
 }
 
-/// The first program end of a text, which a diagnostic names because a line is appended to the text.
+/// The first program end of a text, and its line. A diagnostic of the text with an appended line
+/// names both.
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
@@ -30,8 +32,8 @@ fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     })
 }
 
-/// Checks a text part by part. The events of each part must equal those that the check of the whole text
-/// so far, as one part, reports for the same lines.
+/// Passes a text to a checker part by part. The diagnostics of each part must equal those that the
+/// diagnostics of the whole text so far contain for the same lines.
 pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,
@@ -44,7 +46,8 @@ impl CheckedLots {
         Self { checker: Checker::new(), so_far: Vec::new(), ended: None, mutation }
     }
 
-    /// Checks the next part, which consists of lines that can be streamed.
+    /// Passes the next part to the checker. It must consist of whole lines that can be streamed.
+    /// Returns its diagnostics.
     pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Diagnostic> {
         let before = self.checker.lines();
         self.so_far.extend_from_slice(lot);
@@ -67,7 +70,8 @@ impl CheckedLots {
     }
 }
 
-/// Checks that the events of any bytes are in order, and that lines are counted.
+/// Checks for any parts that the events of each part are in order, that their lines exist, and that
+/// lines are counted.
 pub(crate) fn check_any_lots<'l>(lots: impl IntoIterator<Item = &'l [u8]>) {
     let (mut checker, mut lines) = (Checker::new(), 0);
     for lot in lots {

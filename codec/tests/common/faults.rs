@@ -1,4 +1,4 @@
-//! Errors in the form that tests compare.
+//! The parts of errors, for comparison in tests.
 
 use ads_cnc::{Error, ErrorKind};
 
@@ -24,7 +24,7 @@ impl Fault {
     }
 }
 
-/// A fault written by hand; the expected number precedes the found number.
+/// An expected fault. In `numbers`, the expected number precedes the found number.
 pub(crate) fn fault(
     kind: ErrorKind,
     field: &'static str,

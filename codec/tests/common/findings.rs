@@ -4,14 +4,16 @@ use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 
 use super::streaming::reference_lines;
 
-/// A fault that changes the diagnostics of lines, given the number of lines before these lines.
+/// A fault that changes diagnostics. The second argument is the number of lines before the checked
+/// lines.
 pub(crate) type DiagnosticsMutation = fn(&mut Vec<Diagnostic>, u32);
 
 pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {
     NcText::new(text).expect("a text that can be streamed").diagnostics().collect()
 }
 
-/// For any text, diagnostics are within the text, in its order, and independent of the line ends.
+/// Checks that the diagnostics of a text are at lines and columns of the text, are in its order,
+/// and do not depend on its line ends. Returns them.
 pub(crate) fn check_findings(text: &[u8], mutation: DiagnosticsMutation) -> Vec<Diagnostic> {
     let mut all = findings_of(text);
     mutation(&mut all, 0);

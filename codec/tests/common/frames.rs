@@ -1,4 +1,4 @@
-//! Laws of frames on a TCP stream, however it is split into pieces (ADS-5).
+//! Laws of frames on a TCP stream, which may be split into any pieces (ADS-5).
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::ADS_DATA_MAX;
@@ -12,13 +12,13 @@ pub(crate) type Split = for<'a> fn(&'a [u8], u32) -> Result<Option<(FrameRef<'a>
 /// [`FrameRef::split`], without a fault.
 pub(crate) const SPLIT: Split = |received, max_data| FrameRef::split(received, max_data);
 
-/// The header of the Read sample; 12 bytes follow it.
+/// The bytes of the first sample of an AMS header, that of a Read. Its `data_length` is 12.
 pub(crate) fn frame_header() -> [u8; 32] {
     let (_, samples) = SAMPLES.iter().find(|(stream, _)| *stream == AmsHeader::STREAM).unwrap();
     samples[0].bytes().try_into().unwrap()
 }
 
-/// A frame built by hand, with both headers, correct lengths and data.
+/// The bytes of a frame with this data: both headers, with the lengths of this data, and the data.
 pub(crate) fn frame(data: &[u8]) -> Vec<u8> {
     let length = |more: usize| u32::try_from(data.len() + more).unwrap().to_le_bytes();
     let mut header = frame_header();
@@ -26,7 +26,8 @@ pub(crate) fn frame(data: &[u8]) -> Vec<u8> {
     [&[0, 0][..], &length(32), &header, data].concat()
 }
 
-/// The expected result: the length of the first frame if the frame is complete, or its first fault.
+/// The expected result: the length of the first frame, `None` if it is not complete, or its first
+/// fault.
 fn wanted(received: &[u8], max_data: u32) -> Result<Option<usize>, Fault> {
     let number = |at: usize| u32::from_le_bytes(received[at..at + 4].try_into().unwrap()) as usize;
     let fault =
@@ -54,8 +55,9 @@ fn wanted(received: &[u8], max_data: u32) -> Result<Option<usize>, Fault> {
     Ok((received.len() >= 6 + length).then_some(6 + length))
 }
 
-/// Checks that the first received frame has the parts of its bytes and encodes to them. Returns its
-/// length; `None` if the frame is not complete.
+/// Checks that splitting has the expected result, and that the header and data of the first frame
+/// are those in the received bytes and encode to them. Returns the length of the frame, `None` if
+/// it is not complete, or its fault.
 pub(crate) fn check_split(
     received: &[u8],
     max_data: u32,
@@ -75,10 +77,11 @@ pub(crate) fn check_split(
     len
 }
 
-/// The frames of a stream, and the remaining bytes or the fault after the frames.
+/// The frames of a stream in order, and the remaining bytes or the fault after them.
 pub(crate) type Frames = (Vec<Vec<u8>>, Result<Vec<u8>, Fault>);
 
-/// Reads a stream in pieces. After each piece, all complete frames are split off.
+/// Receives a stream in pieces and splits off all complete frames after each piece, up to the first
+/// fault.
 pub(crate) fn check_frames<'p>(
     pieces: impl IntoIterator<Item = &'p [u8]>,
     max_data: u32,
@@ -103,7 +106,7 @@ pub(crate) fn check_frames<'p>(
     (frames, Ok(rest))
 }
 
-/// Checks that more bytes do not change a frame or a fault.
+/// Checks that bytes received later do not change the length of a complete frame, or a fault.
 pub(crate) fn check_verdicts_stay(bytes: &[u8], max_data: u32, split: Split) {
     let mut verdict = Ok(None);
     for cut in 0..=bytes.len() {

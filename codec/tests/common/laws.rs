@@ -1,4 +1,5 @@
-//! Laws for any bytes, accepted or rejected.
+//! Laws of streams, calls and replies. They hold for any bytes, whether the codec accepts or
+//! rejects them.
 
 use std::fmt::Debug;
 
@@ -15,34 +16,34 @@ use super::{Fault, StreamType, Subject};
 /// The initial value of the bytes of a buffer, which shows that a byte was not written.
 const UNTOUCHED: u8 = 0x55;
 
-/// The length of a decoded stream in bytes, or the error of the decoder.
+/// The encoded length of a decoded stream in bytes, or the error of the decoder.
 type Length = Result<usize, Error>;
 
 /// A fault added to a correct codec, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct Mutation {
-    /// Changes the announced length, or the error.
+    /// Changes the result of `encoded_len` of the decoded value, or the error.
     pub(crate) len: fn(Length) -> Length,
     /// Changes the parts of an error.
     pub(crate) fault: fn(Fault) -> Fault,
-    /// Changes the written bytes.
+    /// Changes the bytes that `encode` writes.
     pub(crate) written: fn(&mut [u8]),
-    /// Changes a buffer that was too small.
+    /// Changes a buffer after `encode` rejected it because it is too small.
     pub(crate) small: fn(&mut [u8]),
-    /// Changes the bytes written into a vector.
+    /// Changes the bytes that `encode_to_vec` returns.
     pub(crate) vec: fn(&mut Vec<u8>),
-    /// Changes the length of a segment.
+    /// Changes the length of each segment that `Stream::walk` reports.
     pub(crate) segment: fn(usize) -> usize,
-    /// Changes the bytes joined from segments.
+    /// Changes the bytes that `Stream::join` joins from segments.
     pub(crate) joined: fn(&mut Vec<u8>),
-    /// Changes the result of comparing view and owned type.
+    /// Changes the result of comparing the borrowed and the owned value.
     pub(crate) same: fn(&[u8], bool) -> bool,
     /// Changes the result of `decode_prefix`: the length of the stream, or the error.
     pub(crate) prefix: fn(&[u8], Length) -> Length,
     /// Changes the bytes that `BinWrite` writes after `BinRead`, and the position of the reader.
     #[cfg(feature = "binrw")]
     pub(crate) binrw: fn(&[u8], ReadAndWritten) -> ReadAndWritten,
-    /// Changes the bytes of a value written by its type.
+    /// Changes the bytes of a value that are written element by element.
     pub(crate) typed: fn(&mut [u8]),
 }
 
@@ -63,14 +64,15 @@ impl Mutation {
         typed: |_| (),
     };
 
-    /// A result in the form that is compared: an error with its field.
+    /// Drops the value of a result, and converts an error to the parts that are compared. `fault`
+    /// changes them.
     fn told<T>(&self, told: Result<T, Error>) -> Result<(), (Fault, Field)> {
         told.map(drop).map_err(|error| ((self.fault)(Fault::of(error)), error.field()))
     }
 }
 
-/// Checks that view, owned type and walk agree, including errors, and encode accepted bytes to the
-/// same bytes. Returns their common result.
+/// Checks that the borrowed type, the owned type and the walk of a stream have the same result,
+/// including errors, and that accepted bytes encode to the same bytes. Returns this result.
 pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
     check_bent(stream, bytes, &Mutation::NONE)
 }
@@ -104,20 +106,20 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], mutation: &Mutation) -> R
     }
     #[cfg(feature = "binrw")]
     {
-        // After an error, the reader is at its first position again, and nothing is written.
+        // After an error, the reader is at its initial position, and nothing is written.
         let prefix = (subject.prefix)(bytes);
         let wanted = prefix.map_or((None, 0), |len| (Some(bytes[..len].to_vec()), len));
         let read = (mutation.binrw)(bytes, (subject.binrw)(bytes));
         assert_eq!(read, wanted, "{stream}: BinRead and BinWrite of {bytes:x?}");
     }
-    // A longer value would take more time, but test nothing else.
+    // A longer value would take more time without testing further code.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
         super::check_typed(bytes, mutation.typed);
     }
     verdict
 }
 
-/// Whether the fields determine the end of the stream, whatever the number of bytes after it.
+/// Returns true if the fields determine where the stream ends, even if bytes follow it.
 fn ends_by_its_fields(stream: Stream) -> bool {
     let layout = stream.layout();
     let ends = |row: &FieldSpec| {
@@ -126,7 +128,9 @@ fn ends_by_its_fields(stream: Stream) -> bool {
     !layout.repeats && !layout.fields.is_empty() && layout.fields.iter().all(ends)
 }
 
-/// Checks that `decode_prefix` decodes the same stream whether or not bytes follow it.
+/// Checks the result of `decode_prefix`. `prefix` is the length of the decoded stream, and
+/// `verdict` the result for all bytes. If all bytes are a stream, it must be decoded to its end;
+/// otherwise the decoded bytes must be a stream.
 fn check_prefix(
     stream: Stream,
     bytes: &[u8],
@@ -143,7 +147,8 @@ fn check_prefix(
     }
 }
 
-/// Checks that a value encodes to bytes that decode to that value, by each type of the stream.
+/// Checks that a value encodes to bytes that decode to that value, and that these bytes satisfy
+/// [`check`].
 #[cfg(feature = "alloc")]
 pub(crate) fn check_value<T>(value: &T)
 where
@@ -167,8 +172,8 @@ where
     bytes
 }
 
-/// Checks that the segments of accepted bytes cover them without gaps and join to the same bytes, and
-/// that the offset of an error is within its stream.
+/// Checks that the segments of accepted bytes cover them without gaps and join to the same bytes,
+/// and that an error names the stream and has an offset within the bytes or at their end.
 fn walk(stream: Stream, bytes: &[u8], mutation: &Mutation) -> Result<(), Error> {
     let (mut end, mut parts) = (0, Vec::new());
     let verdict = stream.walk(bytes, |segment| {
@@ -193,8 +198,8 @@ fn walk(stream: Stream, bytes: &[u8], mutation: &Mutation) -> Result<(), Error> 
     verdict
 }
 
-/// Checks that the decoded value encodes to the same bytes, that no byte after them is written, and that
-/// nothing is written to a buffer that is too small.
+/// Checks that the decoded value encodes to the same bytes, that no byte after them is written, and
+/// that a buffer that is too small stays unchanged.
 fn check_encode(reading: StreamType, bytes: &[u8], mutation: &Mutation) {
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
     assert_eq!((reading.encode)(bytes, &mut large), Ok(bytes.len()));
@@ -225,13 +230,14 @@ fn check_too_small<T: Debug>(
     }
 }
 
-/// Checks that a dispatched request encodes to the same call, which is dispatched to the same request.
+/// Checks that a dispatched request encodes to a call with the same service, address and data,
+/// which is dispatched to the same request. Returns the error of dispatch, if any.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Mutation::NONE, |_| ()).map(drop)
 }
 
-/// Like [`check_call`], for a codec to which `mutation` adds a fault; `wrong` changes the encoded call.
-/// Returns the function.
+/// Like [`check_call`], for a codec to which `mutation` adds a fault; `wrong` changes the encoded
+/// call. Returns the function to which the call is dispatched.
 pub(crate) fn check_call_bent(
     call: &Call<'_>,
     mutation: &Mutation,
@@ -253,14 +259,14 @@ pub(crate) fn check_call_bent(
     let spec = request.function().spec();
     assert_eq!(spec.service, call.service);
     assert_eq!(spec.request.is_none(), call.service == AdsService::Read);
-    // SDA and GEO serve the same functions.
+    // The encoded call has the port of the SDA task for a function that the GEO task also serves.
     let is_com = |call: &Call<'_>| Task::from_port(call.port) == Some(Task::Com);
     assert_eq!(is_com(&again), is_com(call));
     Ok(request.function())
 }
 
-/// Checks that a call that is encoded to a frame and decoded from it is unchanged, except for the read
-/// length of a Write, which a frame does not contain. A Read with data must be rejected.
+/// Checks that a call is unchanged after it was encoded to a frame and decoded from it, except for
+/// the read length of a Write, which a frame does not contain. A Read with data must be rejected.
 fn check_frame(call: &Call<'_>, mutation: &Mutation) {
     let mut bytes = vec![0; call.encoded_len()];
     let data = match call.encode(&mut bytes) {
@@ -280,7 +286,8 @@ fn check_frame(call: &Call<'_>, mutation: &Mutation) {
     assert_eq!(Call::from_frame(&frame), Ok(Some(Call { read_length, ..*call })));
 }
 
-/// Checks that a call accepts and rejects the same data as the stream of the request of its function.
+/// Checks that dispatch of a call accepts and rejects the same data as the stream of the request of
+/// `function`.
 pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), DispatchError> {
     let verdict = check_call(call);
     if let Some(stream) = function.spec().request {
@@ -290,14 +297,15 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), D
     verdict
 }
 
-/// Checks that a request accepts and rejects the same replies as the stream of the reply of its
-/// function, except for replies longer than the read length, and that accepted replies encode to the
-/// same bytes.
+/// Checks that the request of a call accepts and rejects the same replies as the stream of the
+/// reply of its function, except for replies longer than the read length, and that accepted replies
+/// encode to the same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
     check_reply_bent(call, bytes, &Mutation::NONE).map(drop)
 }
 
-/// Like [`check_reply`], for a codec to which `mutation` adds a fault. Returns the function.
+/// Like [`check_reply`], for a codec to which `mutation` adds a fault. Returns the function of the
+/// call.
 pub(crate) fn check_reply_bent(
     call: &Call<'_>,
     bytes: &[u8],
@@ -310,12 +318,13 @@ pub(crate) fn check_reply_bent(
         None => NoData::decode(bytes).map(drop),
     };
     let verdict = (mutation.len)(reply.map(|reply| reply.encoded_len()));
-    // A length that is not a multiple of 84 requests one descriptor (COM-3).
+    // A read length that is not a multiple of 84 requests one descriptor (COM-3).
     let asked = match (request, call.read_length as usize) {
         (Request::ReadDescriptors(_), length) if length % DESCRIPTOR_LEN != 0 => DESCRIPTOR_LEN,
         (_, length) => length,
     };
-    // The maximum length of the reply, or the requested length.
+    // An accepted reply is at most as long as the read length of the request when it is encoded
+    // again.
     let mut buf = vec![0; request.encoded_len()];
     let most = request.encode(&mut buf).map(|call| call.read_length as usize);
     if let Ok(len) = verdict {

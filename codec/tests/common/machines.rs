@@ -10,7 +10,7 @@ pub(crate) fn service_ids() -> [ServiceId; 2] {
     ]
 }
 
-/// The text of a value, up to its NUL.
+/// The bytes of a value before its first NUL, or all of them.
 pub(super) fn text(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or(value)
 }
@@ -26,15 +26,15 @@ pub(super) fn is_text(variable: ServiceVariable) -> bool {
 /// A fault that is added to a host, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct HostMutation {
-    /// Changes the value passed to the host, given the read value and the previous value of the
-    /// variable.
+    /// Returns the value to pass to the host instead of the read value. The second argument is the
+    /// previous value of the same variable.
     pub(crate) read: for<'v> fn(&'v [u8], Option<&'v [u8]>) -> &'v [u8],
     pub(crate) state: fn(u32) -> u32,
     pub(crate) written: fn(&mut Host<'_>),
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) poll: fn(&mut Host<'_>),
-    /// Changes the host after an invalid value.
-    pub(crate) refused: fn(&mut Host<'_>),
+    /// Changes the host after it rejected an invalid value.
+    pub(crate) rejected: fn(&mut Host<'_>),
 }
 
 impl HostMutation {
@@ -44,7 +44,7 @@ impl HostMutation {
         written: |host| host.written(),
         failed: |host| host.failed(),
         poll: |host| host.poll(),
-        refused: |_| (),
+        rejected: |_| (),
     };
 }
 
@@ -56,11 +56,11 @@ pub(crate) enum Step {
     Wait,
 }
 
-/// A host that is checked, and its inputs so far.
+/// A host with its inputs so far. Each method checks the state of the host after a call.
 pub(crate) struct CheckedHost<'s> {
     host: Host<'s>,
     ids: &'s [ServiceId],
-    /// The values read, in order.
+    /// The variables that were read and their values, in order.
     reads: Vec<(ServiceVariable, Vec<u8>)>,
     asked: Option<Step>,
     answer: (Vec<u8>, u32),
@@ -84,8 +84,8 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Checks that only an invalid value is an error, and that a request is only handed out or answered if
-    /// the last values were the same request.
+    /// Checks that only an invalid value is an error, that a request is only handed out if it was
+    /// read twice in sequence, and that it is only answered if it was read once more.
     pub(crate) fn read(&mut self, value: &[u8]) {
         let before = self.step();
         let Step::Read(variable) = before else {
@@ -96,7 +96,7 @@ impl<'s> CheckedHost<'s> {
         let told = (self.mutation.read)(value, last.map(|(_, value)| &value[..]));
         let read = self.host.read(told);
         if let Err(error) = read {
-            (self.mutation.refused)(&mut self.host);
+            (self.mutation.rejected)(&mut self.host);
             let valid = if is_text(variable) { text(value).len() < 128 } else { value.len() == 4 };
             assert!(!valid, "{error}: {value:x?}");
             assert!(self.step() == Step::Wait || self.step() == before);
@@ -105,13 +105,13 @@ impl<'s> CheckedHost<'s> {
         self.reads.push((variable, value.to_vec()));
         match self.step() {
             Step::Read(_) | Step::Wait => {}
-            // SVC-2: the host has read the request twice in sequence.
+            // The host has read the same request twice in sequence (SVC-2).
             Step::Serve(id, request, asked) => {
                 assert!(asked != 0 && request.len() < 128 && self.ids.contains(&id));
                 assert!(self.found(2, &id, &request, asked), "{:x?}", self.reads);
                 self.asked = Some(self.step());
             }
-            // The host has read the same request once more.
+            // The host has read the same request once more after it was handed out.
             Step::Write(ServiceVariable::Response, value) => {
                 assert_eq!(value, [&self.answer.0[..], b"\0"].concat());
                 let Some(Step::Serve(id, request, asked)) = &self.asked else { unreachable!() };
@@ -124,7 +124,7 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Whether the last reads returned this request, `times` times in sequence.
+    /// Returns true if the last reads returned this request, `times` times in sequence.
     fn found(&self, times: usize, id: &ServiceId, request: &[u8], asked: u32) -> bool {
         let values =
             [ServiceVariable::RequestState, ServiceVariable::Uuid, ServiceVariable::Request];
@@ -159,7 +159,8 @@ impl<'s> CheckedHost<'s> {
         assert_eq!(self.step(), wanted);
     }
 
-    /// Checks that a host reads after a failed write, and repeats any other failed step.
+    /// Checks that the step after a failed write is a read, and that any other failed step is
+    /// repeated.
     pub(crate) fn failed(&mut self) {
         let before = self.step();
         (self.mutation.failed)(&mut self.host);
@@ -183,7 +184,8 @@ impl<'s> CheckedHost<'s> {
         assert_eq!(self.step(), Step::Read(ServiceVariable::RequestState));
     }
 
-    /// Checks that the answer is accepted if it is valid and there is a request.
+    /// Checks that the host accepts exactly the valid answers, and that an answer only changes its
+    /// step if a request is handed out.
     pub(crate) fn answer(&mut self, response: &[u8], response_state: u32) {
         let before = self.step();
         let response = text(response);

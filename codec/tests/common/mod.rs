@@ -1,5 +1,5 @@
-//! Common code of the tests of all streams: samples, the types of each stream, and the laws that they
-//! must satisfy. The fuzz targets check the same laws with this file.
+//! Common code of the tests: samples, the types of each stream, and laws, which are functions that
+//! check properties for any input. The fuzz targets include this file to check the same laws.
 
 #![allow(dead_code, unused_imports, reason = "no test uses all of it")]
 #![allow(unexpected_cfgs, reason = "the fuzz targets have not all features of the codec")]

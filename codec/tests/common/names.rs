@@ -1,4 +1,4 @@
-//! Laws of names of variables: parsing, building, rejecting (VAR-20).
+//! Laws of names of variables: how they are parsed, built and rejected (VAR-20).
 
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::text::cp1252_to_char;
@@ -6,7 +6,7 @@ use ads_cnc::{CncStr, Error, ErrorKind, Kind, PathPart, U32List, VariablePath};
 
 use super::Fault;
 
-/// The pieces of a name: the expected result of parsing, and the input for building.
+/// The pieces of a name: the expected result of parsing, and the input for building a name.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pieces {
     pub(crate) kind: String,
@@ -32,7 +32,7 @@ impl Pieces {
         VariablePath::write(Kind::new(&self.kind).unwrap(), parts, buf)
     }
 
-    /// The name, built by the standard library only.
+    /// The name, built without the codec.
     pub(crate) fn name(&self) -> String {
         let mut name = self.kind.clone();
         for (part, indices) in &self.parts {
@@ -43,7 +43,7 @@ impl Pieces {
     }
 }
 
-/// The pieces of a name, computed by splitting strings; `None` for an invalid name.
+/// Splits a name into its pieces without the codec. Returns `None` for an invalid name.
 pub(crate) fn split(name: &str) -> Option<Pieces> {
     let mut parts = name.split('.');
     let (v, kind) = (parts.next()?, parts.next()?);
@@ -80,9 +80,9 @@ impl NameMutation {
         Self { pieces: |_| (), fault: |fault| fault, written: |name| name };
 }
 
-/// Checks any CP1252 bytes without NUL. Parsing them, or the same text in UTF-8, has the same result as
-/// splitting strings. A valid name is built again; the error for an invalid name has the position of the
-/// fault.
+/// Checks that the codec parses CP1252 bytes without NUL, and the same text in UTF-8, with the same
+/// result as [`split`]; then builds a valid name again, or checks the position of the error for an
+/// invalid name.
 pub(crate) fn check_name(wire: &[u8], mutation: NameMutation) -> Result<Pieces, Fault> {
     let utf8: String = wire.iter().map(|&byte| cp1252_to_char(byte)).collect();
     let of_wire = VariablePath::from_text(CncStr::from_bytes(wire).expect("no NUL"));
@@ -110,7 +110,8 @@ pub(crate) fn check_name(wire: &[u8], mutation: NameMutation) -> Result<Pieces, 
     }
 }
 
-/// Checks that the name of a variable is the start of the name of its element.
+/// Checks the parts that are read from a path: its text, the name of the variable without the
+/// indices at its end, these indices, and the axis.
 fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
     assert_eq!((path.to_string(), path.text().len()), (name.to_string(), name.chars().count()));
     let variable = path.variable();
@@ -123,8 +124,9 @@ fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
     assert_eq!(path.axis().map(|axis| axis.to_string()), axis.map(|(name, _)| name.clone()));
 }
 
-/// Checks that the name built from the pieces is the name without leading zeros of indices; also
-/// checks an element of its array, and the conversion to the axis interface and back.
+/// Checks that the codec builds the name from the pieces, without leading zeros of indices; that
+/// the variable with the indices at the end is the same element; and that a name of kind V.A is
+/// converted to a name for the channel interface and back.
 fn check_built(path: VariablePath<'_>, pieces: &Pieces, mutation: NameMutation) {
     let mut buf = [0x55; NAME_MAX + 1];
     let built = pieces.write(&mut buf).expect("no longer than it was");
@@ -158,7 +160,8 @@ fn check_built(path: VariablePath<'_>, pieces: &Pieces, mutation: NameMutation) 
     }
 }
 
-/// Checks that the text before a fault is valid, or only ends too early.
+/// Checks the numbers and the position of a fault. The text before it must be a valid name, or a
+/// name that ends too early.
 fn check_fault(name: &str, fault: Fault) {
     let count = name.chars().count();
     assert!(fault.offset <= count, "{fault:?} of {name:?}");

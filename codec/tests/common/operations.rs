@@ -1,4 +1,4 @@
-//! Laws of operations, for every function.
+//! Laws of the operations of all functions.
 
 use ads_cnc::address::{
     Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -19,7 +19,7 @@ pub(crate) struct Parameters<'a> {
     pub(crate) spindle: Spindle,
     pub(crate) class: Class,
     pub(crate) dynamic: DynamicKind,
-    /// Selects a list, group or element.
+    /// Selects the list of objects, the group of an object, or the kind of address of an element.
     pub(crate) place: u8,
     pub(crate) element: u32,
     pub(crate) number: u32,
@@ -41,7 +41,7 @@ impl Parameters<'_> {
     fn object(&self) -> (IndexGroup, IndexOffset) {
         let group = match self.place % 4 {
             0 => IndexGroup::new(0x12_0100),
-            // For this group, the axis is in the offset (E-04).
+            // With this group, the offset contains the axis (E-04).
             1 => IndexGroup::new(0x12_0200),
             2 => self.platform_axis.com(Access::Element),
             _ => self.channel.com(Access::Element),
@@ -58,8 +58,8 @@ impl Parameters<'_> {
     }
 }
 
-/// Checks that a server dispatches the operation of this function to the same operation, if these
-/// parameters are valid; `mutation` adds a fault to the encoded call.
+/// Makes the operation of this function from the parameters. If they are valid, checks that a
+/// server dispatches its call to the same operation; `mutation` adds a fault to the encoded call.
 pub(crate) fn check_made(
     function: Function,
     of: &Parameters<'_>,
@@ -105,7 +105,7 @@ pub(crate) fn check_made(
         }
         Function::FindInstance => {
             let find = FindInstance::new(class, number, count);
-            // Spindles have no logical address.
+            // A query of a spindle is by index in any case.
             let by_index = class != Class::Spindle && of.place % 2 == 1;
             made(if by_index { find.by_index() } else { find }, mutation)
         }
@@ -130,8 +130,8 @@ pub(crate) fn check_made(
     }
 }
 
-/// Checks that a server dispatches the call of a client to the same operation, and that this operation
-/// encodes to the same call.
+/// Checks that a server dispatches the call of a valid operation to the same operation, and that
+/// the call satisfies [`check_call`].
 pub(crate) fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
     assert_eq!(made(operation, &|_| ()), Ok(()));
 }
@@ -160,7 +160,7 @@ fn made<'a, O: Operation + Into<Request<'a>>>(
     assert_eq!(found, wanted, "{request:?}");
     assert_eq!((call.port, call.service), (spec.task.port(), spec.service), "{request:?}");
     match call.dispatch() {
-        // With the stride 0x1000, a server cannot distinguish these two functions (E-01).
+        // With the stride 0x1000, a server dispatches `CountElements` as `ReadElement` (E-01).
         Ok(read @ Request::ReadElement(_)) if O::FUNCTION == Function::CountElements => {
             assert_eq!(read.encode(&mut []), Ok(call));
         }

@@ -1,11 +1,11 @@
-//! Valid bytes of every stream, written by hand field by field, not by an encoder.
+//! Samples: valid bytes of every stream, written by hand field by field, not by an encoder.
 
 use ads_cnc::layout::Stream;
 
 use super::samples_ads::*;
 use super::samples_elements::*;
 
-/// A valid stream, split by hand into its fields; a list has one entry for each item.
+/// A valid stream, split by hand into its fields. A field that is a list occurs once for each item.
 pub(crate) struct Sample {
     pub(crate) slug: &'static str,
     pub(crate) fields: &'static [(&'static str, &'static [u8])],
@@ -16,7 +16,7 @@ impl Sample {
         self.fields.iter().flat_map(|(_, bytes)| bytes.iter().copied()).collect()
     }
 
-    /// Name, offset and bytes of each field that has bytes.
+    /// The name, the offset and the bytes of each field that is not empty.
     pub(crate) fn places(&self) -> impl Iterator<Item = (&'static str, usize, &'static [u8])> {
         let mut at = 0;
         self.fields.iter().filter(|(_, bytes)| !bytes.is_empty()).map(move |&(name, bytes)| {
@@ -107,8 +107,8 @@ const OBJECT_DESCRIPTOR: &[Sample] = &[
             ("type", &padded::<32>(b"BOOL")),
         ],
     ),
-    // All bits that a codec must keep: TRUE as 0x0100, two unassigned bytes, bytes after a NUL, and a
-    // name of 32 bytes without a NUL.
+    // Unusual values that a codec must keep: write access 0x0100, two unassigned bytes, bytes after
+    // a NUL, and a name of 32 bytes without a NUL.
     sample(
         "kept",
         &[
@@ -187,7 +187,8 @@ const VARIABLE_DESCRIPTION: &[Sample] = &[
             ("name", b"\0"),
         ],
     ),
-    // A matrix whose name ends at the end of the stream, with codes that the manuals do not document.
+    // A matrix with codes that the manuals do not document. Its name ends without a NUL at the end
+    // of the stream.
     sample(
         "matrix-open-name",
         &[

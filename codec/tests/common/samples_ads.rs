@@ -1,4 +1,4 @@
-//! Valid bytes of the ADS streams and headers, as in [`super::samples`].
+//! Samples of ADS requests, replies and headers (see [`super::samples`]).
 
 use super::Sample;
 use super::samples::sample;
@@ -23,7 +23,7 @@ pub(super) const AMS_HEADER: &[Sample] = &[
             ("invoke_id", b"\x01\0\0\0"),
         ],
     ),
-    // Numbers that are not documented; the codec keeps every number.
+    // Undocumented numbers; the codec keeps them.
     sample(
         "unknown",
         &[
@@ -82,7 +82,7 @@ pub(super) const WRITE_REQUEST: &[Sample] = &[
 
 pub(super) const WRITE_REPLY: &[Sample] = &[
     sample("success", &[("result", b"\0\0\0\0")]),
-    sample("refused", &[("result", b"\x04\x07\0\0")]),
+    sample("rejected", &[("result", b"\x04\x07\0\0")]),
 ];
 
 pub(super) const READ_WRITE_REQUEST: &[Sample] = &[
@@ -131,7 +131,7 @@ pub(super) const DEVICE_INFO_REPLY: &[Sample] = &[
             ("name", b"CNC\0\0\0\0\0\0\0\0\0\0\0\0\0"),
         ],
     ),
-    // A name that fills its bytes, and an error with all fields.
+    // The name fills its field. The result is an error, but all fields are present.
     sample(
         "error-with-all",
         &[

@@ -1,4 +1,4 @@
-//! Laws of values of any type, dimensions and size (VAR-8, VAR-21).
+//! Laws of shapes and their values, for any type, dimensions and size (VAR-8, VAR-21).
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue as _, Shape};
 use ads_cnc::{ErrorKind, U32List};
@@ -30,10 +30,11 @@ impl ShapeMutation {
         Self { indices: |_| (), place: |place| place, written: |_| (), size: |size| size };
 }
 
-/// The size of an element; `None` if the size of the value does not match its type and dimensions.
+/// The expected size of an element in bytes; `None` if the size of the value does not match its
+/// type and dimensions.
 fn each(of: &Described<'_>) -> Option<u32> {
     let size = u128::from(of.size);
-    // The product of at most four dimensions of 32 bits fits 128 bits.
+    // The callers pass at most four dimensions, so that the product fits 128 bits.
     let count = of.dimensions.iter().map(|&dimension| u128::from(dimension)).product::<u128>();
     match (of.data_type.size(), count) {
         (Some(each), _) => (count.checked_mul(each.into()) == Some(size)).then_some(each),
@@ -68,8 +69,9 @@ fn place(of: &Described<'_>) -> Result<u128, Fault> {
     Ok(place)
 }
 
-/// Checks that a shape is accepted exactly if its size matches its type and dimensions, that the index of
-/// an element follows from the sizes of the inner arrays, and that a value encodes to the same bytes.
+/// Checks that a shape is accepted exactly if its size matches its type and dimensions, that the
+/// index of an element is the expected one, and that a value encodes to the same bytes. Returns the
+/// number of elements.
 pub(crate) fn check_shape(of: &Described<'_>, mutation: ShapeMutation) -> Result<u32, ErrorKind> {
     let dimensions = U32List::from(of.dimensions);
     let shape = Shape::new(of.data_type, dimensions, (mutation.size)(of.size));
@@ -93,7 +95,7 @@ pub(crate) fn check_shape(of: &Described<'_>, mutation: ShapeMutation) -> Result
     let fits = open || of.bytes.len() == of.size as usize;
     assert_eq!(elements.is_ok(), fits, "{of:?}");
     let elements = elements.map_err(|error| error.kind())?;
-    // A single text may be shorter than the size.
+    // A single text may have any length (VAR-25).
     let (count, each) =
         (shape.count() as usize, if open { of.bytes.len() } else { shape.element_size() as usize });
     assert_eq!((elements.len(), elements.iter().len()), (count, count));
@@ -110,7 +112,8 @@ pub(crate) fn check_shape(of: &Described<'_>, mutation: ShapeMutation) -> Result
     Ok(shape.count())
 }
 
-/// Checks that an element encodes to its bytes, by the shape and by itself.
+/// Checks that an element encodes to its bytes, both by `encode_value` and by the shape of an
+/// element.
 fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], mutation: ShapeMutation) {
     let mut buf = vec![0x55; bytes.len()];
     assert_eq!(element.encode_value(&mut buf), Ok(bytes));

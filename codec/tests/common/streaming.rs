@@ -3,7 +3,7 @@
 use ads_cnc::limits::{NC_LINE_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::*;
 
-/// The expected lines, computed by replacing line ends in a copy of the text.
+/// The expected lines without their ends, computed without the codec.
 pub(crate) fn reference_lines(bytes: &[u8]) -> Vec<Vec<u8>> {
     let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
@@ -22,14 +22,14 @@ pub(crate) fn reference_wire(bytes: &[u8]) -> Vec<u8> {
     ended(&reference_lines(bytes))
 }
 
-/// Line, column and kind of a fault.
+/// The line, the column and the kind of a fault.
 pub(crate) type TextFault = (usize, usize, LineErrorKind);
 
 pub(crate) fn fault_of(error: LineError) -> TextFault {
     (error.line() as usize, error.column() as usize, error.kind())
 }
 
-/// The expected first fault, found byte by byte.
+/// The expected first fault of a text, found byte by byte.
 fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 0);
     for (at, &byte) in bytes.iter().enumerate() {
@@ -69,7 +69,8 @@ pub(crate) fn packets(bytes: &[u8]) -> Vec<Vec<u8>> {
     std::iter::from_fn(|| packets.next_into(&mut buf).map(<[u8]>::to_vec)).collect()
 }
 
-/// Checks that the first fault of the bytes is detected or, without a fault, that the packets are correct.
+/// Checks that the first fault of the bytes is detected. If they have no fault, checks and returns
+/// the packets.
 pub(crate) fn check_text(bytes: &[u8], mutation: TextMutation) -> Result<Vec<Vec<u8>>, TextFault> {
     let verdict = NcText::new(bytes).map(drop).map_err(fault_of);
     let found = verdict.err().and_then(mutation.fault);
@@ -77,7 +78,8 @@ pub(crate) fn check_text(bytes: &[u8], mutation: TextMutation) -> Result<Vec<Vec
     verdict.map(|()| check_packets_bent(bytes, mutation))
 }
 
-/// Checks the laws of packets.
+/// Checks the packets of a text: together they are its lines with CR LF, each is at most as long as
+/// permitted, and no packet has room for the first line of the next.
 pub(crate) fn check_packets(bytes: &[u8]) {
     check_packets_bent(bytes, TextMutation::NONE);
 }
@@ -120,7 +122,7 @@ impl SenderMutation {
     pub(crate) const NONE: Self = Self { ack: |ack| ack, sent: |sent| sent };
 }
 
-/// A sender and its expected state.
+/// A sender and its expected state. Each method checks the sender after a call.
 pub(crate) struct CheckedSender<'t> {
     sender: Sender<'t>,
     wire: Vec<u8>,
@@ -142,7 +144,8 @@ impl<'t> CheckedSender<'t> {
         checked
     }
 
-    /// The next packet, which is the same until it is acknowledged.
+    /// Checks that the sender returns the expected packet, which is the same until it is accepted.
+    /// Returns it.
     pub(crate) fn packet(&mut self) -> Option<Vec<u8>> {
         let ended = matches!(self.state, SenderState::Stopped | SenderState::Done);
         let wanted = if ended { None } else { self.packets.get(self.sent.packets) };
@@ -155,7 +158,7 @@ impl<'t> CheckedSender<'t> {
         packet
     }
 
-    /// Checks that the sender accepts exactly one acknowledgement per packet.
+    /// Checks that the sender accepts an acknowledgement exactly if a packet is in flight.
     pub(crate) fn acknowledge(&mut self, ack: Ack) {
         let out = self.state == SenderState::InFlight;
         let taken = self.sender.acknowledge((self.mutation.ack)(ack));
@@ -180,8 +183,8 @@ impl<'t> CheckedSender<'t> {
         self.check();
     }
 
-    /// Checks that the accepted data is the start of the text, without gaps and repetitions, and that
-    /// the counts agree.
+    /// Checks the progress, the state, the count of busy acknowledgements, and the number of
+    /// remaining bytes.
     fn check(&self) {
         let sender = &self.sender;
         let found = ((self.mutation.sent)(sender.sent()), sender.state(), sender.busy_count());
@@ -189,14 +192,14 @@ impl<'t> CheckedSender<'t> {
         assert_eq!(sender.left_bytes(), self.wire.len() - self.sent.bytes);
     }
 
-    /// Checks the part of the text that is not accepted yet.
+    /// Checks that the remaining text is the text after the accepted packets.
     pub(crate) fn check_left(&self) {
         let left = reference_lines(self.sender.left());
         assert_eq!(self.sender.left_lines(), left.len());
         assert_eq!(ended(&left), self.wire[self.sent.bytes..]);
     }
 
-    /// The accepted text.
+    /// The bytes of the packets that were accepted.
     pub(crate) fn taken(&self) -> &[u8] {
         &self.wire[..self.sent.bytes]
     }

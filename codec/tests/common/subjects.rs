@@ -1,4 +1,5 @@
-//! The types of each stream, as functions on bytes.
+//! The borrowed and the owned type of each stream, as functions of bytes, so that tests treat all
+//! streams alike.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::{Decode as _, Encode as _, Error};
@@ -10,7 +11,7 @@ use super::Mutation;
 pub(crate) struct StreamType {
     /// `view` or `owned`.
     pub(crate) name: &'static str,
-    /// Decodes the bytes; returns the encoded length.
+    /// Decodes the bytes; returns the encoded length of the value.
     pub(crate) len: fn(&[u8]) -> Result<usize, Error>,
     /// Decodes the bytes and encodes the value to the buffer; returns the number of written bytes.
     pub(crate) encode: fn(&[u8], &mut [u8]) -> Result<usize, Error>,
@@ -27,9 +28,9 @@ pub(crate) struct Subject {
     pub(crate) view: StreamType,
     #[cfg(feature = "alloc")]
     pub(crate) owned: StreamType,
-    /// Decodes the stream at the front of the bytes; returns its length.
+    /// Decodes the stream at the start of the bytes by `decode_prefix`; returns its length.
     pub(crate) prefix: fn(&[u8]) -> Result<usize, Error>,
-    /// Decodes both types and compares them.
+    /// Decodes the bytes to both types and compares the values.
     #[cfg(feature = "alloc")]
     pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
     /// Reads the bytes with `BinRead`, and writes the value with `BinWrite`.
@@ -122,7 +123,7 @@ macro_rules! subjects {
         #[cfg(feature = "arbitrary")]
         made: subjects!(@made $view $( , $owned )?),
     }, )+] };
-    // A stream of numbers has one type.
+    // A stream without a separate owned type has one type for both.
     (@owned $both:ty) => { reading!("owned", $both) };
     (@owned $view:ty, $owned:ty) => { reading!("owned", $owned) };
     (@same $both:ty) => { |bytes| <$both>::decode(bytes).map(|_| true) };

@@ -1,4 +1,4 @@
-//! Laws of texts, compared with another implementation of CP1252 (GEN-3).
+//! Laws of texts, with the crate `encoding_rs` as the reference for CP1252 (GEN-3).
 
 use std::hash::{DefaultHasher, Hash, Hasher as _};
 
@@ -11,7 +11,7 @@ use encoding_rs::{EncoderResult, WINDOWS_1252};
 pub(crate) struct CncStrMutation {
     pub(crate) shown: fn(String) -> String,
     pub(crate) bytes: fn(&mut Vec<u8>),
-    /// Changes the length of the displayed text.
+    /// Changes the result of `CncStr::len`, given the characters of the text.
     pub(crate) len: fn(usize, &str) -> usize,
     pub(crate) fault: fn(Fault) -> Option<Fault>,
 }
@@ -28,7 +28,8 @@ fn fault_of(error: Error) -> Fault {
     (error.kind(), error.offset() as usize, error.found())
 }
 
-/// Checks any bytes as CP1252: a text without a NUL has the same characters as in the crate `encoding_rs`.
+/// Checks any bytes as CP1252: bytes with a NUL are an error; other bytes have the same characters
+/// as in the crate `encoding_rs`. Returns the displayed text.
 pub(crate) fn check_cp1252(bytes: &[u8], mutation: CncStrMutation) -> Result<String, Fault> {
     let found = CncStr::from_bytes(bytes).map_err(fault_of);
     let nul = bytes.iter().position(|&byte| byte == 0);
@@ -45,8 +46,8 @@ pub(crate) fn check_cp1252(bytes: &[u8], mutation: CncStrMutation) -> Result<Str
     Ok(shown)
 }
 
-/// Checks any Rust string: its CP1252 bytes are the same as in the crate `encoding_rs`, or the first
-/// character without a CP1252 byte is an error.
+/// Checks any Rust string: its CP1252 bytes are the same as in the crate `encoding_rs`, or the
+/// first character that is a NUL or has no CP1252 byte is an error. Returns the displayed text.
 pub(crate) fn check_utf8(utf8: &str, mutation: CncStrMutation) -> Result<String, Fault> {
     let found = CncStr::new(utf8).map_err(fault_of);
     let mut bytes = Vec::new();
@@ -73,7 +74,8 @@ fn encoded(character: char) -> Option<u8> {
     (result == EncoderResult::InputEmpty && written == 1).then_some(byte[0])
 }
 
-/// Checks that the text created from these characters equals the text created from these bytes.
+/// Checks that `text` has these characters and these bytes, and that the texts created from the
+/// characters and from the bytes are equal.
 fn check_both(
     text: CncStr<'_>,
     characters: &str,
@@ -98,7 +100,7 @@ fn check_both(
     };
     assert!(wire == typed && hash(wire) == hash(typed));
     assert_eq!((format!("{wire} {wire:?}")), format!("{typed} {typed:?}"));
-    // A text with one character more or less differs.
+    // A text with one character more differs.
     let longer = [bytes, b"x"].concat();
     assert!(CncStr::from_bytes(&longer).unwrap() != typed);
     #[cfg(feature = "alloc")]
@@ -111,8 +113,8 @@ fn check_both(
     shown
 }
 
-/// Checks that two fields are equal if their texts and their ends are equal, and that only the text is
-/// displayed.
+/// Checks that a text field has the text and the bytes after it from which it was created, that its
+/// length includes the NUL, and that it equals a field with one NUL only if it has the same bytes.
 fn check_field(bytes: &[u8]) {
     let text = CncStr::from_bytes(bytes).expect("text without NUL");
     for (tail, len) in [(None, 0), (Some(&[][..]), 1), (Some(&[0, 0][..]), 3)] {

@@ -1,10 +1,10 @@
-//! Laws of values, for any bytes and any type.
+//! Laws of the elements of values, for any bytes and any type.
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Scalar};
 use ads_cnc::{ErrorKind, U32List, ValueRef};
 
-/// Checks that all ways to decode the bytes by a type agree and encode to the same bytes; `wrong` is a
-/// fault that changes the bytes written element by element.
+/// Checks for every type that all ways to decode the bytes return the same elements, and that these
+/// encode to the same bytes; `wrong` is a fault that changes the bytes written element by element.
 pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
     for data_type in DataType::ALL {
         let each = data_type.size().map_or(3, |size| size as usize);
@@ -52,7 +52,8 @@ fn check_elements(elements: Elements<'_>, bytes: &[u8], wrong: fn(&mut [u8])) {
     }
 }
 
-/// Checks that a value and its elements decode to the same numbers, and reject other types.
+/// Checks that a value and its elements decode to numbers that encode to the same bytes, and that
+/// the elements reject another type.
 fn check_items<T: Scalar>(elements: Elements<'_>) {
     let (items, bytes) = (elements.items::<T>().expect("its own type"), elements.as_bytes());
     assert_eq!(items.len(), elements.len());
@@ -86,7 +87,7 @@ fn check_items<T: Scalar>(elements: Elements<'_>) {
     }
 }
 
-/// Checks that texts have equal shares of the bytes, and do not convert to numbers.
+/// Checks that texts have equal shares of the bytes, and are not decoded as numbers.
 fn check_strings(elements: Elements<'_>) {
     let each = elements.shape().element_size() as usize;
     let each = if elements.len() == 1 { elements.as_bytes().len() } else { each };
@@ -97,7 +98,8 @@ fn check_strings(elements: Elements<'_>) {
     assert!(elements.items::<u8>().is_err());
 }
 
-/// Checks that indices select the same elements as a nested loop over two dimensions.
+/// Checks that the indices of two dimensions select the elements in order, the last index changing
+/// fastest.
 fn check_order(data_type: DataType, bytes: &[u8], count: u32) {
     for rows in [2, 3].into_iter().filter(|rows| count % rows == 0) {
         let dimensions = [rows, count / rows];
@@ -113,7 +115,7 @@ fn check_order(data_type: DataType, bytes: &[u8], count: u32) {
     }
 }
 
-/// Compares bytes, because a NaN does not equal itself.
+/// Compares the encoded bytes of numbers, because a NaN does not equal itself.
 fn same(one: &Element<'_>, two: &Element<'_>) -> bool {
     let (mut first, mut second) = ([0; 8], [0; 8]);
     match (one, two) {

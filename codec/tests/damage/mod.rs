@@ -1,9 +1,9 @@
-//! Mutations of bytes.
+//! Random mutations of bytes.
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// A mutation of bytes, with its position and byte.
+/// A mutation of bytes: its position, and its byte, bit (0 to 7) or number if it has one.
 #[derive(Clone, Debug)]
 pub(crate) enum Damage {
     Set(Index, u8),
@@ -38,7 +38,7 @@ impl Damage {
             Self::Set(at, byte) => bytes[at.index(len)] = *byte,
             Self::Flip(at, bit) => bytes[at.index(len)] ^= 1 << bit,
             Self::Remove(at) => drop(bytes.remove(at.index(len))),
-            // Replace a number at a multiple of four, where most numbers are.
+            // Write the number at a multiple of four, because most numbers of streams are there.
             Self::Number(at, number) => {
                 let at = at.index(len) / 4 * 4;
                 let le = number.to_le_bytes();

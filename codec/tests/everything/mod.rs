@@ -1,6 +1,7 @@
-//! Uses every borrowing type, every operation, frames and the state machines, with bytes that the compiler
-//! does not know. The no-panic proof links this code, which fails if a panic is reachable; the test that
-//! counts allocations runs it.
+//! Calls the functions of the codec that borrow: decoding, operations, frames, texts, values and
+//! state machines, with bytes that the compiler does not know. The no-panic proof (`proofs/run`)
+//! links this code; linking fails if a panic is reachable. A test in `allocation/main.rs` runs this
+//! code and counts its allocations.
 
 #![allow(unused_qualifications, reason = "the proof is searched for whole paths")]
 
@@ -16,7 +17,8 @@ use ads_cnc::value::{Boolean, EncodeValue as _, Scalar};
 use ads_cnc::*;
 use core::hint::black_box;
 
-/// Decodes a stream and encodes the value again.
+/// Decodes a stream and encodes the value again; also decodes a stream at the start of the bytes.
+/// Returns true.
 fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
     let mut buf = [0; 2200];
     let written = T::decode(bytes).and_then(|value| value.encode(&mut buf).map(<[u8]>::len));
@@ -44,7 +46,8 @@ fn walks(bytes: &[u8]) -> usize {
     seen
 }
 
-/// Dispatches any call, encodes it again, and decodes any reply to it.
+/// Dispatches a call whose address, read length and data are in the bytes, encodes the request
+/// again, and decodes the bytes as a reply to it.
 fn operations(bytes: &[u8]) -> Result<usize, Error> {
     let number = |at: usize| {
         let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
@@ -70,7 +73,8 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
     Ok(reply.encode(&mut out)?.len().wrapping_add(again))
 }
 
-/// Encodes reads of all attributes of the second element of the instance whose address is in the bytes.
+/// Encodes a write of the second element of the instance whose address is in the bytes, and decodes
+/// the bytes as the reply to a read of an object at the same address.
 fn elements(bytes: &[u8]) -> Result<usize, Error> {
     let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
     let next = first.nth(black_box(1))?;
@@ -98,7 +102,7 @@ fn texts(bytes: &[u8]) -> Result<usize, Error> {
     Ok(element.parts().count().wrapping_add(value.len()))
 }
 
-/// Decodes bytes as a value whose type, dimensions and size are taken from the bytes.
+/// Decodes the bytes as a description, and as a value of the described type, dimensions and size.
 fn values(bytes: &[u8]) -> Result<usize, Error> {
     let value = ValueRef { bytes };
     if let Ok(nameless) = DescriptionByNameRef::decode(bytes) {
@@ -186,7 +190,7 @@ fn services(bytes: &[u8]) -> Result<usize, Error> {
     Ok(0)
 }
 
-/// Runs everything and ignores the results.
+/// Calls all functions above with these bytes and ignores their results. Returns true.
 pub(crate) fn runs(bytes: &[u8]) -> bool {
     let numbers = [
         operations(bytes).unwrap_or(1),

@@ -1,4 +1,4 @@
-//! Bytes → decode → encode: the same bytes.
+//! The law of the targets `…_bytes`: bytes that the codec decodes are encoded to the same bytes.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::{Decode as _, Error, ErrorKind, NoData};
@@ -6,22 +6,23 @@ use ads_cnc::{Decode as _, Error, ErrorKind, NoData};
 use crate::common::{self, Fault, Mutation};
 use crate::{Defect, Outcome};
 
-/// The streams of a family. The first byte of an input is an index into this list, so add new
-/// streams at the end.
+/// The streams of a family. The first byte of an input is an index into this list, so a new stream
+/// is added at the end: stored inputs keep their meaning.
 pub(crate) type Family = &'static [Stream];
 
 /// Input: an index of the stream (1 byte), then the bytes of the stream.
 ///
-/// The borrowed reading, the owned reading and the walk by the field table agree, errors included;
-/// bytes that they accept encode to the same bytes, to as many as announced, and into no smaller
-/// buffer. `decode_prefix`, `BinRead` and `BinWrite` agree with them.
+/// The borrowed reading, the owned reading and the walk by the field table agree, errors included.
+/// Bytes that they accept encode to the same bytes; the encoder writes as many bytes as it
+/// announced, and rejects a smaller buffer. `decode_prefix`, `BinRead` and `BinWrite` agree with
+/// these readings.
 pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
     let Some(&stream) = family.get(usize::from(pick)) else { return Outcome::unread() };
     match common::check_bent(stream, bytes, &mutation(defect)) {
         // Accepted bytes encode to the same bytes, so they serve as the result.
         Ok(()) => Outcome::accepted((pick, bytes)),
-        Err(error) => Outcome::refused(shown(error)),
+        Err(error) => Outcome::rejected(shown(error)),
     }
 }
 
@@ -172,12 +173,12 @@ fn mutation(defect: Defect) -> Mutation {
     mutation
 }
 
-/// An error, to replace a result.
+/// An error, with which a defect replaces a result.
 fn rejected() -> Result<usize, Error> {
     NoData::decode(&[0]).map(|_| 0)
 }
 
-/// The defects of `BinRead` and `BinWrite`.
+/// Adds the behaviour of a defect of `BinRead` or `BinWrite`.
 #[cfg(feature = "binrw")]
 fn bend_binrw(mutation: &mut Mutation, defect: Defect) {
     if defect.is(14) {

@@ -1,4 +1,5 @@
-//! The check for constructs that streaming does not permit, lot by lot.
+//! The check for constructs that streaming does not permit, lot by lot; a lot is some lines of a
+//! program.
 
 use ads_cnc::streaming::{DiagnosticKind, NcText};
 
@@ -14,9 +15,9 @@ const LOTS: usize = 12;
 
 /// Input: NC text, in which a byte 0xFF ends a lot of lines.
 ///
-/// The check of a lot has the same findings as a check of the text from its beginning to the end of the lot
-/// has in this lot, in the order of the text, whatever the line ends are. Text that cannot be streamed is
-/// checked too.
+/// The check of a lot has the findings that a check of the whole text up to the end of this lot has
+/// in the lines of the lot, in the order of the text, with any line ends. Text that cannot be
+/// streamed is checked without a panic.
 pub(crate) fn lots(data: &[u8], defect: Defect) -> Outcome {
     let lots: Vec<&[u8]> = data.splitn(LOTS, |&byte| byte == CUT).collect();
     check_any_lots(lots.iter().copied());
@@ -27,7 +28,7 @@ pub(crate) fn lots(data: &[u8], defect: Defect) -> Outcome {
         .collect();
     let text = lots.concat();
     if let Err(error) = NcText::new(&text) {
-        return Outcome::refused((error.line(), error.column(), error.kind()));
+        return Outcome::rejected((error.line(), error.column(), error.kind()));
     }
     let mutation = mutation(defect);
     let mut checked = CheckedLots::new(mutation);

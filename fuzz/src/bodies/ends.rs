@@ -11,11 +11,11 @@ use crate::{Defect, Outcome};
 
 /// Input: the number of lines, and one byte for each line: its length (the upper six bits, most
 /// lengths are short) and its line end (the lower two bits). Then one byte for each event, which the
-/// `match` below interprets.
-/// The characters of a line depend on its byte, so that lines differ.
+/// `match` below interprets. The characters of a line depend on its byte, so that lines differ.
 ///
-/// Whatever is acknowledged and read, a sender loses nothing, repeats nothing and counts correctly, and the
-/// interface is a bounded queue whose output is the text of the sender.
+/// With any acknowledgements and reads, a sender loses no line, repeats no line and counts
+/// correctly. The interface is a bounded queue, whose output is the text of the sender if nobody
+/// else writes or resets.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let lines = input.byte() % 8;
@@ -37,7 +37,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut sender = CheckedSender::new(&text, sender_bend(defect));
     let mut interface = CheckedInterface::new(interface_bend(defect));
     let (mut got, mut verdicts) = (Vec::new(), Vec::new());
-    // Whether the interface has received only the packets of the sender.
+    // Whether the interface has received exactly the packets that the sender counts as accepted.
     let mut pure = true;
     for event in input.take(200) {
         match event % 8 {

@@ -11,8 +11,9 @@ use crate::{Defect, Outcome};
 /// length of the data, the offset and change of a byte in the headers, the data. An offset after the
 /// headers changes nothing.
 ///
-/// Cut anywhere, the stream gives the same frames one by one as the uncut stream, and then the same
-/// fault or rest. Each frame and each fault is found with its last byte.
+/// The stream that arrives in pieces gives the same frames as the uncut stream, and then the same
+/// fault or the same incomplete rest. Each frame and each fault is found when its last byte has
+/// arrived.
 pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let (max_data, count) = (input.byte().into(), input.byte() % 16);
@@ -43,7 +44,8 @@ pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
     places.sort_unstable();
     let pieces = places.windows(2).map(|cut| &stream[cut[0]..cut[1]]);
     assert_eq!(check_frames(pieces, max_data, split), uncut, "cut at {places:?}: {stream:x?}");
-    // The bytes after the last frame arrive one by one.
+    // At most 64 bytes after the last frame arrive one by one; a fault does not change with later
+    // bytes.
     let taken: usize = uncut.0.iter().map(Vec::len).sum();
     let behind = &stream[taken..];
     check_verdicts_stay(&behind[..behind.len().min(64)], max_data, split);
@@ -51,7 +53,7 @@ pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
     let frames = uncut.0.len();
     match uncut.1 {
         Ok(rest) => Outcome::accepted((stream, rest)),
-        Err(fault) => Outcome::refused((frames, format!("{fault:?}"))),
+        Err(fault) => Outcome::rejected((frames, format!("{fault:?}"))),
     }
 }
 

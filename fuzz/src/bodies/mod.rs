@@ -1,4 +1,5 @@
-//! The bodies of the targets. Each interprets the input in its own way and checks its laws.
+//! The bodies of the targets. Each function documents the form of its input and the laws that it
+//! checks.
 
 pub(crate) mod bytes;
 #[cfg(feature = "alloc")]

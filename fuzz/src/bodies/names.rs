@@ -6,13 +6,13 @@ use crate::{Defect, Outcome};
 /// Input: a name in CP1252, up to its first NUL.
 ///
 /// Parsed from CP1252 and from UTF-8, the name has the same parts or the same fault. The parts are those
-/// that simple splitting of the string finds, and joining them gives the name again. The part of a name
-/// before the offset of its fault has no fault.
+/// that simple splitting of the string finds, and joining them gives the name again. The characters
+/// of a name before the offset of its fault are a valid name, or a valid beginning of one.
 pub(crate) fn path(data: &[u8], defect: Defect) -> Outcome {
     let text = data.split(|&byte| byte == 0).next().unwrap_or(data);
     match check_name(text, mutation(defect)) {
         Ok(pieces) => Outcome::accepted(format!("{pieces:?}")),
-        Err(fault) => Outcome::refused(format!("{fault:?}")),
+        Err(fault) => Outcome::rejected(format!("{fault:?}")),
     }
 }
 

@@ -16,8 +16,8 @@ use crate::{Defect, Outcome};
 
 /// Input: a call: port (2 bytes), service (1), group, offset and read length (4 each), data.
 ///
-/// Dispatch rejects it, or gives a request that encodes to a call with the same service, address and
-/// data; this call is dispatched to the same request.
+/// The dispatch rejects the call, or gives a request that encodes to a call with the same service,
+/// address and data; this call is dispatched to the same request.
 pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
     let Some(call) = read_call(data) else { return Outcome::unread() };
     // The first two defects are implemented below; the third is number 6 of `bytes::DEFECTS`.
@@ -31,7 +31,7 @@ pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
     });
     match bent {
         Ok(function) => Outcome::accepted((function, data)),
-        Err(refusal) => Outcome::refused(format!("{refusal:?}")),
+        Err(rejection) => Outcome::rejected(format!("{rejection:?}")),
     }
 }
 
@@ -71,9 +71,9 @@ pub(crate) fn request(data: &[u8], defect: Defect) -> Outcome {
         // The server dispatches the operation to the same operation, so the input serves as the result.
         Ok(()) => Outcome::accepted(data),
         Err(error) => {
-            let refused = error.kind() != ErrorKind::Function || defect.is(6);
-            assert!(!(refused && is_documented(&of)), "{function:?}, {of:?}: {error}");
-            Outcome::refused(shown(error))
+            let rejected = error.kind() != ErrorKind::Function || defect.is(6);
+            assert!(!(rejected && is_documented(&of)), "{function:?}, {of:?}: {error}");
+            Outcome::rejected(shown(error))
         }
     }
 }
@@ -88,8 +88,9 @@ pub(crate) const REQUEST_DEFECTS: &[&str] = &[
 ];
 
 /// Reads the parameters of an operation: channel (2 bytes), platform axis (1), channel axis (2), spindle,
-/// class, kind of dynamic parameter, index of an element (1 each), element (2), number and count (4 each),
-/// text and indices, each after a byte with its length; the rest is content.
+/// class, kind of dynamic parameter, selector of a list, group or address (1 each), element (2),
+/// number and count (4 each), text and indices, each after a byte with its length; the rest is
+/// content.
 fn parameters<'a>(
     bytes: &'a [u8],
     text: &'a mut String,
@@ -126,7 +127,8 @@ fn parameters<'a>(
     Some(parameters)
 }
 
-/// Whether these parameters are within the documented ranges, so that every function must accept them.
+/// Whether these parameters are within the documented ranges. An operation with such parameters may
+/// be rejected only because another function has its address.
 fn is_documented(of: &Parameters<'_>) -> bool {
     let text = !of.text.contains('\0') && of.text.chars().count() <= 95;
     let count = (1..=ReadDescriptors::COUNT_MAX).contains(&of.count);
@@ -135,14 +137,14 @@ fn is_documented(of: &Parameters<'_>) -> bool {
 
 /// Input: the length of a call (2 bytes), the call as in [`dispatch`], and the reply.
 ///
-/// A request accepts as a reply the bytes that the stream of its function accepts, but no more than
-/// it has room for; the reply encodes to the same bytes.
+/// A request accepts as a reply the bytes that the stream of its function accepts, but no more
+/// bytes than its read length; the reply encodes to the same bytes.
 pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let call = input.long_piece();
     let Some(call) = read_call(call) else { return Outcome::unread() };
-    if let Err(refusal) = call.dispatch() {
-        return Outcome::refused(format!("{refusal:?}"));
+    if let Err(rejection) = call.dispatch() {
+        return Outcome::rejected(format!("{rejection:?}"));
     }
     let bytes = input.bytes(usize::MAX);
     // The fourth defect is implemented below; the others are those of `bytes::DEFECTS` with these numbers.
@@ -157,7 +159,7 @@ pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
     }
     match common::check_reply_bent(&call, bytes, &mutation) {
         Ok(function) => Outcome::accepted((function, data)),
-        Err(error) => Outcome::refused(shown(error)),
+        Err(error) => Outcome::rejected(shown(error)),
     }
 }
 

@@ -16,8 +16,9 @@ use crate::{Defect, Outcome};
 /// number of requests and a byte for each; with chaos, the same again for the requests after the chaos.
 /// Then one byte for each action, see [`actions`].
 ///
-/// Whatever fails, every request is served once, by the service to which it is sent, and gets its own
-/// answer. After chaos, all parties come to rest, and the same is true again.
+/// Without chaos, every request is served once, by the service to which it is sent, and gets its
+/// own answer, whichever steps fail. With chaos, this holds for the requests after it, once all
+/// parties have become idle.
 pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let what = input.byte();
@@ -49,8 +50,9 @@ fn requests(input: &mut Input<'_>) -> Vec<TestRequest> {
 }
 
 /// The actions of a byte. Bits 0 to 2: the program makes steps (0, 1), a host makes steps (2 to 4) or a
-/// step that fails (5, 6), or an action of chaos (7). Bit 3 selects the host. Bits 4 to 6 have the number
-/// of steps less 1; bits 4 to 7 select the action of chaos.
+/// step that fails (5, 6), or an action of chaos (7; without chaos a step of the program). Bit 3
+/// selects the host. Bits 4 to 6 have the number of steps less 1; bits 4 to 7 select the action of
+/// chaos.
 fn actions(byte: u8, chaos: bool) -> impl Iterator<Item = Action> {
     let (place, more) = (usize::from(byte >> 3 & 1), byte >> 4);
     let (action, times) = match byte & 7 {
@@ -115,11 +117,12 @@ fn world_bend(defect: Defect) -> ServiceMutation {
     mutation
 }
 
-/// Input: the machine (1 byte), then its events, see [`value`] and the functions of the machines.
+/// Input: the machine (1 byte), then its events. [`value`] and the functions [`host`], [`call`] and
+/// [`variables`] interpret them.
 ///
-/// A host serves only a request that it has found twice, answers it if it finds it once more, writes
-/// in the required order, and does nothing without a request. The request of a program and the
-/// variables behave as the manual says.
+/// A host serves a request only after it has read the request twice, answers it only after it has
+/// read the same request once more, and writes in the required order. The request of a program and
+/// the five variables behave as a simple model of the manual does.
 pub(crate) fn machines(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     match input.byte() % 3 {
@@ -161,7 +164,7 @@ fn call(mut input: Input<'_>, defect: Defect) -> Outcome {
     let request = value(&mut input, &mut last).to_vec();
     let mut call = match CheckedCall::new(id, &request, asked, parameters) {
         Ok(call) => call,
-        Err(error) => return Outcome::refused(error.to_string()),
+        Err(error) => return Outcome::rejected(error.to_string()),
     };
     let (mut now, mut events) = (Duration::ZERO, 0);
     while !input.is_empty() && events < EVENTS {
@@ -259,7 +262,7 @@ fn host_bend(defect: Defect) -> HostMutation {
         };
     }
     if defect.is(9) {
-        mutation.refused = |host| host.restart();
+        mutation.rejected = |host| host.restart();
     }
     mutation
 }

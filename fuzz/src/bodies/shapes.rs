@@ -6,12 +6,12 @@ use super::input::Input;
 use crate::common::shapes::{Described, ShapeMutation, check_shape};
 use crate::{Defect, Outcome};
 
-/// Input: the type, the number of dimensions, the dimensions, the indices (as many, or one more), and
-/// the size, where 0 means the actual size. Each number takes a byte, or 0xFF and four bytes. The rest
-/// is the value.
+/// Input: the type, the number of dimensions, the dimensions, the indices (one for each dimension,
+/// or one more), and the size, where 0 means the actual size. Each number takes a byte, or 0xFF and
+/// four bytes. The rest is the value.
 ///
-/// A shape is accepted if its size is that of its elements. An element is where nested arrays have it,
-/// and a value that was read is written back unchanged.
+/// A shape is accepted if and only if its size is that of all its elements. An element has the
+/// offset that it has in nested arrays, and a value that was read is written back unchanged.
 pub(crate) fn typed(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let data_type = *input.choose(&DataType::ALL);
@@ -26,7 +26,7 @@ pub(crate) fn typed(data: &[u8], defect: Defect) -> Outcome {
     match check_shape(&of, mutation(defect)) {
         // The value that is read is a part of the input, so the input serves as the result.
         Ok(count) => Outcome::accepted((count, data)),
-        Err(kind) => Outcome::refused(format!("{kind:?}")),
+        Err(kind) => Outcome::rejected(format!("{kind:?}")),
     }
 }
 

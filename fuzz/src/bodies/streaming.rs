@@ -5,8 +5,8 @@ use crate::{Defect, Outcome};
 
 /// Input: NC text.
 ///
-/// Its first fault is found, or its packets together are the text with CR LF after each line, and each
-/// packet is legal and as full as possible.
+/// Either the first fault of the text is found, or its packets together are the text with CR LF
+/// after each line, and each packet is valid and as full as possible.
 pub(crate) fn packets(data: &[u8], defect: Defect) -> Outcome {
     let mut mutation = TextMutation::NONE;
     if defect.is(1) {
@@ -43,7 +43,7 @@ pub(crate) fn packets(data: &[u8], defect: Defect) -> Outcome {
     }
     match check_text(data, mutation) {
         Ok(packets) => Outcome::accepted(packets),
-        Err((line, column, kind)) => Outcome::refused((line, column, kind)),
+        Err((line, column, kind)) => Outcome::rejected((line, column, kind)),
     }
 }
 

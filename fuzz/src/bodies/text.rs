@@ -4,8 +4,8 @@ use super::input::Input;
 use crate::common::text::{CncStrMutation, check_cp1252, check_utf8};
 use crate::{Defect, Outcome};
 
-/// Input: a byte, even for CP1252 or odd for UTF-8, then the text. If the text is not valid UTF-8, each
-/// three bytes are the number of a character.
+/// Input: a byte, even for CP1252 or odd for UTF-8, then the text. If a text after an odd byte is
+/// not valid UTF-8, each three bytes of it are the number of a character.
 ///
 /// Text is converted to the same characters, bytes and faults as by encoding_rs, and the reverse conversion
 /// gives the original text.
@@ -29,7 +29,7 @@ pub(crate) fn cp1252(data: &[u8], defect: Defect) -> Outcome {
     };
     match verdict {
         Ok(text) => Outcome::accepted(text),
-        Err((kind, offset, found)) => Outcome::refused((format!("{kind:?}"), offset, found)),
+        Err((kind, offset, found)) => Outcome::rejected((format!("{kind:?}"), offset, found)),
     }
 }
 

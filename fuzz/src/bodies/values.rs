@@ -1,4 +1,4 @@
-//! Value → encode → decode: the same value.
+//! The law of the targets `…_value`: the bytes of an encoded value decode to the same value.
 
 use super::Family;
 use super::bytes::bend_among;
@@ -7,16 +7,16 @@ use crate::{Defect, Outcome};
 
 /// Input: an index of the stream (1 byte), then the bytes from which a value of it is made.
 ///
-/// The value encodes to as many bytes as announced, and into no smaller buffer. Every reading accepts
-/// these bytes and gives the value.
+/// The value encodes to as many bytes as announced, and the encoder rejects a smaller buffer. Every
+/// reading accepts these bytes and gives the value.
 pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
     let Some(&stream) = family.get(usize::from(pick)) else { return Outcome::unread() };
     Outcome::accepted((Subject::of(stream).made)(bytes, &bend_among(&OF_BYTES, defect)))
 }
 
-/// The numbers of those defects in `bytes` that a valid value can reveal. The values that this target makes
-/// have no fault, so they reveal no defect of errors.
+/// The numbers of those defects of `bytes` that a valid value can reveal. This target makes only
+/// valid values, so it cannot reveal a defect of errors.
 const OF_BYTES: [u8; 11] = [1, 3, 4, 5, 6, 10, 11, 12, 13, 14, 15];
 
 pub(crate) const DEFECTS: &[&str] = &[

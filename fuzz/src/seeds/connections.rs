@@ -40,11 +40,12 @@ pub(super) fn captured() -> Vec<Seed> {
     ]
 }
 
-/// Inputs of the target `tools_gate`: every call, with entries of a file, and writes after replies.
+/// Inputs of the target `tools_gate`: every sample call with less than 200 bytes of data, with
+/// entries of a file, and writes after replies.
 pub(super) fn sent() -> Vec<Seed> {
     let mut seeds = Vec::new();
-    // Entries of a file: a variable of channel 1, one of its second axis, the stream and the service of
-    // channel 1, and a content.
+    // Entries of a file: a variable of channel 1, a variable of axis 1 of channel 2, the program
+    // stream of channel 1, and the element at 0x123301, 1.
     let entries = b"\x04\x00\x01\x00\x01\x01\x02\x02\x06\x01\x02\x01\x33\x12\0\x01\0\0\0";
     for sample in CALLS.iter().filter(|sample| sample.call.data.len() < 200) {
         let mut bytes = [&[2][..], entries].concat();
@@ -64,7 +65,7 @@ pub(super) fn sent() -> Vec<Seed> {
     };
     let by_name = Call { index_offset: IndexOffset::new(0x4A), data: b"V.E.A\0\x01", ..write };
     let begin = [&[2][..], entries].concat();
-    // Handle 7, UNS32, READ_WRITE, 4 bytes, no dimension.
+    // Handle 7, SGN32, READ_WRITE, 4 bytes, no dimension.
     let description = [7, 6, 2, 4, 0].map(u32::to_le_bytes).concat();
     let describe = Call { index_offset: IndexOffset::new(0x4C), read_length: 2048, ..named };
     let confirmed = |group: IndexGroup| {
@@ -132,8 +133,8 @@ pub(super) fn sent() -> Vec<Seed> {
     seeds
 }
 
-/// Inputs of the target `cnc_session`: every call alone, all calls together, and writes with a check of
-/// their effect.
+/// Inputs of the target `cnc_session`: every sample call with less than 200 bytes of data alone,
+/// all sample calls together, writes with a check of their effect, and a frame in two pieces.
 pub(super) fn sessions() -> Vec<Seed> {
     let mut seeds = Vec::new();
     let mut all = Vec::new();

@@ -80,7 +80,7 @@ rank = 1
 channel = 255
 "#;
 
-/// Lines of a testee: answers and malformed lines.
+/// Lines of a testee: a greeting, answers and malformed lines.
 const SAID: [&str; 10] = [
     r#"{"protocol": 1, "testee": {"name": "mine", "version": "1", "language": "C"}, "capabilities": {"ops": ["decode"], "streams": ["variable-count"], "editions": ["en-1.05"]}}"#,
     r#"{"seq": 258, "ok": {"value": {"count": 4, "value": -1.5e-7}}}"#,
@@ -177,7 +177,7 @@ fn explained() -> Vec<Seed> {
     seeds
 }
 
-/// Inputs of the target `tools_testee`: each line alone, and all lines together.
+/// Inputs of the target `tools_testee`: each line alone, all lines together, and short lines.
 fn said() -> Vec<Seed> {
     let one = |place: usize| (format!("line-{place}"), [&[0, 7], SAID[place].as_bytes()].concat());
     let mut seeds: Vec<Seed> = (0..SAID.len()).map(one).collect();
@@ -187,7 +187,8 @@ fn said() -> Vec<Seed> {
     seeds
 }
 
-/// The words of the dictionary: from files and lines, addresses of calls, and streams of each length.
+/// The words of the dictionary: words of the files and lines above, the addresses of the sample
+/// calls, and for each length up to 64 bytes one golden vector.
 pub(crate) fn words() -> BTreeSet<Vec<u8>> {
     let files = [PROFILE, MORE_PROFILE, WAIVERS, ALLOW, session::MODEL];
     let said = SAID.join(" ");
@@ -202,7 +203,6 @@ pub(crate) fn words() -> BTreeSet<Vec<u8>> {
     }
     let short =
         vectors().iter().map(|vector| vector.bytes()).filter(|bytes| bytes.len() <= LONGEST);
-    // One vector of each length.
     let mut lengths = BTreeSet::new();
     words.extend(short.filter(|bytes| lengths.insert(bytes.len()) && bytes.len() <= 64));
     words

@@ -1,5 +1,5 @@
-//! Lists the cases in the order of their measurement, for `results.py`: subject, implementation, units and
-//! limits.
+//! Lists the cases in the order of their measurement, for `results.py`: group, subject,
+//! implementation, units and limits.
 
 use ads_cnc_benches::{Case, Limit, gate, others};
 

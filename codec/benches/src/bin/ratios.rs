@@ -1,5 +1,6 @@
-//! Times each case and its references alternately, so that other load of the machine affects both.
-//! Prints subject, implementation, reference, and the median, minimum and maximum of the ratios.
+//! Measures the time of each case with a limit of time and that of its reference alternately, so
+//! that other load of the machine affects both. Prints subject, implementation, reference, and the
+//! median, minimum and maximum of the ratios.
 
 use std::time::{Duration, Instant};
 
@@ -32,7 +33,7 @@ fn ratios(mut one: Work, mut other: Work) -> [f64; 3] {
     [ratios[PAIRS / 2], ratios[0], ratios[PAIRS - 1]]
 }
 
-/// The number of runs in a turn. Counting them also warms up the caches.
+/// Determines the number of runs in a turn of 4 ms. This also warms up the caches.
 fn rounds(work: &mut Work) -> u32 {
     let start = Instant::now();
     let mut rounds = 0_u32;

@@ -1,4 +1,4 @@
-//! Headers and services of ADS.
+//! The cases of the headers and services of ADS.
 
 use ads_cnc::ads::*;
 use ads_cnc::layout::Stream;

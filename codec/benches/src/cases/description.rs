@@ -1,4 +1,4 @@
-//! Descriptions of variables, with names of several lengths.
+//! The cases of descriptions of variables, with names of several lengths.
 
 use ads_cnc::{Decode, Description, DescriptionRef, Encode};
 
@@ -58,7 +58,8 @@ descriptions! {
     "description, 2 dimensions": 2;
 }
 
-/// Descriptions with names of 5 to 32 characters; each name is one character longer than the previous one.
+/// Descriptions with names of 5 to 32 characters. The lengths increase by one, and begin again at 5
+/// after 32.
 fn descriptions(dimensions: u32) -> Vec<Vec<u8>> {
     (0..COUNT).map(|at| description(dimensions, 5 + at % 28)).collect()
 }

@@ -1,4 +1,4 @@
-//! Lists of object descriptors.
+//! The cases of lists of object descriptors.
 
 use ads_cnc::{Decode, Descriptors, DescriptorsRef, Encode};
 
@@ -6,7 +6,7 @@ use crate::case::{Case, Limit, Work, each};
 use crate::hand::{self, HandWritten};
 use crate::plain;
 
-/// The number of descriptors in a run, in all lists together.
+/// The minimum number of descriptors in a run, in all lists together.
 const RECORDS: u64 = 10_000;
 
 macro_rules! lists {
@@ -43,7 +43,7 @@ lists! {
     "10,000 descriptors": 10_000;
 }
 
-/// Reads one field of each descriptor, like a client that searches for an address.
+/// Reads the index offset of each descriptor, like a client that searches for an address.
 pub(super) fn last_offset(list: DescriptorsRef<'_>) -> u32 {
     list.iter().fold(0, |sum, object| sum ^ object.index_offset().get())
 }
@@ -54,7 +54,8 @@ pub(super) fn lists(count: u64) -> Vec<Vec<u8>> {
         .collect()
 }
 
-/// The descriptor of object number `at`, with a name and an address as in the manuals.
+/// The bytes of the descriptor of object number `at`, with a name and an address like those in the
+/// manuals.
 pub(crate) fn record(at: u64) -> [u8; 84] {
     let mut bytes = [0; 84];
     bytes[..4].copy_from_slice(&(at as u32).to_le_bytes());

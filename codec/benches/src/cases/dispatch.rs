@@ -1,4 +1,4 @@
-//! Calls of each function: dispatched, rejected, encoded.
+//! The cases of calls of each function: they are dispatched, rejected and encoded.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -17,7 +17,7 @@ use crate::hand;
 /// The number of calls in a run.
 const CALLS: usize = 100;
 
-/// One byte more than the longest stream.
+/// One byte more than content can have.
 const TOO_LONG: &[u8] = &[0; ads_cnc::limits::ADS_DATA_MAX + 1];
 
 macro_rules! functions {
@@ -32,7 +32,7 @@ macro_rules! functions {
             Case::new(concat!("call: ", $subject), "the data alone", || {
                 each!([&$data[..]; CALLS], |bytes| <$stream>::decode(bytes))
             }),
-            Case::new(concat!("call: ", $subject), "refusal of data", || {
+            Case::new(concat!("call: ", $subject), "rejection of data", || {
                 each!([call(row!($port $service $group $offset $length), $bad); CALLS], |call| call.dispatch())
             })
             .within(&[Limit::Over("dispatch", 200.0)]),
@@ -152,21 +152,22 @@ functions! {
         by hand WriteObject { group: 0x12_0101, offset: 1, content: b"\x01" };
 }
 
-/// A request for a handle by name, and variants with one fault.
-macro_rules! refusals {
+/// Declares cases of a request for a handle by name, without a fault and with one fault each.
+macro_rules! rejections {
     ($( $implementation:literal: $port:literal $service:ident $group:literal $offset:literal; )+) => {
         pub(super) const REFUSALS: &[Case] = &[$(
             Case::new("one fault", $implementation, || {
                 let data = b"V.E.vartest\0";
                 each!([call(row!($port $service $group $offset 4), data); CALLS], |call| call.dispatch())
             })
-            // Rejecting an address costs more than success, because dispatch scans the whole table first.
+            // Rejecting an address may cost more than success, because dispatch scans the whole
+            // table first.
             .within(&[Limit::Over("none", 1000.0)]),
         )+];
     };
 }
 
-refusals! {
+rejections! {
     "none": 552 ReadWrite 0x12_2301 0x46;
     "port": 851 ReadWrite 0x12_2301 0x46;
     "group": 552 ReadWrite 0xF005 0x46;
@@ -200,7 +201,7 @@ mod tests {
 
     use super::*;
 
-    /// The reference implementation makes the same calls.
+    /// The handwritten code encodes the same calls as the codec.
     #[test]
     fn encoded_by_hand_is_the_same_call() {
         assert_eq!(FUNCTIONS.len(), 5 * ads_cnc::operation::Function::ALL.len());
@@ -221,7 +222,7 @@ mod tests {
 
     /// The calls measured as rejected are rejected because of their data.
     #[test]
-    fn data_is_refused() {
+    fn data_is_rejected() {
         for (call, data, _) in BY_HAND {
             let error_of = Call { data, ..*call }.dispatch().unwrap_err();
             assert!(matches!(error_of, DispatchError::Stream(_)), "{call:?}: {error_of}");

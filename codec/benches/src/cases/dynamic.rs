@@ -1,4 +1,4 @@
-//! Dynamic parameters, and writes to the program stream.
+//! The cases of the streams of dynamic parameters, and of the program stream.
 
 use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;

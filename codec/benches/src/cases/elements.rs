@@ -1,4 +1,4 @@
-//! Elements of the SDA task.
+//! The cases of the streams of elements of the SDA task.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::sda::*;

@@ -1,4 +1,4 @@
-//! Frames on a TCP stream, and replies without data.
+//! The cases of frames on a TCP stream, and of streams without data.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::{Decode, Encode, NoData};
@@ -12,7 +12,7 @@ const MAX: u32 = 1024;
 pub(super) const CASES: &[Case] = &[
     Case::new("frame", "split", || each!(frames(), |bytes| FrameRef::split(bytes, MAX))),
     Case::new("frame", "split by hand", || each!(frames(), |bytes| hand::Frame::split(bytes, MAX))),
-    Case::new("frame", "refused", || each!(refused(), |bytes| FrameRef::split(bytes, MAX)))
+    Case::new("frame", "rejected", || each!(rejected(), |bytes| FrameRef::split(bytes, MAX)))
         .within(&[Limit::Over("split", 200.0)]),
     Case::new("frame", "encode", || {
         let frames: &[Vec<u8>] = frames().leak();
@@ -44,7 +44,7 @@ fn nothing() -> Vec<Vec<u8>> {
     vec![vec![]; 100]
 }
 
-/// Requests with data of several lengths.
+/// Frames of Read requests with data of several lengths.
 fn frames() -> Vec<Vec<u8>> {
     (0..100).map(|at| frame(at, at % 5 * 12)).collect()
 }
@@ -60,8 +60,9 @@ fn frame(at: u32, data_length: u32) -> Vec<u8> {
     bytes
 }
 
-/// Frames with one fault each: `reserved` is not 0, a wrong length, too much data, a wrong `data_length`.
-fn refused() -> Vec<Vec<u8>> {
+/// Frames with one fault each: `reserved` is not 0, `length` is too small or too large, or
+/// `data_length` is wrong.
+fn rejected() -> Vec<Vec<u8>> {
     let broken = |(at, mut bytes): (usize, Vec<u8>)| {
         bytes[[0, 2, 4, 26][at % 4]] = 7;
         bytes
@@ -73,7 +74,8 @@ fn refused() -> Vec<Vec<u8>> {
 mod tests {
     use super::*;
 
-    /// Every frame, truncated at every length and with every byte of its headers changed.
+    /// The codec and the handwritten code split the same frames off: unchanged frames, frames
+    /// truncated at every length, and frames with one byte of their headers changed.
     #[test]
     fn by_hand_splits_the_same_frames() {
         let changed = |bytes: &Vec<u8>| {
@@ -88,7 +90,7 @@ mod tests {
         let cuts = whole.iter().flat_map(|bytes| (0..bytes.len()).map(|len| bytes[..len].to_vec()));
         let all = whole.iter().cloned().chain(cuts).chain(whole.iter().flat_map(changed));
         let mut seen = [0; 3];
-        for bytes in all.chain(refused()) {
+        for bytes in all.chain(rejected()) {
             match (FrameRef::split(&bytes, MAX), hand::Frame::split(&bytes, MAX)) {
                 (Ok(None), Ok(None)) => seen[0] += 1,
                 (Err(_), Err(_)) => seen[1] += 1,

@@ -1,12 +1,13 @@
-//! The cost of a record in a short and in a long list.
+//! Cases that compare the cost of a record in short and long lists, and that of dimensions in short
+//! and long descriptions.
 
 use ads_cnc::{Decode, Description, DescriptionRef, Descriptors, DescriptorsRef, Encode};
 
 use super::descriptors::{last_offset, lists};
 use crate::case::{Case, Limit, Work, each};
 
-/// Declares cases with increasing numbers of records. A record may cost little more than in the case that
-/// `after` names.
+/// Declares cases with increasing numbers of records or dimensions. A unit may cost at most 5 %
+/// more instructions than in the case that `after` names.
 macro_rules! grows {
     ($subject:literal: $($implementation:literal $(after $less:literal)?, $work:expr;)+) => {
         &[$(
@@ -41,14 +42,14 @@ pub(super) const CASES: &[&[Case]] = &[
         "10,000" after "100", encode(10_000, 1);
         "1,000,000" after "10,000", encode(LIST, 25);
     },
-    // These figures are per description.
+    // Figures of this subject are per description.
     grows! {
         "dimensions, borrowed":
         "0", each!(descriptions(0), |bytes| DescriptionRef::decode(bytes));
         "50" after "0", each!(descriptions(50), |bytes| DescriptionRef::decode(bytes));
         "500" after "50", each!(descriptions(500), |bytes| DescriptionRef::decode(bytes));
     },
-    // These figures are per dimension.
+    // Figures of this subject and the next are per dimension.
     grows! {
         "dimensions, owned":
         "5", each!(descriptions(5), 5, |bytes| Description::decode(bytes));
@@ -67,7 +68,8 @@ fn records(count: u64) -> Vec<u8> {
     lists(count).swap_remove(0)
 }
 
-/// Decodes the same list repeatedly, which needs less memory than a million records.
+/// Decodes the same list of `count` descriptors `times` times, which needs less memory than many
+/// lists.
 fn borrowed(count: u64, times: usize) -> Work {
     let bytes = records(count);
     each!(vec![(); times], count, |_again| {

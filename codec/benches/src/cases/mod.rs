@@ -1,4 +1,4 @@
-//! The cases, by subject.
+//! The cases, in one module for each group of subjects.
 
 mod ads;
 mod description;
@@ -29,12 +29,12 @@ pub fn all() -> impl Iterator<Item = Case> {
     all.copied()
 }
 
-/// The cases with limits, and the cases with which the limits compare them.
+/// The cases with limits that are not long, and the cases with which the limits compare them.
 pub fn gate() -> impl Iterator<Item = Case> {
     all().filter(Case::is_gated)
 }
 
-/// All cases without limits, except those with which a limit compares.
+/// All cases that are not in [`gate`].
 pub fn others() -> impl Iterator<Item = Case> {
     all().filter(|case| !case.is_gated())
 }
@@ -61,7 +61,7 @@ mod tests {
         }
     }
 
-    /// Codec and handwritten code do the same work for every stream.
+    /// The codec and the handwritten code accept, reject and encode the same bytes of every stream.
     #[test]
     fn codec_and_hand_agree_on_every_stream() {
         streams().for_each(|entry| (entry.alike)());
@@ -83,7 +83,7 @@ mod tests {
         }
     }
 
-    /// Every run has an effect and can be repeated.
+    /// Every case has units, and can be run twice.
     #[test]
     fn every_case_runs() {
         for case in all() {

@@ -1,4 +1,4 @@
-//! Objects of the COM task, and content.
+//! The cases of the streams of objects of the COM task, and of content.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::{

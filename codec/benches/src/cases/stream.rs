@@ -1,4 +1,4 @@
-//! The cases of every stream.
+//! The macro that declares the cases of a stream.
 
 use ads_cnc::layout::Stream;
 
@@ -14,8 +14,8 @@ pub(crate) struct Entry {
     pub(crate) alike: fn(),
 }
 
-/// Declares the cases of a stream. The inputs are the samples of the codec. The cases encode the owned
-/// type, or the only type of the stream.
+/// Declares the cases of a stream. The inputs are the samples of the codec. The encoding cases
+/// encode the owned type, or the only type of the stream.
 macro_rules! stream {
     ($subject:literal, $stream:ident, $both:ty, by hand $hand:ty) => {
         $crate::cases::stream::Entry {
@@ -24,7 +24,7 @@ macro_rules! stream {
                 $crate::cases::stream::stream!(@decode $subject, $stream, "decode", $both)
                     .within(&[$crate::Limit::Instructions("decode by hand", 1.3)]),
                 $crate::cases::stream::stream!(@decode $subject, $stream, "decode by hand", $hand),
-                $crate::cases::stream::stream!(@refuse $subject, $stream, "refused", $both, "decode"),
+                $crate::cases::stream::stream!(@reject $subject, $stream, "rejected", $both, "decode"),
                 $crate::cases::stream::stream!(@encode $subject, $stream, "encode", $both),
                 $crate::cases::stream::stream!(@encode $subject, $stream, "encode by hand", $hand),
             ],
@@ -45,8 +45,8 @@ macro_rules! stream {
                 $crate::cases::stream::stream!(@decode $subject, $stream, "owned", $owned)
                     .within(&[$crate::Limit::Instructions("owned by hand", 1.3)]),
                 $crate::cases::stream::stream!(@decode $subject, $stream, "owned by hand", $hand_owned),
-                $crate::cases::stream::stream!(@refuse $subject, $stream, "refused", $view, "borrowed"),
-                $crate::cases::stream::stream!(@refuse $subject, $stream, "refused, owned", $owned, "owned"),
+                $crate::cases::stream::stream!(@reject $subject, $stream, "rejected", $view, "borrowed"),
+                $crate::cases::stream::stream!(@reject $subject, $stream, "rejected, owned", $owned, "owned"),
                 $crate::cases::stream::stream!(@encode $subject, $stream, "encode", $owned),
                 $crate::cases::stream::stream!(@encode $subject, $stream, "encode by hand", $hand_owned),
             ],
@@ -64,10 +64,10 @@ macro_rules! stream {
             })
         })
     };
-    (@refuse $subject:literal, $stream:ident, $implementation:literal, $reading:ty, $than:literal) => {
+    (@reject $subject:literal, $stream:ident, $implementation:literal, $reading:ty, $than:literal) => {
         $crate::Case::new($subject, $implementation, || {
             let accepts = |bytes: &[u8]| <$reading>::decode(bytes).is_ok();
-            $crate::case::each!($crate::inputs::refused(Stream::$stream, accepts), |bytes| {
+            $crate::case::each!($crate::inputs::rejected(Stream::$stream, accepts), |bytes| {
                 <$reading>::decode(bytes)
             })
         })

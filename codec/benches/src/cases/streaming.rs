@@ -1,10 +1,11 @@
-//! NC text: split into packets, and checked.
+//! The cases of NC text: it is split into packets, and it is checked.
 
 use ads_cnc::streaming::{Ack, Checker, NcText, Sender};
 
 use crate::case::{Case, Limit, Work};
 
-/// Cases for a text and for a text of a hundred times its length, which may cost at most as much per byte.
+/// Declares cases for texts of 1 KB, 100 KB and 10 MB. A longer text may cost at most 1.1 times as
+/// many instructions per byte as the shorter one.
 macro_rules! texts {
     ($($subject:literal: $lines:expr;)+) => {
         pub(super) const PACKETS: &[&[Case]] = &[$(
@@ -57,8 +58,9 @@ checks! {
     "names": |at| format!("V.E.NAME_{at}.M30 = V.P.M2_{at} + _M30");
 }
 
-/// Cases for texts whose labels are stored in a sorted tree. A text of a hundred times the length may cost
-/// 10^(2 × 1.1) times the instructions, which is 1.58 times the instructions per byte.
+/// Declares cases for checks of whole texts, whose labels are stored in a sorted tree. A text of a
+/// hundred times the length may cost 10^(2 × 1.1) times the instructions, which is 1.58 times the
+/// instructions per byte.
 macro_rules! grows {
     ($($subject:literal: $lines:expr;)+) => {
         pub(super) const GROWTH: &[Case] = &[$(
@@ -177,7 +179,8 @@ fn sent(text: Vec<u8>) -> Work {
     })
 }
 
-/// Checks the text in parts as large as the interface of the CNC, by a `Checker`.
+/// Checks the text by a `Checker`, in parts of four packets. The CNC holds at most 4094 bytes,
+/// which are about four packets.
 fn checked(text: Vec<u8>) -> Work {
     let mut packets = NcText::new(&text).unwrap().packets();
     let mut lots = Vec::new();

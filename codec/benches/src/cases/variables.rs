@@ -1,4 +1,4 @@
-//! Variables.
+//! The cases of the streams of variables.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::*;

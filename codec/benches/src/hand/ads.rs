@@ -1,4 +1,4 @@
-//! Headers and services of ADS.
+//! Handwritten code for the headers and services of ADS.
 
 use super::{ByteStorage, Fault, HandWritten, at_least, at_most, exactly, room, u16_at, u32_at};
 
@@ -95,7 +95,8 @@ pub(crate) struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    /// The first received frame and its length; `None` if the frame is not complete.
+    /// Splits off the first received frame, with at most `max` bytes of data. Returns the frame and
+    /// its length, or `None` if the frame is not complete.
     pub(crate) fn split(received: &'a [u8], max: u32) -> Result<Option<(Self, usize)>, Fault> {
         if received.len() < 6 {
             return Ok(None);
@@ -160,7 +161,7 @@ impl<'a> HandWritten<'a> for ReadRequest {
     }
 }
 
-/// The bytes after the length at offset `at`, whose number must be this length.
+/// Returns the data after the length field at offset `at`. The data must have exactly this length.
 fn data(bytes: &[u8], at: usize) -> Result<&[u8], Fault> {
     let expected = u32_at(bytes, at);
     let data = &bytes[at + 4..];
@@ -238,7 +239,7 @@ impl<'a, B: ByteStorage<'a>> HandWritten<'a> for ReadWriteRequest<B> {
     }
 }
 
-/// The reply to Read and ReadWrite; an error may have no data.
+/// The reply to Read and ReadWrite; an error may have no data field.
 #[derive(Clone, Debug)]
 pub(crate) struct Reply<B> {
     result: u32,

@@ -1,4 +1,4 @@
-//! Bytes without a structure.
+//! Handwritten code for streams that are bytes without a structure.
 
 use super::{ByteStorage, Fault, HandWritten, at_least, at_most, room};
 

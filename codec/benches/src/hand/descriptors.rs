@@ -1,4 +1,4 @@
-//! Object descriptors.
+//! Handwritten code for object descriptors.
 
 use super::{Fault, HandWritten, exactly, room, u16_at, u32_at};
 

@@ -1,4 +1,4 @@
-//! Device information and state.
+//! Handwritten code for device information and state.
 
 use super::{Fault, HandWritten, exactly, room, u16_at, u32_at};
 

@@ -1,4 +1,4 @@
-//! Streams of one or two numbers.
+//! Handwritten code for streams of no, one or two numbers.
 
 use super::{Fault, HandWritten, exactly, room, u16_at, u32_at};
 

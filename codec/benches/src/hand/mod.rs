@@ -1,4 +1,5 @@
-//! Handwritten code without the codec: `from_le_bytes` on slices, with the same checks.
+//! Handwritten code for all streams, without the codec: `from_le_bytes` on slices, with the same
+//! checks as in the codec.
 
 mod ads;
 mod bytes;
@@ -33,7 +34,7 @@ pub(crate) enum Fault {
     BufferTooSmall { expected: u32, found: u32 },
 }
 
-/// A stream that is decoded from all of its bytes and encoded to the front of a buffer.
+/// A stream that is decoded from all given bytes and encoded to the start of a buffer.
 pub(crate) trait HandWritten<'a>: Sized {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault>;
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Fault>;
@@ -69,7 +70,7 @@ pub(crate) fn at_most(max: usize, len: usize) -> Result<(), Fault> {
     }
 }
 
-/// Checks that a stream has at least `min` bytes, those of the numbers at its start.
+/// Checks that a stream has at least `min` bytes.
 pub(crate) fn at_least(min: usize, bytes: &[u8]) -> Result<(), Fault> {
     match bytes.len() < min {
         true => Err(Fault::Truncated { at: 0, expected: min as u32, found: bytes.len() as u32 }),

@@ -1,4 +1,4 @@
-//! The requests of a client without the codec: every function with its address and data.
+//! Handwritten code for the requests of a client: every function with its address and data.
 
 use super::Fault;
 
@@ -13,7 +13,7 @@ pub(crate) enum Service {
     ReadWrite = 9,
 }
 
-/// An encoded call; its data would be sent unchanged.
+/// An encoded call. A client would send its data unchanged.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(not(test), expect(dead_code, reason = "nothing here sends it"))]
 pub(crate) struct Call<'b> {
@@ -25,7 +25,8 @@ pub(crate) struct Call<'b> {
     pub(crate) data: &'b [u8],
 }
 
-/// A request. Objects and elements have an index group; all other requests have a channel number.
+/// A request. Requests for objects, elements and instances have an index group; all other requests
+/// have a channel number instead.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Request<'a> {
     CountObjects { group: u32 },

@@ -1,4 +1,4 @@
-//! Text fields: the text, and the bytes after its NUL.
+//! Handwritten code for text fields: the text, and the bytes after its NUL.
 
 use super::{ByteStorage, Fault, HandWritten, at_least, at_most, room};
 
@@ -69,7 +69,7 @@ impl<'a, B: ByteStorage<'a>> Text<B> {
         at_most(max, self.len())
     }
 
-    /// Fills `out`, which has [`len`](Self::len) bytes.
+    /// Writes the field to `out`, which has [`len`](Self::len) bytes.
     pub(crate) fn put(&self, out: &mut [u8]) {
         let text = self.text.as_ref();
         let (head, end) = out.split_at_mut(text.len());

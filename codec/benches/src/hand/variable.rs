@@ -1,15 +1,15 @@
-//! Streams of variables.
+//! Handwritten code for the streams of variables.
 
 use super::text::Text;
 use super::{ByteStorage, Fault, HandWritten, at_least, at_most, exactly, room, u32_at};
 
 const MAX: usize = 2048;
 
-/// Dimensions or indices, as bytes of a stream or as numbers.
+/// A list of dimensions or indices: borrowed bytes of a stream, or owned numbers.
 pub(crate) trait U32List<'a> {
     fn read(bytes: &'a [u8]) -> Self;
     fn count(&self) -> usize;
-    /// Fills `out`, which has four bytes for each number.
+    /// Writes the numbers to `out`, which has four bytes for each number.
     fn put(&self, out: &mut [u8]);
 }
 
@@ -66,7 +66,7 @@ fn check_count<'a>(numbers: &impl U32List<'a>, at: u32, max: usize) -> Result<us
     }
 }
 
-/// The five numbers at the start of a description, with or without the name.
+/// The four numbers at the start of a description, before the count of dimensions.
 #[derive(Clone, Copy, Debug)]
 struct Head {
     handle: u32,

@@ -1,4 +1,4 @@
-//! The streams declared with binrw, which reads from its own cursor.
+//! Descriptors and descriptions declared with binrw, which reads from a cursor.
 
 use binrw::io::Cursor;
 use binrw::{BinRead, BinResult, binread, helpers::until_eof};

@@ -1,4 +1,4 @@
-//! The streams declared with deku, which reads from its own reader.
+//! Descriptors and descriptions declared with deku, which reads from a reader.
 
 use deku::prelude::*;
 

@@ -1,6 +1,6 @@
-// A client and a server, connected by a function with a signature of Beckhoff's AdsLib. `Send` has the signature
-// of AdsSyncReadWriteReqEx2, so a real client calls that function instead. In this example, `Send` is a small
-// CNC, which shows how to write a server.
+// A client and a server. The client calls a function of type `Send`, which is the signature of
+// AdsSyncReadWriteReqEx2 in Beckhoff's AdsLib; a real client passes that function. In this example, the client
+// calls `cnc`, a small CNC that shows how to write a server.
 #include "ads_cnc.h"
 
 #include <cstdio>

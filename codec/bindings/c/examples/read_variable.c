@@ -3,7 +3,8 @@
  *
  *     read_variable 127.0.0.1 48898 127.0.0.1.1.1 1 V.E.matrix
  *
- * Reads the description, which contains the type, then the value. Plain POSIX and C11.
+ * The program reads the description of the variable, which contains its type, and then the value. It only needs
+ * POSIX and C11.
  */
 #include "ads_cnc.h"
 

@@ -13,8 +13,9 @@
  * but two threads must not use the same memory at once. Input and output buffers must not overlap.
  *
  * Errors. Functions return true on success; otherwise they return false and write an AdsCncError to `error`.
- * Any number and any length is safe to pass; an invalid pointer is not. Pass null for no bytes, and for
- * results that you do not need. After an error, the contents of output buffers are unspecified.
+ * Any number is safe to pass. An invalid pointer, and a length that exceeds the memory at its pointer, are not.
+ * Pass null for no bytes, and for results that you do not need. After an error, the contents of output buffers
+ * are unspecified.
  *
  * Numbers. The numbers of functions, streams and fields can change between versions: look them up by name
  * once, at the start. ads_cnc_abi() must return ADS_CNC_ABI.
@@ -44,7 +45,7 @@ uint32_t ads_cnc_abi(void);
 
 /* ------------------------------------------------------------------------------------- structs */
 
-/* Bytes of the caller; null with length 0 for no bytes. */
+/* Bytes of the caller or constant bytes of the library; null with length 0 for no bytes. */
 typedef struct AdsCncBytes {
     const uint8_t *data;
     uint32_t length;
@@ -342,8 +343,9 @@ typedef struct AdsCncFrame {
 bool ads_cnc_frame_write(const AdsCncFrame *frame, uint8_t *buffer, uint32_t room, uint32_t *length,
                          AdsCncError *error);
 
-/* Decodes the first frame in the received data. `used` is its length, or 0 if the frame is not complete yet.
- * After an error, no further frame can be found: close the connection. */
+/* Decodes the first frame in the received data. A frame with more than `max_data` bytes of data is an error.
+ * `used` is its length, or 0 if the frame is not complete yet. After an error, no further frame can be found:
+ * close the connection. */
 bool ads_cnc_frame_read(const uint8_t *data, uint32_t length, uint32_t max_data, AdsCncFrame *frame,
                         uint32_t *used, AdsCncError *error);
 
@@ -390,7 +392,8 @@ bool ads_cnc_sender_start(AdsCncSender *sender, const uint8_t *text, uint32_t le
 bool ads_cnc_sender_packet(AdsCncSender *sender, AdsCncBytes *packet);
 
 /* Reports the result of writing the packet: ADS_CNC_ACCEPTED; ADS_CNC_BUSY, after which the caller waits about
- * half a second; or ADS_CNC_REJECTED, also for a lost reply, because a repetition might execute lines twice. */
+ * half a second; or ADS_CNC_REJECTED, also for a lost reply, because a repetition might execute lines twice.
+ * Returns false if no packet is in flight, or for any other number. */
 bool ads_cnc_sender_acknowledge(AdsCncSender *sender, uint32_t acknowledgement);
 
 /* The acknowledgement for the ADS result of a write (assumed: the manuals do not document it). */
@@ -450,7 +453,8 @@ bool ads_cnc_host_answer(AdsCncHost *host, const uint8_t *response, uint32_t len
  * taken effect. ADS_CNC_POLL: the wait is over. ADS_CNC_RESTART: the CNC was reset, or the connection is new. */
 bool ads_cnc_host_event(AdsCncHost *host, uint32_t event);
 
-/* The outcome of the last answer: ADS_CNC_ANSWERED, or ADS_CNC_ABANDONED if the program did not wait for it. */
+/* The outcome of the last answer: ADS_CNC_ANSWERED, or ADS_CNC_ABANDONED if the program did not wait for it.
+ * ADS_CNC_NO_OUTCOME before the first answer, while an answer is written, and if the host was never started. */
 uint32_t ads_cnc_host_outcome(const AdsCncHost *host);
 
 #ifdef __cplusplus

@@ -40,13 +40,13 @@ fn word(text: &str) -> AdsCncBytes {
     AdsCncBytes::of(text.as_bytes())
 }
 
-/// The name of `one`, at its index in `all`.
+/// Returns the item of `names` that has the same index as `one` has in `all`.
 fn name<T: PartialEq>(all: impl IntoIterator<Item = T>, names: &[&str], one: &T) -> AdsCncBytes {
     let found = all.into_iter().zip(names).find(|(it, _)| it == one);
     found.map_or(AdsCncBytes::NONE, |(_, name)| word(name))
 }
 
-/// Parses an index group; false if it is not documented.
+/// Parses an index group; returns false if it is not documented.
 ///
 /// # Safety
 /// `parts` is null or points to memory for one value.
@@ -94,7 +94,7 @@ fn stride(number: u32) -> Result<AxisStride, Fault> {
     }
 }
 
-/// The index offset of an element of an axis.
+/// Converts an axis and an element to an index offset.
 ///
 /// # Safety
 /// `offset` and `error` are null or point to memory for one value.
@@ -116,7 +116,7 @@ pub unsafe extern "C" fn ads_cnc_offset(
     unsafe { told(make(), error) }
 }
 
-/// The axis and the element of an index offset.
+/// Converts an index offset to its axis and element.
 ///
 /// # Safety
 /// `axis`, `element` and `error` are null or point to memory for one value.
@@ -171,7 +171,8 @@ pub unsafe extern "C" fn ads_cnc_path(
         give(0, 0, 0, (0, kind), 0);
         let mut end = kind;
         for (record, part) in (0..).zip(path.parts()) {
-            // The text after the dot that follows the indices of the previous part.
+            // The name of a part begins after the dot that follows the indices of the previous
+            // part.
             let rest = name.get(end..).unwrap_or_default();
             let dot = rest.iter().position(|byte| *byte == b'.').unwrap_or(0);
             let at = end.saturating_add(dot).saturating_add(1);

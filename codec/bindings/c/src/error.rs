@@ -11,7 +11,8 @@ use crate::tables::{field_number, stream_number};
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct AdsCncError {
-    /// The class: one of the constants from `ADS_CNC_TRUNCATED` on.
+    /// The kind: one of the constants of `AdsCncErrorKind` in the header, from
+    /// `ADS_CNC_OTHER_ERROR` on.
     pub kind: u32,
     /// The number of the stream at fault, or `ADS_CNC_NONE`.
     pub stream: u32,
@@ -19,15 +20,15 @@ pub struct AdsCncError {
     pub field: u32,
     /// The offset of the field in the stream, in bytes.
     pub offset: u32,
-    /// The number that was expected.
+    /// A number whose meaning depends on the kind, such as the expected length.
     pub expected: u32,
-    /// The number that was found.
+    /// A number whose meaning depends on the kind, such as the found length.
     pub found: u32,
     /// The name of the stream or other subject at fault.
     pub subject: AdsCncBytes,
-    /// The name of the field or part.
+    /// The name of the field or argument.
     pub name: AdsCncBytes,
-    /// A description of the class.
+    /// A description of the kind.
     pub text: AdsCncBytes,
 }
 
@@ -58,7 +59,7 @@ impl From<Error> for Fault {
     }
 }
 
-/// The number and the description of each class.
+/// The number and the description of each kind of errors of the codec.
 fn class(kind: ErrorKind) -> (u32, &'static str) {
     match kind {
         ErrorKind::Truncated => (1, "truncated"),
@@ -149,7 +150,7 @@ impl AdsCncError {
     }
 }
 
-/// Converts a result for the caller: true, or false and the error in the memory of the caller.
+/// Converts a result for the caller: returns true, or writes the error to `out` and returns false.
 ///
 /// # Safety
 /// `out` is null, or points to memory for an error.

@@ -2,7 +2,8 @@
 //!
 //! The library has no allocator, no globals and no ownership: the caller provides all memory, nothing
 //! is freed, and any thread may call any function. Structs consist of numbers and pointers. A wrong
-//! number or length is an error; only an invalid pointer is undefined behaviour, as usual in C.
+//! number is an error. An invalid pointer, or a length that exceeds the memory at its pointer, is
+//! undefined behaviour.
 
 #![cfg_attr(not(test), no_std)]
 

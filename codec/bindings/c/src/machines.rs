@@ -12,7 +12,7 @@ use crate::error::{AdsCncError, Fault, told};
 use crate::memory::{AdsCncBytes, bytes, put, slice, to_u32};
 
 /// Declares a state machine in memory of the caller. A number before the state marks the machine as
-/// started. C may copy a machine, because it has no pointer into itself.
+/// started. A program in C may copy a machine, because it has no pointer into itself.
 macro_rules! machine {
     ($(#[$doc:meta])* $memory:ident, $words:literal, $state:ty, $started:literal) => {
         $(#[$doc])*
@@ -181,8 +181,8 @@ pub unsafe extern "C" fn ads_cnc_sender_start(
     unsafe { told(start(), error) }
 }
 
-/// Returns the packet to write now; false if all packets were accepted, a packet was rejected, or the
-/// sender was never started.
+/// Writes the packet that is to be sent now to `packet`. Returns false if all packets were
+/// accepted, a packet was rejected, or the sender was never started.
 ///
 /// # Safety
 /// `sender` points to a sender that was started and whose text is still valid; `packet` is null or points
@@ -199,8 +199,8 @@ pub unsafe extern "C" fn ads_cnc_sender_packet(
     found.is_some()
 }
 
-/// Reports the result of the packet in flight; false without such a packet, or for an unknown
-/// acknowledgement.
+/// Reports the result of the packet in flight. Returns false if no packet is in flight, or for an
+/// unknown acknowledgement.
 ///
 /// # Safety
 /// `sender` points to a sender that was started and whose text is still valid.
@@ -229,7 +229,7 @@ pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
     }
 }
 
-/// The progress of a sender; false if it was never started.
+/// Returns the progress of a sender in `progress`; returns false if the sender was never started.
 ///
 /// # Safety
 /// `sender` points to a sender that was started; `progress` is null or points to memory for one value.
@@ -306,8 +306,8 @@ pub unsafe extern "C" fn ads_cnc_host_start(
     unsafe { told(start(), error) }
 }
 
-/// The next step, which stays the same until its completion is reported. False if the host was never
-/// started.
+/// Returns the next step in `step`. It stays the same until its completion is reported. Returns
+/// false if the host was never started.
 ///
 /// # Safety
 /// `host` points to a host that was started and whose IDs are still valid; `step` is null or points to
@@ -340,7 +340,8 @@ pub unsafe extern "C" fn ads_cnc_host_step(
             kind: 3,
             service: it.ids.iter().position(|id| core::ptr::eq(id, uuid)).map_or(0, to_u32),
             request_state,
-            // The last request that was read: a host hands out a request when two reads are equal.
+            // The request to serve is the last request that was read: a host hands out a request
+            // when two reads are equal.
             data: it.request.get(..it.length).map_or(AdsCncBytes::NONE, AdsCncBytes::of),
             ..none
         },
@@ -394,8 +395,8 @@ pub unsafe extern "C" fn ads_cnc_host_answer(
     unsafe { told(answer(), error) }
 }
 
-/// Reports an event: `ADS_CNC_WRITTEN`, `ADS_CNC_FAILED`, `ADS_CNC_POLL` or `ADS_CNC_RESTART`. False for an
-/// unknown event, or if the host was never started.
+/// Reports an event: `ADS_CNC_WRITTEN`, `ADS_CNC_FAILED`, `ADS_CNC_POLL` or `ADS_CNC_RESTART`.
+/// Returns false for an unknown event, or if the host was never started.
 ///
 /// # Safety
 /// `host` points to a host that was started and whose IDs are still valid.
@@ -413,7 +414,8 @@ pub unsafe extern "C" fn ads_cnc_host_event(host: *mut AdsCncHost, event: u32) -
     true
 }
 
-/// The outcome of the last answer: `ADS_CNC_NO_OUTCOME`, `ADS_CNC_ANSWERED` or `ADS_CNC_ABANDONED`.
+/// The outcome of the last answer: `ADS_CNC_ANSWERED`, `ADS_CNC_ABANDONED`, or `ADS_CNC_NO_OUTCOME`
+/// before the first answer, while an answer is written, and if the host was never started.
 ///
 /// # Safety
 /// `host` points to a host that was started.

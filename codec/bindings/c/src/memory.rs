@@ -1,9 +1,10 @@
-//! The memory of the caller: the only module that converts pointers to references or writes through
-//! pointers.
+//! Access to memory of the caller. Only this module and `machines` convert pointers to references
+//! or write through pointers.
 
 use crate::error::Fault;
 
-/// Bytes in memory of the caller; the pointer may be null if there are no bytes.
+/// Bytes in memory of the caller or in constants of the library. The pointer may be null if the
+/// length is 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[cfg_attr(test, derive(Debug))]

@@ -23,7 +23,7 @@ pub struct AdsCncRequest {
     pub function: u32,
     /// The channel, from 1; 0 is the platform, for functions that support it.
     pub channel: u32,
-    /// 1 if the number counts only the active channels or spindles (addressing by index).
+    /// 1 if `channel` counts only the active channels (addressing by index), otherwise 0.
     pub by_index: u32,
     /// An axis of the channel, from 1; for a list of objects with channel 0, a platform axis.
     pub axis: u32,
@@ -145,7 +145,7 @@ impl<'a> Arguments<'a> {
         Ok(Kind::from_field(CncStr::from_bytes(self.kind)?.into()))
     }
 
-    /// The item of `all` whose name is the argument `kind`.
+    /// Returns the item of `all` whose name in `names` is the argument `kind`.
     fn one_of<T>(&self, all: impl IntoIterator<Item = T>, names: &[&str]) -> Result<T, Fault> {
         let named = all.into_iter().zip(names).find(|(_, name)| name.as_bytes() == self.kind);
         named.map(|(one, _)| one).ok_or(Fault::Argument("kind"))
@@ -327,7 +327,7 @@ fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
     };
     let text = |text: &str| AdsCncBytes::of(text.as_bytes());
     match (spec.group, group) {
-        // As an argument, the address of an element is the address of its content.
+        // The argument for an element is the address of its content, for every attribute.
         (GroupRule::Elements(_), Group::Class(parts)) => {
             let content = ClassGroup { attribute: Attribute::Content, ..parts };
             (it.index_group, it.index_offset) =
@@ -442,7 +442,8 @@ pub unsafe extern "C" fn ads_cnc_dispatch(
     let number = match result {
         Ok(()) => 0,
         Err(Fault::Dispatch(error)) => error.ads_error().0,
-        // The command is not Read, Write or ReadWrite, or the call cannot be read.
+        // Other errors: an unknown command, a port of more than 16 bits, a null pointer, or too
+        // little room for the indices.
         Err(_) => codec::ads::AdsError::SERVICE_NOT_SUPPORTED.0,
     };
     // SAFETY: the caller's contract.

@@ -134,7 +134,8 @@ pub(crate) fn argument(field: Field) -> u32 {
     (1..).zip(ARGUMENTS).find(|(_, it)| *it == name).map_or(0, |(number, _)| number)
 }
 
-/// The arguments of a function: those in its address, those in its data, and the length of its reply.
+/// The arguments of a function and their number: those in its address, those in its data, and the
+/// one that determines its read length.
 fn arguments(function: Function) -> ([u32; 8], u32) {
     let spec = function.spec();
     let group: &[u32] = match spec.group {
@@ -196,7 +197,7 @@ fn field_info(row: &FieldSpec, next: Option<&FieldSpec>) -> AdsCncFieldInfo {
     }
 }
 
-/// Writes information, if there is any, to memory of the caller; returns whether there is any.
+/// Writes the information to memory of the caller and returns true; returns false for `None`.
 ///
 /// # Safety
 /// `out` is null or points to memory for one value.
@@ -209,7 +210,8 @@ unsafe fn give<T>(info: Option<T>, out: *mut T) -> bool {
     is_there
 }
 
-/// The number of the function with this name, either its name in reports or its name in programs.
+/// The number of the function with this name, in reports or in programs; `ADS_CNC_NONE` if no
+/// function has it.
 ///
 /// # Safety
 /// `name` points to `length` bytes.
@@ -222,7 +224,7 @@ pub unsafe extern "C" fn ads_cnc_function(name: *const u8, length: u32) -> u32 {
     position(Function::ALL.iter().copied(), is)
 }
 
-/// The number of the stream with this name.
+/// The number of the stream with this name; `ADS_CNC_NONE` if no stream has it.
 ///
 /// # Safety
 /// `name` points to `length` bytes.
@@ -233,7 +235,7 @@ pub unsafe extern "C" fn ads_cnc_stream(name: *const u8, length: u32) -> u32 {
     position(Stream::all(), |it| it.layout().name.as_bytes() == name)
 }
 
-/// The number of the field with this name.
+/// The number of the field with this name; `ADS_CNC_NONE` if no field of the stream has it.
 ///
 /// # Safety
 /// `name` points to `length` bytes.
@@ -245,7 +247,7 @@ pub unsafe extern "C" fn ads_cnc_field(stream: u32, name: *const u8, length: u32
     position(stream.fields(), |it| it.name().as_bytes() == name)
 }
 
-/// The information about a function; false if no function has this number.
+/// Writes the information about a function to `info`; returns false if no function has this number.
 ///
 /// # Safety
 /// `info` is null or points to memory for one value.
@@ -274,7 +276,7 @@ pub unsafe extern "C" fn ads_cnc_function_info(number: u32, info: *mut AdsCncFun
     unsafe { give(found, info) }
 }
 
-/// The name of an argument; false if no argument has this number.
+/// Writes the name of an argument to `name`; returns false if no argument has this number.
 ///
 /// # Safety
 /// `name` is null or points to memory for one value.
@@ -285,7 +287,7 @@ pub unsafe extern "C" fn ads_cnc_argument_name(number: u32, name: *mut AdsCncByt
     unsafe { give(at.and_then(|at| ARGUMENTS.get(at)).map(|it| text(it)), name) }
 }
 
-/// The information about a stream; false if no stream has this number.
+/// Writes the information about a stream to `info`; returns false if no stream has this number.
 ///
 /// # Safety
 /// `info` is null or points to memory for one value.
@@ -305,7 +307,8 @@ pub unsafe extern "C" fn ads_cnc_stream_info(number: u32, info: *mut AdsCncStrea
     unsafe { give(found, info) }
 }
 
-/// The information about a field; false if the stream has no field with this number.
+/// Writes the information about a field to `info`; returns false if the stream has no field with
+/// this number.
 ///
 /// # Safety
 /// `info` is null or points to memory for one value.
@@ -323,7 +326,7 @@ pub unsafe extern "C" fn ads_cnc_field_info(
     unsafe { give(found, info) }
 }
 
-/// The information about a type; false if no type has this number.
+/// Writes the information about a type to `info`; returns false if no type has this number.
 ///
 /// # Safety
 /// `info` is null or points to memory for one value.

@@ -1,4 +1,4 @@
-//! Tests of the functions, called like from C.
+//! Tests of the functions of the ABI, which call them with pointers as a program in C does.
 
 #![allow(clippy::as_conversions, clippy::indexing_slicing, clippy::unwrap_used, clippy::panic)]
 #![allow(clippy::arithmetic_side_effects, reason = "tests may fail")]
@@ -55,7 +55,7 @@ fn number(name: &str) -> u32 {
     unsafe { ads_cnc_function(name.as_ptr(), name.len() as u32) }
 }
 
-/// Encodes to a new buffer.
+/// Encodes a request to a new buffer of `room` bytes.
 fn encode(request: &AdsCncRequest, room: u32) -> Result<(AdsCncCall, Vec<u8>), String> {
     let (mut buffer, mut call, mut error) = (vec![0; to_usize(room)], zero::<AdsCncCall>(), zero());
     // SAFETY: all pointers are valid.
@@ -178,7 +178,8 @@ fn names_equal_those_that_the_codec_displays() {
     assert!(header.contains(&format!("\n#define ADS_CNC_ABI {}\n", ads_cnc_abi())));
 }
 
-/// A function needs exactly the arguments that its row in the table lists.
+/// A request with the arguments that the table lists for a function is encoded, and dispatch sets
+/// exactly these arguments.
 #[test]
 fn functions_take_the_arguments_that_they_list() {
     let mut seen = Vec::new();
@@ -196,7 +197,7 @@ fn functions_take_the_arguments_that_they_list() {
                 4 => request.count = 1,
                 5 => request.size = 8,
                 6 => request.handle = 7,
-                // The group of an object of COM, or of an element of the HLD.
+                // The index group of an object of the COM task, or of an element of the HLD.
                 7 => {
                     request.index_group =
                         if operation.ends_with("Object") { 0x12_0101 } else { 0x12_3301 }
@@ -259,10 +260,11 @@ fn calls_are_dispatched_and_encoded_again() {
         assert_eq!(request.function, number(sample.function.spec().name), "{}", sample.slug);
         let (again, data) =
             encode(&request, ROOM).unwrap_or_else(|error| panic!("{}: {error}", sample.slug));
-        // GEO serves the same functions as SDA, so the port may differ.
+        // A call to the GEO task is encoded again as a call to the SDA task, so the port may
+        // differ.
         let address = |it: &AdsCncCall| (it.command, it.index_group, it.index_offset);
         assert_eq!(address(&again), address(&call), "{}", sample.slug);
-        // A text is encoded with one NUL, whatever the number of NULs in the input.
+        // A text is encoded with one NUL, even if the received text has several.
         let text = |data: &[u8]| {
             data.iter().rposition(|byte| *byte != 0).map_or(0, |at| at.saturating_add(1))
         };
@@ -310,7 +312,8 @@ fn calls_without_a_function_are_rejected() {
     assert_eq!(room, [5, 6]);
 }
 
-/// Decoding returns the fields of a walk, and building returns the stream.
+/// `ads_cnc_decode` returns the fields that a walk finds, and `ads_cnc_build` builds the stream
+/// from them.
 #[test]
 fn streams_are_decoded_and_built() {
     for (stream, samples) in SAMPLES {
@@ -341,7 +344,8 @@ fn streams_are_decoded_and_built() {
                         let is_number = by_number && [1, 2].contains(&info.kind) && info.size > 0;
                         let data =
                             if is_number { AdsCncBytes::NONE } else { AdsCncBytes::of(part(it).2) };
-                        // A count is computed from its items, unless a reply ends before it.
+                        // Counts other than 0 are omitted in the second pass, so that
+                        // `ads_cnc_build` computes them.
                         let is_left_out = info.is_count == 1 && it.number > 0 && by_number;
                         (!is_left_out).then_some(AdsCncPart {
                             field: it.field,

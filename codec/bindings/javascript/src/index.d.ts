@@ -218,6 +218,6 @@ export class Host {
   poll(): void;
   /** Starts again, after a reset of the CNC or on a new connection. */
   restart(): void;
-  /** The outcome of the last answer. */
+  /** The outcome of the last answer; null before the first answer and while an answer is written. */
   get outcome(): 'answered' | 'abandoned' | null;
 }

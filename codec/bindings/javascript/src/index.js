@@ -38,7 +38,7 @@ function putNumbers(...all) {
   return at;
 }
 
-/** The bytes that an AdsCncBytes points to. */
+/** A copy of the bytes to which the AdsCncBytes at this address points. */
 const lent = (at) => taken(u32(at), u32(at + 4));
 const word = (at) => new TextDecoder().decode(lent(at));
 
@@ -53,7 +53,7 @@ export class AdsCncError extends Error {
         (expected || found ? `, expected ${expected}, found ${found}` : ''),
     );
     Object.assign(this, { name: 'AdsCncError', stream, field, offset, kind, expected, found, adsError: 0 });
-    // The number of the class, which only this module uses.
+    // The number of the kind, which only this module uses.
     Object.defineProperty(this, 'number', { value: u32(at) });
   }
 }
@@ -79,7 +79,7 @@ function sized(size, name, ...given) {
   }
 }
 
-/** Frees the scratch memory, then runs a function, which may use all of it. */
+/** Frees the scratch memory, then runs a function, which may use all scratch memory. */
 function begin(work) {
   top = BASE;
   return work();
@@ -274,7 +274,7 @@ const NUMBERS = 'function channel by_index axis index count size handle index_gr
 );
 const TEXTS = ['kind', 'name', 'value'];
 
-/** Writes an AdsCncRequest; returns its address. Convert texts first, because that uses the same memory. */
+/** Writes an AdsCncRequest; returns its address. `given` has texts as CP1252: a conversion reuses the memory. */
 function putRequest(number, given) {
   const plain = NUMBERS.map((name) => {
     const value = name === 'function' ? number : Number(given[name] ?? 0);
@@ -662,7 +662,7 @@ export class Host {
     this.#event(3);
   }
 
-  /** The outcome of the last answer: 'answered' or 'abandoned'. */
+  /** The outcome of the last answer: 'answered' or 'abandoned'; null before the first and while one is written. */
   get outcome() {
     return [null, 'answered', 'abandoned'][this.#it.use((at) => codec.ads_cnc_host_outcome(at))];
   }

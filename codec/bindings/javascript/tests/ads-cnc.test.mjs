@@ -1,4 +1,4 @@
-// The package: requests, values, errors, and dispatch for servers.
+// Tests of the package: requests, values, errors, and dispatch for servers.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

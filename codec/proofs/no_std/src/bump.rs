@@ -1,4 +1,4 @@
-//! A bump allocator: allocates from the front of a block and never frees.
+//! A bump allocator: allocates from the start of a block of 64 KiB and never frees memory.
 
 use core::alloc::{GlobalAlloc, Layout};
 use core::cell::UnsafeCell;

@@ -63,7 +63,7 @@ fn prove() -> Result<bool, Error> {
     Ok(good)
 }
 
-/// Hides the bytes from the compiler, so that it cannot evaluate the decoding of constants.
+/// Hides the bytes from the compiler, so that it cannot decode constant bytes at compile time.
 fn opaque(bytes: &[u8]) -> &[u8] {
     core::hint::black_box(bytes)
 }

@@ -1,5 +1,5 @@
-//! Generic functions, instantiated with the types that programs use, and functions that return unnamed
-//! iterators, which are run to their end.
+//! Functions that call generic functions of the codec with specific types, and functions that call
+//! an iterator of the codec until it ends.
 
 pub(crate) mod views {
     use ads_cnc::{CncStr, DescriptorRef, DescriptorsRef, U32List};

@@ -1,5 +1,5 @@
-//! Keeps functions of the codec in a program as if they were called, and does nothing else, so that the
-//! size of the program is theirs. The script `run` generates the list of functions.
+//! A program that contains functions of the codec as if they were called, and does nothing else, so
+//! that its size is that of these functions. The script `run` generates the list of functions.
 
 #![no_std]
 #![no_main]
@@ -32,7 +32,7 @@ macro_rules! keep {
 
 use keep;
 
-/// The generated list of the functions that are kept by their paths.
+/// The generated list of the functions that are kept in the program by their paths.
 mod kept {
     #![allow(unused_imports, reason = "not every program keeps all of it")]
     use ads_cnc::operation::Operation;

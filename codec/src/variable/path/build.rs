@@ -148,7 +148,7 @@ impl<'a> VariablePath<'a> {
         if kind == Kind::V_A.text() {
             return Ok(());
         }
-        // Find the first character that differs; every kind has at least three.
+        // Find the first character that differs; every kind has at least three characters.
         let mut wanted = Kind::V_A.text().chars();
         let other =
             (0_u32..).zip(kind.chars()).find(|&(_, character)| wanted.next() != Some(character));

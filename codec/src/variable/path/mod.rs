@@ -13,7 +13,8 @@ use super::{Kind, U32List};
 use crate::error::Error;
 use crate::text::CncStr;
 
-/// The largest index: one less than the maximum number of elements in an UNS32 (VAR-2).
+/// The largest index: one less than the greatest number of elements that an UNS32 can contain
+/// (VAR-2).
 const INDEX_MAX: u32 = u32::MAX - 1;
 
 // Checks that a name cannot have more indices than a request by handle.
@@ -52,7 +53,7 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 /// // Read the same element by the handle of the array.
 /// let by_handle = HandleReadRef { handle: Handle(0x2001234), indices: path.elements() };
 ///
-/// // Build a name from another one.
+/// // Build a name from another name.
 /// let mut buf = [0; 32];
 /// let other = path.variable().write_element(U32List::from(&[4]), &mut buf)?;
 /// assert_eq!(other.text(), "V.G.NP[0].V[4]");
@@ -87,8 +88,8 @@ impl<'a> VariablePath<'a> {
     ///   character that a part must not contain, text after a bracket, or no kind.
     /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, after a dot or in
     ///   a bracket.
-    /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index greater than 4 294 967 294; one
-    ///   that exceeds 32 bits is reported as 4 294 967 295.
+    /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index greater than 4 294 967 294; an
+    ///   index that exceeds 32 bits is reported as 4 294 967 295.
     /// - [`TooLong`](crate::ErrorKind::TooLong): more than 255 characters (VAR-9).
     pub fn new(text: &'a str) -> Result<Self, Error> {
         Self::from_text(CncStr::new(text)?)
@@ -143,7 +144,8 @@ impl<'a> VariablePath<'a> {
         U32List::from_name(self.text.split_at(self.variable_end).1.raw())
     }
 
-    /// The name without the indices at its end: the name of the whole array, if the variable is one.
+    /// The name without the indices at its end: the name of the whole array, if the variable is an
+    /// array.
     pub fn variable(&self) -> Self {
         Self { text: self.text.split_at(self.variable_end).0, ..*self }
     }

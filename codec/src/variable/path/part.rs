@@ -48,7 +48,7 @@ impl fmt::Display for PathPart<'_> {
 pub struct PathParts<'a>(CncStr<'a>);
 
 impl<'a> PathParts<'a> {
-    /// The text after the kind, in a checked name.
+    /// Creates an iterator over the text after the kind of a checked name.
     pub(super) const fn new(rest: CncStr<'a>) -> Self {
         Self(rest)
     }
@@ -62,7 +62,7 @@ impl<'a> Iterator for PathParts<'a> {
             let raw = text.raw();
             raw.iter().position(|&byte| byte == wanted).unwrap_or(raw.len())
         };
-        // Skip the dot, which follows every part but the last.
+        // Skip the dot, which precedes every part.
         let (dot, rest) = self.0.split_at(1);
         if dot.is_empty() {
             return None;

@@ -1,4 +1,4 @@
-//! The Service Interface and data streaming, step by step.
+//! Calls the functions of the Service Interface and of data streaming.
 
 use ads_cnc::service::{HostStep, ServiceVariable};
 use ads_cnc::streaming::{Ack, LineError};

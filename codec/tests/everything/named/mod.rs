@@ -1,5 +1,6 @@
-//! Calls every public function by its path, with arguments that the compiler does not know. reached.py
-//! compares the paths with the list of the public API.
+//! Calls every public function that exists without features by its path, with arguments that the
+//! compiler does not know. The script `proofs/reached.py` compares the paths with the list of the
+//! public API.
 
 mod address;
 mod machines;
@@ -15,7 +16,7 @@ use ads_cnc::CncStr;
 /// The length of a buffer that is large enough for any stream of variables.
 const ROOM: usize = 2200;
 
-/// Returns the value, which the compiler then cannot predict.
+/// Returns the value in a way that hides it from the compiler.
 fn any<T>(value: T) -> T {
     black_box(value)
 }
@@ -25,7 +26,8 @@ fn seen<T>(value: T) {
     black_box(&value);
 }
 
-/// The text of the bytes, if they are valid; otherwise a text that the compiler cannot predict.
+/// The bytes as text if they are valid UTF-8 and do not begin with a NUL; otherwise `other`, hidden
+/// from the compiler.
 fn text<'a>(bytes: &'a [u8], other: &'a str) -> &'a str {
     core::str::from_utf8(bytes).ok().filter(|text| !text.starts_with('\0')).unwrap_or(any(other))
 }
@@ -34,7 +36,7 @@ fn cnc(bytes: &[u8]) -> CncStr<'_> {
     CncStr::from_bytes(bytes).unwrap_or(CncStr::EMPTY)
 }
 
-/// Runs everything and ignores the results.
+/// Calls the functions of all modules of this folder and ignores their results.
 pub(crate) fn runs(bytes: &[u8]) {
     seen(streams::runs(bytes));
     seen(streams::tables(bytes));

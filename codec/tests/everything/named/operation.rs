@@ -1,4 +1,4 @@
-//! Operations of a client, and the table of functions.
+//! Calls the functions of operations, and those of the table of functions.
 
 use ads_cnc::address::{Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::operation::{AdsService, Request, Task};
@@ -6,7 +6,8 @@ use ads_cnc::*;
 
 use super::{ROOM, any, seen, text};
 
-/// Encodes the request of a client, dispatches it like a server, and decodes the bytes as its reply.
+/// Calls every method of the operation, and decodes the bytes as the reply to it. Returns the
+/// operation.
 fn ask<'a, T: operation::Operation + Into<Request<'a>>>(
     op: Result<T, Error>,
     bytes: &[u8],
@@ -82,7 +83,7 @@ pub(super) fn makers(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Calls constructors with names and values of every type that they accept.
+/// Calls constructors with names and values of several of the types that they accept.
 fn arguments(channel: Channel, handle: Handle, bytes: &[u8]) -> Result<(), Error> {
     let text = text(bytes, "V.E.a");
     let path = VariablePath::new(text)?;

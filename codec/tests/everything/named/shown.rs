@@ -1,5 +1,6 @@
-//! Formats all types with `Display`, and discards the text. `Debug` is excluded, because its code in
-//! core contains a panic for texts.
+//! Formats values of the types that implement `Display`, and discards the text. `Element` and
+//! `DynamicValue` are excluded, because the formatting of floating-point numbers in core contains a
+//! panic. `Debug` is excluded, because its code for texts in core contains a panic.
 
 use core::fmt::{self, Display, Write as _};
 
@@ -55,7 +56,7 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     #[cfg(feature = "alloc")]
     show::<streaming::ProgramEnd>(any(streaming::ProgramEnd::M2));
     show::<streaming::UnexpectedAck>(any(streaming::UnexpectedAck));
-    refusals(bytes);
+    rejections(bytes);
     programs(bytes);
     names(bytes)
 }
@@ -87,7 +88,7 @@ fn codes() {
     let _shown = address::Spindle::new(any(1)).map(show::<address::Spindle>);
 }
 
-fn refusals(bytes: &[u8]) {
+fn rejections(bytes: &[u8]) {
     let call = operation::Call {
         port: AmsPort(any(552)),
         service: any(operation::AdsService::Write),

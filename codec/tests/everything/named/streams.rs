@@ -1,4 +1,4 @@
-//! Streams, lists, names of variables, texts, and the tables of streams.
+//! Calls the functions of streams, lists, names of variables, texts, and the tables of streams.
 
 use ads_cnc::*;
 

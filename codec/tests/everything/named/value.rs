@@ -1,4 +1,4 @@
-//! Values with their types.
+//! Calls the functions of typed values.
 
 use ads_cnc::value::DataType;
 use ads_cnc::*;

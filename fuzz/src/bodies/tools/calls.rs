@@ -41,7 +41,8 @@ pub(super) fn written(call: &Call<'_>, port: usize) -> Vec<u8> {
     bytes
 }
 
-/// Writes a call as a record of a session: of kind 1, or of kind 6, with which the effect is checked.
+/// Writes a call as a record of a session: of kind 1, or of kind 6, for which the target checks the
+/// effect of the call.
 pub(crate) fn write_call(kind: u8, call: &Call<'_>) -> Vec<u8> {
     let port = PORTS.iter().position(|port| *port == call.port.0).unwrap_or(3);
     let mut bytes = vec![kind];

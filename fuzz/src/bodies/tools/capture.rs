@@ -44,7 +44,8 @@ fn read(
     (end, pieces)
 }
 
-/// Any file is read to its end, or reported as cut, and all frames that were read are judged.
+/// Any file is read to its end, reported as cut, or rejected, and all frames that were read are
+/// judged.
 fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
     let (end, pieces) = read(bytes, ports.clone(), defect);
     let options = CaptureOptions { ports: ports.clone(), vectors: Some(Collector::new(false)) };
@@ -65,7 +66,7 @@ fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
         }
         (Err(end), Err(judged)) => {
             assert_eq!(end.to_string(), judged.to_string());
-            return Outcome::refused(end.to_string());
+            return Outcome::rejected(end.to_string());
         }
         other => panic!("{other:?}"),
     };
@@ -78,7 +79,7 @@ fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
     let bytes: Vec<_> = pieces.iter().map(|piece| format!("{piece:?}")).collect();
     match end {
         FileEnd::Whole => Outcome::accepted(bytes),
-        FileEnd::Cut(why) => Outcome::refused((why, bytes)),
+        FileEnd::Cut(why) => Outcome::rejected((why, bytes)),
     }
 }
 
@@ -123,7 +124,7 @@ fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
     Outcome::accepted(found)
 }
 
-/// Gives the segments of a side the sequence numbers of their current order.
+/// Renumbers the segments of each side in their current order.
 fn sort(conversation: &mut Conversation) {
     for side in [true, false] {
         let mut all: Vec<_> =

@@ -21,7 +21,7 @@ pub(super) struct Conversation {
     pub(super) sent: [Vec<Vec<u8>>; 2],
     begin: [u32; 2],
     pub(super) segments: Vec<Segment>,
-    /// Whether no segment is missing.
+    /// Whether the segments contain every byte that was sent.
     pub(super) is_whole: bool,
     pub(super) is_twice: bool,
 }
@@ -30,9 +30,10 @@ pub(super) struct Conversation {
 const BEGINS: [u32; 4] = [0, u32::MAX - 50, 0x7FFF_FFF0, u32::MAX];
 
 impl Conversation {
-    /// Input: the number of requests, the index of each request, the first sequence numbers, the lengths
-    /// of the segments, then changes: a segment moves (0), is repeated (1), is missing (2), or is joined
-    /// with the next one (3).
+    /// Input: the number of requests, the index of each request with the length of the data of its
+    /// reply, the first sequence numbers, the lengths of the segments, then changes: a segment is
+    /// swapped with another one (0), is repeated (1), is removed (2), or also contains the next one
+    /// (3).
     pub(super) fn new(input: &mut Input<'_>) -> Self {
         let mut sent = [Vec::new(), Vec::new()];
         for id in 0..u32::from(input.byte() % 8) {
@@ -124,7 +125,7 @@ impl Conversation {
     }
 }
 
-/// The frame of a reply to a request, with `kind` bytes of data.
+/// The frame of a reply to a request. The reply to a Read or ReadWrite has `kind` bytes of data.
 fn reply(request: &[u8], kind: u8) -> Vec<u8> {
     let Ok(Some((frame, _))) = FrameRef::split(request, u32::MAX) else { panic!("a frame") };
     let header = frame.header();

@@ -33,8 +33,9 @@ pub(crate) const DEFECTS: &[&str] = &[
 /// Input: the subject (1 byte): a stream (0), data at an address (1), an address (2), frames (3), frames
 /// with an address for replies (4), hex (5).
 ///
-/// Then the index of the stream, the type and two dimensions; then the address; the rest is the bytes
-/// or the text.
+/// Hex is the rest of the input. For the other subjects follow the index of the stream, the type,
+/// the number of dimensions and the first dimension; then, except for 0 and 3, the address; the
+/// rest is the bytes.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let what = input.byte();
@@ -75,7 +76,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     }
     match explanation.outcome {
         ExplanationOutcome::Explained => Outcome::accepted(plain),
-        _ => Outcome::refused(plain),
+        _ => Outcome::rejected(plain),
     }
 }
 
@@ -102,16 +103,17 @@ fn mutation(explanation: &mut Explanation, defect: Defect) {
     }
 }
 
-/// An explanation has a fault if and only if the codec rejects the bytes.
+/// An explanation has a fault if and only if the codec rejects the bytes, or the stream is an NC
+/// text that cannot be streamed to its end.
 fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
-    let refused = common::check_bent(stream, bytes, &Mutation::NONE).is_err()
+    let rejected = common::check_bent(stream, bytes, &Mutation::NONE).is_err()
         || stream == Stream::ProgramStream && !is_nc(bytes);
-    assert!(faulty || !refused, "{stream} has no fault, but the codec rejects it");
+    assert!(faulty || !rejected, "{stream} has no fault, but the codec rejects it");
     // If the input names a type, the value may not fit this type although the codec accepts the stream.
-    assert!(typed || faulty == refused, "{stream} has a fault, but the codec accepts it");
+    assert!(typed || faulty == rejected, "{stream} has a fault, but the codec accepts it");
 }
 
-/// Whether a CNC reads these bytes as NC text without a fault.
+/// Whether these bytes are an NC text that can be streamed to its end.
 fn is_nc(bytes: &[u8]) -> bool {
     check_line_ends(bytes).is_ok()
         && NcText::new(bytes)
@@ -140,7 +142,7 @@ fn dispatches(place: &ServiceAddress, bytes: &[u8], explanation: &Explanation, f
     assert!(!faulty || is_nc || service == AdsService::Read, "{explanation:#?}");
 }
 
-/// Whether the codec reads frames to the end of these bytes.
+/// Whether these bytes consist of complete frames that the codec accepts.
 fn are_frames(mut bytes: &[u8]) -> bool {
     loop {
         match FrameRef::split(bytes, u32::MAX) {

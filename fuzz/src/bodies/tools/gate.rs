@@ -89,7 +89,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     }
     match passed.contains(&true) {
         true => Outcome::accepted(passed),
-        false => Outcome::refused(passed),
+        false => Outcome::rejected(passed),
     }
 }
 
@@ -147,7 +147,7 @@ fn entries(input: &mut Input<'_>, defect: Defect) -> Vec<Entry> {
                 assert_eq!(read.entries, [entry], "{text}");
                 entries.extend(read.entries);
             }
-            // A file may not name every address.
+            // A file must not contain an entry for certain addresses.
             Err(error) => {
                 assert!(matches!(entry, Entry::Content { .. }), "{text}\n{error}");
                 assert!(error.to_string().contains("line "), "{error}");
@@ -186,8 +186,9 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
 
 const PORTS: [u16; 5] = [552, 553, 551, 851, 10000];
 
-/// A frame with the next call; depending on the kind, with a different target (bit 2), different flags
-/// (bit 3), an error (bit 4), a different command (bit 5) and a different length (bit 6).
+/// A frame with the next call. The bits of the kind that are set select a different target (bit 2),
+/// different flags (bit 3), an error (bit 4), a different command (bit 5) and a length of the data
+/// that is one too high (bit 6).
 fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
     let odd = |bit: u8| kind >> bit & 1;
     let Call { port, service, index_group, index_offset, read_length, data } = call(input, &PORTS);

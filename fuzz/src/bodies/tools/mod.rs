@@ -1,4 +1,5 @@
-//! Parsers of external bytes other than the codec.
+//! The bodies of the targets for the suite and the simulated CNC: they parse external bytes other
+//! than the streams of the codec.
 
 pub(crate) mod calls;
 pub(crate) mod capture;

@@ -18,21 +18,21 @@ pub(crate) const DEFECTS: &[&str] = &[
     "the same requests get different answers as time passes",
 ];
 
-/// A CNC with an accepted model gives only answers that the codec reads, and has as many entries as it
-/// counts.
+/// Any file is a model or an error. A CNC with this model gives only answers that the codec reads,
+/// gives the same answers to the same requests, and has as many objects in each list as it counts.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, "a file:", defect, |text| Model::from_toml(text, "a file"), Model::eq);
     let model = match read {
         Ok(model) => model,
-        Err(error) => return Outcome::refused(error),
+        Err(error) => return Outcome::rejected(error),
     };
     let said = serve(model.clone(), defect, 0);
     assert_eq!(said, serve(model, defect, 1));
     Outcome::accepted(said)
 }
 
-/// The answers of a CNC with this model to all calls, at three times.
+/// The answers of a CNC with this model to the sample calls, and its first objects, at three times.
 fn serve(model: Model, defect: Defect, turn: usize) -> Vec<Option<Vec<u8>>> {
     let cnc = Cnc::new(model).with_stopped_clock();
     let mut said = Vec::new();

@@ -127,16 +127,16 @@ impl Session {
         let Some(answer) = self.answers.get(begin..).filter(|answer| answer.len() >= 42) else {
             return;
         };
-        let refused = answer[38..42] != [0; 4];
+        let rejected = answer[38..42] != [0; 4];
         let (Some(read), Some(before)) = (read, before) else { return };
         let mut after = self.cnc.answer(&read.call());
-        if let (Ok(after), true) = (&mut after, self.defect.is(4) && refused) {
+        if let (Ok(after), true) = (&mut after, self.defect.is(4) && rejected) {
             after.iter_mut().zip(read.value).take(1).for_each(|(byte, new)| *byte = *new);
         }
-        if self.defect.is(5) && !refused && read.value.len() > 1 {
+        if self.defect.is(5) && !rejected && read.value.len() > 1 {
             after.clone_from(&before);
         }
-        match refused {
+        match rejected {
             true => assert_eq!(before, after, "{call:?}"),
             false => check_written(&read, &after),
         }
@@ -163,7 +163,7 @@ impl Session {
         assert_eq!(broken, self.is_over, "after {count} frames");
         match (broken, count) {
             (false, 1..) => Outcome::accepted(&self.answers),
-            _ => Outcome::refused(&self.answers),
+            _ => Outcome::rejected(&self.answers),
         }
     }
 }

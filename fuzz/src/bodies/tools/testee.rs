@@ -55,7 +55,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     }
     match seen.iter().any(|(answer, _)| *answer) {
         true => Outcome::accepted(seen),
-        false => Outcome::refused(seen),
+        false => Outcome::rejected(seen),
     }
 }
 
@@ -119,7 +119,7 @@ fn is_one(line: &str) {
     assert_eq!(kinds.iter().filter(|kind| value.get(**kind).is_some()).count(), 1, "{line}");
 }
 
-/// Serializing an answer gives the same answer.
+/// A serialised answer is read as the same answer.
 fn again(mut answer: Answer, defect: Defect) {
     let line = serde_json::to_string(&AnswerLine { seq: Some(SEQ), answer: answer.clone() });
     if let (true, Answer::Reject(rejection)) = (defect.is(6), &mut answer) {

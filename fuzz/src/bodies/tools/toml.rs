@@ -10,7 +10,8 @@ use serde_json::Value;
 
 use crate::{Defect, Outcome};
 
-/// The defects of a target for a TOML file: two that all these targets have, then its own.
+/// The defects of a target for a TOML file: two that all these targets have, then those of this
+/// target.
 macro_rules! placed {
     ($($more:literal),*) => {
         &["a file is parsed differently after a comment", "the line of an error is one too low", $($more),*]
@@ -25,7 +26,7 @@ pub(crate) const PROFILE_DEFECTS: &[&str] = placed!(
 pub(crate) const ALLOW_DEFECTS: &[&str] =
     placed!("an entry of a rank is shown as one of a channel");
 
-/// A file of waivers.
+/// Input: a file of waivers. A file that contains the same waiver twice is rejected.
 pub(crate) fn waiver(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, LINE, defect, Waivers::from_toml, alike);
@@ -38,7 +39,8 @@ pub(crate) fn waiver(data: &[u8], defect: Defect) -> Outcome {
     Outcome::of(read.map(|waivers| format!("{waivers:?}")))
 }
 
-/// A profile.
+/// Input: a profile. An accepted profile is read again as it is printed, and claims no function of
+/// a task whose port it does not list.
 pub(crate) fn profile(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, LINE, defect, Profile::from_toml, alike);
@@ -62,7 +64,7 @@ pub(crate) fn profile(data: &[u8], defect: Defect) -> Outcome {
     Outcome::of(read.map(|profile| format!("{profile:?}")))
 }
 
-/// A file of `--allow-write`.
+/// Input: a file for `--allow-write`. An accepted file is read again as it is printed.
 pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, LINE, defect, Allowed::from_toml, alike);
@@ -88,12 +90,13 @@ pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
     Outcome::of(read.map(|allowed| format!("{allowed:?}")))
 }
 
-/// Prints a profile as a file. A serialized profile has the same data, with `_` for `-` in the keys.
+/// Prints a profile as a file. The keys of a serialised profile have `_` where those of a file have
+/// `-`.
 fn shown(profile: &Profile) -> String {
     let Value::Object(all) = serde_json::to_value(profile).expect("JSON") else { panic!("a map") };
     let lines = all.iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| {
-        // A string in JSON is also a string in TOML, except that TOML requires an escape for this
-        // character.
+        // A string in JSON is also a string in TOML, except that TOML requires an escape for
+        // U+007F.
         let value = value.to_string().replace('\u{7F}', "\\u007f");
         format!("{} = {value}\n", key.replace('_', "-"))
     });
@@ -106,7 +109,7 @@ pub(super) fn text(data: &[u8]) -> Option<&str> {
 }
 
 /// Reads a file, and the same file after two additional lines. Both readings give the same value, or errors
-/// whose numbers of lines, which follow `word`, differ by two.
+/// whose line numbers, which follow `word`, differ by two or are both 1.
 pub(super) fn placed<T, E: ToString>(
     text: &str,
     word: &str,

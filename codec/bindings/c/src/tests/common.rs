@@ -1,4 +1,4 @@
-//! Samples of streams and calls, written by hand for the tests of the codec.
+//! The samples of streams and calls that are written by hand for the tests of the codec.
 
 #![allow(dead_code, reason = "written for other tests")]
 

@@ -1,8 +1,9 @@
-//! Null pointers, impossible lengths and random numbers.
+//! Tests with null pointers, impossible lengths and random numbers.
 
 use super::*;
 
-/// Null pointers and lengths that exceed the address space are errors.
+/// A null pointer is an error if its length is not 0 or the argument is required. A length that
+/// exceeds the address space is an error, too.
 #[test]
 fn null_and_impossible_lengths_are_errors() {
     let (most, mut error) = (u32::MAX, zero::<AdsCncError>());
@@ -14,7 +15,7 @@ fn null_and_impossible_lengths_are_errors() {
         assert!(!ads_cnc_encode(&request, null_mut(), 0, null_mut(), null_mut()));
         let request = AdsCncRequest { channel: 1, indices_count: most, ..zero() };
         assert!(!ads_cnc_encode(&request, null_mut(), 0, null_mut(), null_mut()));
-        // CountObjects has no data.
+        // The request of CountObjects has no data, so it needs no buffer.
         assert!(ads_cnc_encode(
             &AdsCncRequest { channel: 1, ..zero() },
             null_mut(),
@@ -63,7 +64,8 @@ fn null_and_impossible_lengths_are_errors() {
     }
 }
 
-/// Random numbers in every struct cause a result or an error, never undefined behaviour.
+/// Random numbers in requests, calls and parts cause a result or an error. Under Miri, this test
+/// detects undefined behaviour.
 #[test]
 fn random_numbers_are_answered() {
     let mut seed = 0x9E37_79B9_u32;

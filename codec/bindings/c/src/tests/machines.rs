@@ -1,4 +1,4 @@
-//! Frames, the sender and the host.
+//! Tests of frames, the sender and the host.
 
 use super::*;
 
@@ -63,7 +63,7 @@ fn a_program_is_sent_in_packets() {
         (zero::<AdsCncSender>(), zero::<AdsCncProgress>(), AdsCncBytes::NONE);
     // SAFETY: all pointers are valid.
     unsafe {
-        // The memory contains no started sender.
+        // The memory is zero, so the sender is not started.
         assert!(
             !ads_cnc_sender_packet(&mut sender, &mut packet)
                 && !ads_cnc_sender_acknowledge(&mut sender, 0)

@@ -32,7 +32,7 @@ where
     Ok(operation.decode_reply(&reply)?.text.to_string())
 }
 
-/// Converts a value to JSON: one level of arrays for each dimension.
+/// Converts a value to JSON. An array has one level of nested arrays for each dimension.
 fn to_json(elements: &Elements<'_>) -> Result<Value> {
     fn nested(values: &[Value], dimensions: &[u32]) -> Value {
         let Some((_, inner)) = dimensions.split_first() else { return values[0].clone() };
@@ -76,7 +76,8 @@ async fn write(cnc: &impl Transport, channel: Channel, name: &str, value: &Value
 pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
     let channel = Channel::new(1)?;
 
-    // Describe all variables, by index. Over tokio, all requests are sent at once.
+    // Describe all variables, by index. Over tokio, all requests are sent without waiting for
+    // replies.
     let count = CountVariables::new(channel, Kind::V_E);
     let number = count.decode_reply(&send(cnc, &count).await?)?.0;
     let listed = try_join_all((0..number).map(async |index| -> Result<Value> {

@@ -46,7 +46,7 @@ def axis_and_element(offset: int, stride: int = 0x10000) -> tuple[int, int]:
 
 
 class Path(NamedTuple):
-    """The parts of the name of a variable: each has a name and indices."""
+    """The kind of a variable, such as "V.G", and the parts of its name, each with its indices."""
 
     kind: str
     parts: list[tuple[str, list[int]]]

@@ -1,4 +1,4 @@
-"""Functions and streams in general; the library provides their tables."""
+"""Requests, dispatch, and decoding and encoding of streams, by the tables that the library provides."""
 
 from __future__ import annotations
 
@@ -202,7 +202,7 @@ _EMPTY = ctypes.create_string_buffer(1)
 
 
 def _some(data: bytes) -> _abi.Bytes:
-    """The struct for `data`. Its pointer is not null, because null would mean that the part is a number."""
+    """Returns the struct for `data`. Its pointer is never null, because null would mean that the part is a number."""
     return _abi.lent(data) if data else _abi.Bytes(ctypes.cast(_EMPTY, ctypes.c_void_p), 0)
 
 

@@ -47,7 +47,8 @@ class Sender:
 
     @property
     def progress(self) -> dict[str, int]:
-        """The state, the accepted packets, lines and bytes, and the remaining lines and bytes."""
+        """The state; the number of accepted packets, lines and bytes; the number of remaining lines and bytes; and
+        the number of busy results for the current packet."""
         it = _abi.Progress()
         _abi.function("sender_progress")(ctypes.byref(self._it), ctypes.byref(it))
         return {name: getattr(it, name) for name, _ in it._fields_}
@@ -112,5 +113,5 @@ class Host:
 
     @property
     def outcome(self) -> Optional[str]:
-        """The outcome of the last answer: "answered" or "abandoned"."""
+        """The outcome of the last answer: "answered" or "abandoned"; None before the first and while one is written."""
         return (None, "answered", "abandoned")[_abi.function("host_outcome", UINT32)(ctypes.byref(self._it))]

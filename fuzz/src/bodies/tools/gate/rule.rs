@@ -79,7 +79,8 @@ impl<'e> Rule<'e> {
         }
     }
 
-    /// Whether the file names a variable.
+    /// Whether the file names a variable on the axis `on` (0: on no axis). With `whole`, an entry
+    /// for an element of an array does not count.
     fn names(&self, channel: ChannelBits, on: u32, requested_name: &[u8], whole: bool) -> bool {
         self.entries.iter().any(|entry| match entry {
             Entry::Variable { channel: of, axis, name } => {
@@ -178,7 +179,8 @@ impl<'e> Rule<'e> {
         let call = frame.len() >= 50 && [2, 3, 9].contains(&command);
         let address = call.then(|| (number(frame, 38), number(frame, 42)));
         let sums = address.is_some_and(|(group, _)| (0xF080..=0xF08F).contains(&group));
-        // A write to the stream without data or with more than 992 bytes is malformed: it needs no entry.
+        // A write to the program stream without data or with more than 992 bytes is malformed: it
+        // needs no entry.
         let stream = address.is_some_and(|(group, offset)| {
             let is_stream = group & !0x10_00FF == 0x2_0100 && offset == 0x90;
             let is_undocumented = command != 3 || group & 0xFF == 0;
@@ -201,7 +203,8 @@ fn is_whole_call(frame: &[u8], command: u16) -> bool {
     }
 }
 
-/// Whether this is a write of a variable by name, or of a content, at the right port.
+/// Whether this is a write of a variable by name, or of the element at 0x123301, 1, at the port of
+/// its task.
 fn is_write(frame: &[u8], command: u16) -> bool {
     let (group, offset, data) = (number(frame, 38), number(frame, 42), &frame[50..]);
     let port = u16::from_le_bytes([frame[12], frame[13]]);

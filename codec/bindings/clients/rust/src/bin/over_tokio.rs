@@ -42,7 +42,8 @@ impl Connection {
         let stream = timeout(TIMEOUT, TcpStream::connect(address)).await??;
         stream.set_nodelay(true)?;
         let (read, write) = stream.into_split();
-        // At most 32 frames wait to be written; a request beyond them waits.
+        // At most 32 frames wait to be written; further requests wait until one of them was
+        // written.
         let (frames, to_write) = mpsc::channel(32);
         let pending = Pending::default();
         tokio::spawn(write_frames(write, to_write));
@@ -51,8 +52,8 @@ impl Connection {
     }
 }
 
-/// Writes frames in a separate task: a future may be dropped at any `await`, but a partial frame must
-/// not be sent.
+/// Writes frames in a separate task: the future of a request may be dropped at any `await`, but a
+/// partial frame must not be sent.
 async fn write_frames(mut write: OwnedWriteHalf, mut frames: mpsc::Receiver<Vec<u8>>) {
     while let Some(frame) = frames.recv().await {
         if write.write_all(&frame).await.is_err() {
@@ -73,7 +74,8 @@ async fn read_frames(mut read: OwnedReadHalf, pending: Pending) {
     lock(&pending).clear();
 }
 
-/// Passes each complete frame to its request; returns the length of these frames.
+/// Passes each complete frame that is a reply to its request; returns the length of all complete
+/// frames.
 fn take_frames(received: &[u8], pending: &Pending) -> std::result::Result<usize, ads_cnc::Error> {
     let mut end = 0;
     // `split` itself limits the data: it rejects a frame that is longer than any service can have.
