@@ -1,8 +1,8 @@
-"""Convert a TCP capture to a pcap file with each AMS frame in an EtherCAT frame, as the ADS Monitor does.
+"""Write the AMS frames of a TCP capture to a pcap file, each in an EtherCAT frame as in a file of the ADS Monitor.
 
     .ci/ads_monitor.py <FIELDS >PCAP
 
-FIELDS has a line of tshark for each packet: time, TCP stream, source port and payload in hexadecimal digits.
+FIELDS is the output of tshark with a line for each packet: time, TCP stream, source port, and payload in hex.
 """
 import struct
 import sys

@@ -54,9 +54,9 @@ def read(files):
 
 
 def is_same(expected, value, is_text=False):
-    """Returns whether a value that a reader found is the value that these bytes encode."""
+    """Returns whether `value`, which a reader found, is the value that the bytes `expected` encode."""
     if isinstance(value, dict):
-        # For a text, the value of a reader does not contain the NUL and the bytes after it.
+        # The value that a reader finds for a text lacks the NUL and the bytes after it.
         return value["hex"] == expected.hex() or (is_text and value["hex"] == expected.split(b"\0")[0].hex())
     if isinstance(value, list):
         size = len(expected) // max(len(value), 1)
@@ -64,7 +64,7 @@ def is_same(expected, value, is_text=False):
         return b"".join(items) == expected and all(map(is_same, items, value))
     if len(expected) == 8:
         number = struct.unpack("<d", expected)[0]
-        # JSON has no NaN.
+        # JSON has no NaN: the reader in JavaScript prints it as null, the one in Python as NaN.
         return value is None or value != value if number != number else struct.pack("<d", value) == expected
     # A reader has no value for an absent field.
     return value == int.from_bytes(expected, "little") if expected else value is None

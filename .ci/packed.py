@@ -1,4 +1,10 @@
-"""Check the contents of a packed crate: `packed.py CRATE UNPACKED SOURCE`."""
+"""Check the manifest, the files and the size of a packed crate, and print each fault.
+
+    .ci/packed.py CRATE UNPACKED SOURCE     the packed file, the folder of its unpacked contents, the folder
+                                            of the crate in the repository
+
+Needs Python 3.11 or later.
+"""
 
 import os
 import pathlib
@@ -11,7 +17,7 @@ LICENCES = ("LICENSE-APACHE", "LICENSE-MIT")
 FIELDS = ("description", "documentation", "license", "readme", "rust-version")
 # The keywords that crates.io accepts.
 KEYWORD = re.compile(r"[A-Za-z0-9][A-Za-z0-9_+-]{0,19}")
-# Twice the size of the largest crate, that of the suite: a larger one contains files by mistake.
+# Twice the size in bytes of the largest crate, that of the suite: a larger crate contains files by mistake.
 PACKED_MAX = 2 << 20
 # The files that cargo rewrites or adds when it packs a crate.
 CARGOS = ("Cargo.toml", "Cargo.toml.orig", "Cargo.lock", ".cargo_vcs_info.json")

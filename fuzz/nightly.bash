@@ -238,12 +238,11 @@ summary() {
     echo "results in $output"
 }
 
-# Lists the inputs that libFuzzer named, with the digest of their bytes as the name. All other inputs were
-# named by hand.
+# Lists the inputs that libFuzzer named, with the digest of their bytes as the name.
 digests() { find "$1" -maxdepth 1 -type f 2>/dev/null | grep -E '/[0-9a-f]{40}$' || true; }
 
-# Collects the kept and new inputs that add coverage to the committed ones. Committed inputs with a name
-# given by hand always stay.
+# Collects the kept and new inputs that add coverage to the committed ones. Committed inputs
+# with another name than a digest always stay.
 minimise() {
     local target="$1" base into="$output/corpus/$1" path before options folders status=0
     base="$(mktemp -d)"

@@ -37,7 +37,7 @@ fn constants(requirements: &str) -> String {
     format!("{items}pub(crate) const EVERY: &[ClauseId] = &[{names}];\n")
 }
 
-/// The path and the text of each JSON file in a folder, sorted by name.
+/// The code of a list with the path and the text of each JSON file in a folder, sorted by name.
 fn included(folder: &str) -> io::Result<String> {
     println!("cargo::rerun-if-changed={folder}");
     let files = fs::read_dir(folder)?.map(|file| Ok(file?.file_name()));

@@ -1,4 +1,5 @@
-//! Tests of the texts of `Display` and `Debug`. `shown_errors.rs` tests those of errors.
+//! Tests of the texts of `Display` and `Debug`. `shown_errors.rs` tests those of
+//! `Error`, `ErrorKind` and `DispatchError`.
 
 use std::fmt::{Debug, Display};
 

@@ -128,7 +128,7 @@ fn resident() -> Option<u64> {
     line.split_whitespace().nth(1)?.parse().ok()
 }
 
-/// Sends malformed frames while another client works.
+/// Sends malformed frames, and checks that another client gets correct replies at the same time.
 fn malformed(addr: SocketAddr, frames: u64) -> Result<()> {
     let over = AtomicBool::new(false);
     let (asked, connections) = thread::scope(|scope| {
@@ -156,7 +156,7 @@ fn malformed(addr: SocketAddr, frames: u64) -> Result<()> {
     if asked == 0 { Err("the other client was not answered".into()) } else { Ok(()) }
 }
 
-/// Sends the frames; returns the number of connections.
+/// Sends `frames` malformed frames; returns the number of connections that this needs.
 fn disturb(addr: SocketAddr, frames: u64) -> Result<u64> {
     // The generator of Numerical Recipes, for the same frames each time.
     let mut state = 0x5EED_u32;
@@ -172,8 +172,9 @@ fn disturb(addr: SocketAddr, frames: u64) -> Result<u64> {
         stream.set_read_timeout(Some(Duration::from_millis(1)))?;
         while sent < frames {
             let mut frame = REQUEST.to_vec();
-            // Most frames have wrong bytes after the lengths and are answered. One in 64 has a wrong
-            // length, is truncated, or is noise, which ends the connection.
+            // Most frames have wrong bytes after the headers and are answered. On average, 3 of 64
+            // frames have a wrong length, are truncated, or are noise; after such a frame, this
+            // client disconnects.
             match random() % 64 {
                 0 => frame[2..6].copy_from_slice(&random().to_le_bytes()),
                 1 => frame.truncate(random() as usize % REQUEST.len()),

@@ -44,7 +44,12 @@ pub(crate) const fn reply_stream(service: AdsService) -> Stream {
     }
 }
 
-/// Result and data of a service's reply; the reply to a Write has no data.
+/// Decodes the payload of a service's reply into result and data. The data is `None` for a Write,
+/// and if the reply ends after a result that is not 0.
+///
+/// # Errors
+/// If the payload is not a reply of the service, for example because bytes follow the result of a
+/// Write.
 pub fn decode_reply(
     service: AdsService,
     payload: &[u8],
@@ -58,7 +63,10 @@ pub fn decode_reply(
     }
 }
 
-/// Encodes a service's reply; the reply to a Write has no data.
+/// Encodes the payload of a service's reply; `data` is ignored for a Write.
+///
+/// # Errors
+/// If the result is 0 and `data` is `None`, except for a Write.
 pub fn encode_reply(
     service: AdsService,
     result: AdsError,

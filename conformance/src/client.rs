@@ -1,4 +1,5 @@
-//! An AMS/TCP client that records all bytes sent and received, and checks the headers of each frame.
+//! An AMS/TCP client. It returns the bytes of each request and its reply, checks the headers of the
+//! reply, and can capture all bytes sent and received.
 
 mod inquiry;
 mod judge;
@@ -27,10 +28,11 @@ pub use tap::Tap;
 pub use target::Target;
 pub(crate) use target::net_id_of;
 
-/// The AMS port from which requests are sent; no program needs to be registered on it.
+/// The first of the 16 AMS ports from which requests are sent. No program needs to be registered on
+/// them.
 pub(crate) const SOURCE_PORT: AmsPort = AmsPort(0x8000);
 
-/// A connection to a target, through the gate.
+/// A connection to a target. The [`Gate`] decides which frames it may send.
 #[derive(Debug)]
 pub struct Client {
     target: Target,
@@ -45,7 +47,7 @@ pub struct Client {
     piece: Option<usize>,
 }
 
-/// How to open the first connection, and a new connection after one is lost.
+/// How to open the first connection, and a new connection after a connection was closed.
 #[derive(Clone, Debug)]
 enum ConnectMethod {
     /// Over TCP, to the target's address.
@@ -58,14 +60,14 @@ enum ConnectMethod {
 const PAUSE: Duration = Duration::from_millis(1);
 
 /// Maximum number of replies with an unexpected invoke ID, before the expected reply, that are
-/// reported as separate violations; further ones are counted.
+/// reported as separate violations; further replies are only counted.
 const STRAYS_MAX: u64 = 3;
 
 /// Maximum time to wait for the reply after a second frame that is not the reply.
 const AFTER_STRAY: Duration = Duration::from_millis(250);
 
-/// The number before the first invoke ID. Its four bytes differ and none is 0, so that a wrong byte
-/// in the ID of a response is detected.
+/// The number before the first invoke ID. None of its bytes is 0, so that the client detects a
+/// device that returns 0 for some bytes of an ID.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
 
 impl Client {
@@ -73,16 +75,17 @@ impl Client {
     /// this machine.
     ///
     /// # Errors
-    /// If no server listens at the address, or the gate allows malformed requests to another machine.
+    /// If no server listens at the address, the gate allows malformed requests to another machine,
+    /// or the gate is for another address.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
         Self::connected(target, gate, ConnectMethod::Tcp)
     }
 
-    /// Connects to a CNC in this process without a socket. The clock of the CNC must be stopped; it
-    /// is advanced while the client waits for a reply.
+    /// Connects to a CNC in this process without a socket. The clock of the CNC must be stopped;
+    /// the client advances it by the time for which it would wait.
     ///
     /// # Errors
-    /// If the gate allows malformed requests to another machine.
+    /// If the gate allows malformed requests to another machine, or is for another address.
     pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn LocalPeers>) -> io::Result<Self> {
         Self::connected(target, gate, ConnectMethod::InProcess(cnc))
     }
@@ -96,10 +99,10 @@ impl Client {
     }
 
     /// Creates a client for a dry run: it never connects, and sends no request, but the gate checks
-    /// each one.
+    /// each request.
     ///
     /// # Errors
-    /// If the gate allows malformed requests to another machine.
+    /// If the gate allows malformed requests to another machine, or is for another address.
     pub fn dry(target: Target, gate: Gate) -> io::Result<Self> {
         Ok(Self { dry: true, ..Self::unconnected(target, gate)? })
     }
@@ -146,7 +149,7 @@ impl Client {
         self
     }
 
-    /// Takes the capture, to continue it on another connection; this client stops capturing.
+    /// Removes and returns the capture, so that another client can continue it.
     pub(crate) fn take_capture(&mut self) -> Option<Box<dyn Tap>> {
         let mut capture = self.capture.take()?;
         capture.closed();
@@ -154,6 +157,9 @@ impl Client {
     }
 
     /// Ends the capture, if any.
+    ///
+    /// # Errors
+    /// The first error of the system while the capture was written.
     pub fn end_capture(&mut self) -> io::Result<()> {
         self.capture.take().map_or(Ok(()), Tap::finish)
     }
@@ -163,7 +169,8 @@ impl Client {
         self.piece = piece;
     }
 
-    /// Waits; the clock of a CNC in this process advances by the same time.
+    /// Waits for this time. A client [in process](Self::in_process), without a socket, advances the
+    /// CNC's clock instead of waiting.
     pub(crate) fn wait(&self, time: Duration) {
         match &self.connect_method {
             ConnectMethod::Tcp => thread::sleep(time),
@@ -217,7 +224,7 @@ impl Client {
     }
 
     /// Sends a call if the gate allows it, and stores the result in `exchange`. Returns the header
-    /// with which it was sent.
+    /// of the sent frame.
     fn sent(
         &mut self,
         call: &Call<'_>,
@@ -225,14 +232,13 @@ impl Client {
     ) -> Result<AmsHeader, ExchangeError> {
         let header = self.next_header(call.port, call.service.command());
         let bytes = frame(header, call)?;
-        let Exchange { received, violations, .. } = exchange;
-        let came = self.deliver(&bytes, header, received, violations)?;
+        let Exchange { sent, received, violations, .. } = exchange;
+        let came = self.deliver(&bytes, header, sent, received, violations)?;
         progress::requests(1);
         exchange.outcome = came.and_then(|got| {
             let data = exchange.received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
             answer(header, got, data).map(|answer| (answer, got))
         });
-        exchange.sent = bytes;
         // A handle or an address from a reply with another invoke ID must not permit a write.
         let reply = exchange.outcome.as_ref().ok();
         let reply = reply.filter(|(_, got)| got.invoke_id == header.invoke_id);
@@ -242,12 +248,14 @@ impl Client {
         Ok(header)
     }
 
-    /// Sends a frame if the gate allows it, and waits for its reply; afterwards `received` contains
-    /// only the bytes of the reply. The outer error is the reason why nothing was sent.
+    /// Sends a frame if the gate allows it, and waits for its reply. Afterwards, `sent` contains the
+    /// frame, unless no connection could be opened, and `received` only the bytes of the reply, or
+    /// the part of it that arrived. The outer error is the reason why nothing was sent.
     fn deliver(
         &mut self,
         bytes: &[u8],
         header: AmsHeader,
+        sent: &mut Vec<u8>,
         received: &mut Vec<u8>,
         violations: &mut Vec<Violation>,
     ) -> Result<Result<AmsHeader, ExchangeError>, ExchangeError> {
@@ -259,10 +267,13 @@ impl Client {
         }
         let mut strays = 0;
         let mut came = self.exchange(permit, header, received, violations, &mut strays);
+        if !matches!(came, Err(ExchangeError::Disconnected(_))) {
+            sent.extend(bytes);
+        }
         let lost = matches!(came, Err(ExchangeError::Closed | ExchangeError::Io(_)));
         if lost && permit.is_repeatable() {
-            // The CNC may have closed an idle connection. Whether it executed a write before that is
-            // unknown, so a write is not sent twice.
+            // The CNC may have closed an idle connection. Whether it executed a write before that
+            // is unknown, so a write is not sent twice.
             received.clear();
             self.disconnect();
             came = self.exchange(permit, header, received, violations, &mut strays);
@@ -300,8 +311,8 @@ impl Client {
         AmsHeader::request(target, source, command, self.invoke_id)
     }
 
-    /// Closes the connection. On the next connection, another CNC may answer, or the same CNC after a
-    /// restart.
+    /// Closes the connection. The gate forgets the names that allow writes, because another CNC may
+    /// answer on the next connection, or the same CNC after a restart.
     fn disconnect(&mut self) {
         self.wire = None;
         if let Some(capture) = &mut self.capture {
@@ -363,7 +374,8 @@ impl Client {
                         let what =
                             format!("{} after the reply", plural(more.len(), "unexpected byte"));
                         violations.push(Violation { requirement: ADS_5, what });
-                        // Without a whole frame, the start of the next reply is unknown.
+                        // If these bytes are not whole frames, the start of the next reply is
+                        // unknown.
                         if !are_frames(more) {
                             self.disconnect();
                         }
@@ -376,8 +388,8 @@ impl Client {
                     violations.push(Violation::of_invoke_id(id, asked_id));
                 }
                 received.drain(..len);
-                // The first such frame may be late; if a device sends more of them, the client
-                // stops waiting.
+                // The first such frame may be a late reply. After the second, the client waits for
+                // at most `AFTER_STRAY`.
                 if *strays > 1 {
                     timeout = timeout.min(started.elapsed().saturating_add(AFTER_STRAY));
                 }
@@ -422,8 +434,9 @@ fn are_frames(mut bytes: &[u8]) -> bool {
     bytes.is_empty()
 }
 
-/// Whether a header with a wrong invoke ID belongs to the reply to this request. A late reply to an
-/// earlier request has another target port, and an invoke ID that this client has sent.
+/// Whether a header with a wrong invoke ID belongs to the reply to this request. A late reply to
+/// one of the 15 previous requests has another target port, and an invoke ID that this client has
+/// sent.
 fn is_reply(sent: &AmsHeader, got: &AmsHeader) -> bool {
     let has_addresses = (got.target, got.source) == (sent.source, sent.target);
     let was_sent = FIRST_INVOKE_ID < got.invoke_id && got.invoke_id < sent.invoke_id;
@@ -449,8 +462,38 @@ pub(crate) fn answer(
     if !header.error.is_ok() && payload.is_empty() {
         return Ok(AdsReply { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
     }
-    // A reply to any other command starts with a result, like that of a Write; more data may follow.
+    // A reply to any other command is decoded like a reply to a Write: a result without data.
     let service = service_of(sent.command).unwrap_or(AdsService::Write);
     let (result, data) = decode_reply(service, payload).map_err(ExchangeError::Malformed)?;
     Ok(AdsReply { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })
+}
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc::Kind;
+    use ads_cnc::address::Channel;
+    use ads_cnc::operation::{CountVariables, Request};
+
+    use super::*;
+    use crate::gate::NET_ID;
+    use crate::net;
+
+    /// The first request is sent before the connection is found to be closed. Without a connection,
+    /// the second request is not sent.
+    #[test]
+    fn without_a_connection_no_frame_is_sent() {
+        let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
+        let target = Target::local(listener.local_addr().unwrap(), NET_ID);
+        let mut client = Client::connect(target, Gate::queries()).unwrap();
+        drop(listener.accept().unwrap());
+        drop(listener);
+        let request = Request::from(CountVariables::new(Channel::new(1).unwrap(), Kind::V_E));
+        let mut buf = [0; 64];
+        let call = request.encode(&mut buf).unwrap();
+        let exchanges = [client.call(&call), client.call(&call)];
+        let is_disconnected =
+            |one: &Exchange| matches!(one.outcome, Err(ExchangeError::Disconnected(_)));
+        assert!(exchanges.iter().all(is_disconnected), "{exchanges:?}");
+        assert_eq!(exchanges.map(|one| one.sent.is_empty()), [false, true]);
+    }
 }

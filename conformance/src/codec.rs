@@ -1,4 +1,5 @@
-//! This project's codec by the names of the vectors: decodes bytes to fields, and encodes fields.
+//! Calls this project's codec by the stream and field names of the golden vectors: decodes bytes to
+//! fields, and encodes fields.
 
 mod address;
 mod decoded;
@@ -17,7 +18,7 @@ use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::{Context, Fields};
 use field_reader::FieldReader;
 
-/// The class of an error, with the name that the vectors use.
+/// The name of an error's class in the golden vectors.
 pub fn class(error: &Error) -> &'static str {
     match error.kind() {
         ErrorKind::Truncated => "truncated",
@@ -39,7 +40,7 @@ pub fn class(error: &Error) -> &'static str {
 /// Decodes `bytes` as the stream of this name.
 ///
 /// # Errors
-/// If the codec rejects the bytes, or the stream is unknown.
+/// If the codec rejects the bytes, the stream is unknown, or the context is incomplete.
 pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError> {
     match name {
         "ams-frame" => frame::decode(context, bytes),
@@ -53,7 +54,8 @@ pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
 /// Encodes fields as the stream of this name.
 ///
 /// # Errors
-/// If the fields are not a value of the stream, or the codec rejects them.
+/// If the fields are not a value of the stream, the codec rejects them, the stream is unknown, or
+/// the context is incomplete.
 pub fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, CodecError> {
     let of = FieldReader(fields);
     match name {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::text::shown_time;
 
-/// The time after which a command sends no more requests.
+/// The instant after which a command sends no more requests.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
     at: Option<Instant>,
@@ -13,8 +13,8 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// Creates a deadline that is `time` from now. If the clock cannot represent that instant, the deadline
-    /// never passes.
+    /// Creates a deadline that is `time` from now. If the clock cannot represent that instant, the
+    /// deadline never passes.
     pub fn after(time: Duration) -> Self {
         Self { at: Instant::now().checked_add(time), after: time }
     }

@@ -22,13 +22,14 @@ pub struct Evidence {
     pub compared: Vec<Function>,
     /// Whether the reply must be a rejection.
     pub is_rejection: bool,
-    /// Name of the stream in the request's data, if the request calls a documented function.
+    /// Name of the stream in the request's data; `None` if `function` is `None`, if the function
+    /// has no such stream, or if the bytes are truncated.
     pub request_stream: Option<&'static str>,
-    /// Name of the stream in the reply's data.
+    /// Name of the stream in the data of a successful reply; `None` in the same cases.
     pub reply_stream: Option<&'static str>,
     /// Data of the request.
     pub sent: Vec<u8>,
-    /// Data of the reply.
+    /// Data of the reply; `None` without a valid reply, or for an error reply without data.
     pub received: Option<Vec<u8>>,
     /// The expected data of the reply, if all of its bytes are known.
     pub expected: Option<Vec<u8>>,
@@ -46,7 +47,7 @@ pub struct Evidence {
 const EVIDENCE_MAX: usize = 4096;
 
 impl Evidence {
-    /// The first bytes, up to the maximum.
+    /// The first [`EVIDENCE_MAX`] bytes, or all bytes if there are fewer.
     pub(crate) fn start(bytes: &[u8]) -> &[u8] {
         bytes.get(..EVIDENCE_MAX).unwrap_or(bytes)
     }
@@ -56,7 +57,8 @@ impl Evidence {
         self.expected = Some(Self::start(reply).to_vec());
     }
 
-    /// Truncates a long exchange and adds a note about it.
+    /// Stores the two frames, each truncated to [`EVIDENCE_MAX`] bytes. If a frame is longer, adds
+    /// a note to `result`.
     pub(crate) fn cut(mut self, sent: &[u8], received: &[u8]) -> Self {
         (self.frame_sent, self.frame_received) =
             (Self::start(sent).to_vec(), Self::start(received).to_vec());

@@ -26,13 +26,14 @@ pub struct Exchange {
     pub index_offset: IndexOffset,
     pub read_length: u32,
     pub data: Vec<u8>,
-    /// The whole frame that was sent; empty if none was sent.
+    /// The whole frame of the request; empty if the request was rejected by the gate, cannot be
+    /// encoded, or belongs to a dry run, or if no connection could be opened.
     pub sent: Vec<u8>,
     /// The frame received, or the part of it that arrived.
     pub received: Vec<u8>,
     /// The reply and its AMS header, or the reason why there is no valid reply.
     pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
-    /// Rules of AMS/TCP that the received frame violates.
+    /// Violations of the rules of AMS/TCP in the received bytes.
     pub violations: Vec<Violation>,
 }
 
@@ -43,12 +44,12 @@ pub struct AdsReply {
     pub ams_error: AdsError,
     /// Result of the service.
     pub result: AdsError,
-    /// The data; `None` if the reply ends before the data.
+    /// The data; `None` if the reply ends after its result, as every reply to a Write does.
     pub data: Option<Vec<u8>>,
 }
 
 impl AdsReply {
-    /// The data of a successful reply; `None` for an error.
+    /// The data of a successful reply, which is empty for a Write; `None` for an error.
     pub fn success(&self) -> Option<&[u8]> {
         match (self.ams_error.is_ok(), self.result.is_ok()) {
             (true, true) => Some(self.data.as_deref().unwrap_or_default()),
@@ -81,6 +82,7 @@ pub enum ExchangeError {
     Unsendable(Error),
     /// No reply arrived within this time.
     Silence(Duration),
+    /// The target closed the connection before the reply.
     Closed,
     /// The reply was not examined, because only the request is judged.
     Unseen,
@@ -108,7 +110,7 @@ impl fmt::Display for ExchangeError {
             Self::NotPermitted(why) => write!(f, "not sent, rejected for safety: {why}"),
             Self::NotSent => f.write_str("not sent (dry run)"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
-            // The hashes of `doc/detection.tsv` depend on the texts of these errors.
+            // The hashes of `doc/detection.tsv` depend on the texts of the following errors.
             Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
             Self::Closed => f.write_str("connection closed without an answer"),
             Self::Unseen => f.write_str("not examined: only the request is judged"),
@@ -119,7 +121,7 @@ impl fmt::Display for ExchangeError {
     }
 }
 
-/// A rule of AMS/TCP that a frame violates, independent of its data.
+/// A violation of a rule of AMS/TCP that does not concern the data of a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     pub requirement: ClauseId,
@@ -222,7 +224,7 @@ impl From<&Exchange> for Evidence {
     fn from(exchange: &Exchange) -> Self {
         let function = exchange.call().dispatch().ok().map(|request| request.function());
         let spec = function.map(Function::spec);
-        // An error reply does not contain the stream of a successful reply.
+        // An error reply without data has no stream to show.
         let has_stream = |data: &&[u8]| exchange.success().is_some() || !data.is_empty();
         let data = exchange.reply().and_then(|reply| reply.data.as_deref()).filter(has_stream);
         let evidence = Self {
@@ -260,8 +262,9 @@ fn header(frame: &[u8]) -> Option<AmsHeader> {
     AmsHeader::decode(header).ok()
 }
 
-/// Whether the received bytes are a reply over AMS: they start with an AMS header that contains an
-/// address of the request, or they end before the header is complete.
+/// Whether the received bytes are a reply over AMS: either their AMS header contains the source or
+/// the target address of the request, or they end between a valid AMS/TCP header and the end of the
+/// AMS header.
 pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     let Some((sent, got)) = header(sent).zip(header(received)) else {
         return incomplete_frame(received).is_some();
@@ -270,21 +273,22 @@ pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     of_request.contains(&got.source) || of_request.contains(&got.target)
 }
 
-/// The length of the frame that starts with these bytes, if they are only a part of it.
+/// The length of the frame that starts with these bytes, if they are only a part of the frame and
+/// contain at least its AMS/TCP header.
 pub(crate) fn incomplete_frame(received: &[u8]) -> Option<usize> {
     let header = AmsTcpHeader::decode(received.get(..AMS_TCP_HEADER_LEN)?).ok()?;
     let whole = usize::try_from(header.length).ok()?.checked_add(AMS_TCP_HEADER_LEN)?;
     (FrameRef::split(received, u32::MAX) == Ok(None)).then_some(whole)
 }
 
-/// The violation if the received frame has another invoke ID than the sent one.
+/// The violation if the invoke ID of the received frame differs from that of the sent frame.
 pub(crate) fn other_invoke_id(sent: &[u8], received: &[u8]) -> Option<Violation> {
     let (id, asked) = (header(received)?.invoke_id, header(sent)?.invoke_id);
     (id != asked).then(|| Violation::of_invoke_id(id, asked))
 }
 
-/// The violations of ADS-5 in the header of a response. The hashes of `doc/detection.tsv` depend on
-/// their texts.
+/// The violations in the AMS header of a response: a wrong command, wrong state flags or a wrong
+/// address (ADS-5). The hashes of `doc/detection.tsv` depend on the texts of the violations.
 pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let mut broken = Vec::new();
     let mut check = |kept: bool, what: fmt::Arguments<'_>| {

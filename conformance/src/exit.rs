@@ -1,20 +1,24 @@
-//! The exit codes of all commands. `judge/tally.rs` determines the one of a run.
+//! The exit codes of all commands. `judge/tally.rs` determines the exit code of a run. After a
+//! second signal, a process that leaves no value changed ends with 130, which is not in [`Exit`]
+//! (`process/interrupt.rs`).
 
 use std::process::ExitCode;
 
-/// The exit code of a run; it is never a count.
+/// The exit code of a command. It does not depend on the number of failures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// 0: every judged requirement passed; warnings and differences are permitted.
+    /// 0: success. A run may have warnings, differences and waived failures.
     Success,
-    /// 1: a verdict is fail or vacuous.
+    /// 1: a verdict that is not waived is fail or vacuous; or a tool failed, for example because
+    /// the CNC returned an error.
     Failure,
-    /// 2: the command line is wrong.
+    /// 2: the command line or a file that it names is wrong.
     Usage,
-    /// 3: nothing was judged, a verdict is inconclusive, or the run was interrupted.
+    /// 3: nothing was judged, a verdict is inconclusive, or the run was interrupted; or a tool
+    /// received no reply.
     Nothing,
-    /// 4: the gate rejected a request, or the file of `--allow-write` does not fit the target
-    /// (`report/build.rs`).
+    /// 4: the gate rejected a request, or the file of `--allow-write` has expired or does not fit
+    /// the target (`report/build.rs`).
     NotPermitted,
     /// 5: a waiver is stale (`judge/waivers.rs`).
     Stale,
@@ -42,7 +46,7 @@ impl Exit {
         Self::ALL.into_iter().find(|exit| exit.code() == code)
     }
 
-    /// All exit codes, in the order of precedence.
+    /// All exit codes, in the order of precedence: if several codes apply, the first is used.
     pub const ALL: [Self; 8] = [
         Self::Internal,
         Self::UnrestoredValue,

@@ -1,5 +1,5 @@
-//! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]. This crate
-//! contains all code that opens a socket or a file.
+//! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]. The codec
+//! itself opens no socket and no file.
 //!
 //! A module imports only modules below it in this table, which `tests/readme/floors.rs` checks.
 //!
@@ -23,7 +23,7 @@
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |
 //! | [`process`] | runs commands given by the user, and handles signals |
-//! | [`tables`] | the codec's tables as data, and a dissector generated from them |
+//! | [`tables`] | the codec's tables as data, and in the forms of Wireshark and Kaitai Struct |
 //! | [`explain`] | explains the bytes of any stream, field by field |
 //! | [`codec`], [`vector_format`] | calls the codec by the stream names of the vectors, and formats values as text |
 //! | [`judge`] | case, check, outcome, verdict, plan, waiver |
@@ -37,17 +37,20 @@
 //! | [`text`] | hex, escapes, durations, patterns of names, JSON |
 //! | [`number`], [`mutex`] | converts numbers and lengths; locks a mutex |
 //!
-//! All bytes that the simulated CNC sends are encoded by [`ads_cnc`]; there is no second encoder.
+//! The simulated CNC encodes all headers and streams that it sends with [`ads_cnc`]; this crate has
+//! no second encoder.
 //!
 //! The stable interface is the command `ads-cnc`: its arguments, exit codes and JSON. This library
-//! is public only for its tests and fuzz targets, and may change with any version.
+//! is public only for the command, for its tests, for `conformance/load` and for the fuzz targets,
+//! and may change with any version.
 
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods)]
 // Code must not panic on bytes from outside, nor between a write and the restoring of its value.
-// Modules without such code allow these lints, here or in their parent module: in such a module, a
-// panic only makes one case a harness error, or ends a tool before its first request. In the modules
-// `cli` and `suite`, the files that write to a target or restore a value deny the lints again.
+// Some modules allow these lints, here or in their parent module: a panic in such a module only
+// makes one case a harness error, or ends a tool that has no changed value to restore. In the
+// modules `cli` and `suite`, the files that write to a target or restore a value deny the lints
+// again.
 #![cfg_attr(
     not(test),
     deny(

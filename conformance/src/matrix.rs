@@ -34,7 +34,7 @@ use crate::text::wrap;
 pub use sections::to_sections;
 pub use simulated::{SEQUENCES, SIMULATOR_CHECKS};
 
-/// A requirement with its sources and everything that verifies it.
+/// A requirement with its sources, and the vectors, cases, tests and fuzz targets that verify it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct RequirementRow {
@@ -44,7 +44,7 @@ pub struct RequirementRow {
     pub title: String,
     /// The text of the requirement.
     pub text: String,
-    /// Parts of the requirement whose basis differs from that of the whole requirement.
+    /// The parts of the requirement that have a basis and a level of their own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartRow>,
     /// The basis: stated, derived, assumed or online.
@@ -61,16 +61,17 @@ pub struct RequirementRow {
     /// The rulings on these errata.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rulings: Vec<RulingRow>,
-    /// Vectors and sequences that must decode.
+    /// Vectors and sequences that must be accepted.
     pub accepted: Vec<String>,
     /// Vectors and sequences that must be rejected.
     pub rejected: Vec<String>,
     /// Cases of the suite for a target or captured traffic, and scenarios for a client. Cases that
     /// decode a vector are listed as vectors.
     pub cases: Vec<String>,
-    /// Tests of the simulated CNC, for behaviour that no case can show.
+    /// Tests of the simulated CNC, in `tests/simulator`.
     pub tests: Vec<&'static str>,
-    /// Fuzz targets that reach the bytes of the requirement.
+    /// Fuzz targets for the streams and sequences of `accepted` and `rejected`, and for the
+    /// dispatch of the functions of the requirement.
     pub fuzz_targets: BTreeSet<&'static str>,
 }
 
@@ -191,8 +192,8 @@ fn paragraph(out: &mut String, name: &str, words: &str) {
     }
 }
 
-/// Formats an erratum as text: its readings, the ruling, and the requirements, vectors and sequences that
-/// cite it.
+/// Formats an erratum as text: its readings, the ruling, the open question, and the requirements,
+/// vectors and sequences that cite the erratum.
 pub fn erratum_to_text(erratum: &Erratum) -> String {
     let Erratum { id, title, readings, ruling, status, question } = erratum;
     let mut text = format!("{id}  {title} ({})\n", format!("{status:?}").to_lowercase());
@@ -241,7 +242,7 @@ pub fn to_text(rows: &[RequirementRow]) -> String {
     text
 }
 
-/// Formats the matrix as a Markdown table with the numbers of vectors and cases.
+/// Formats the matrix as a Markdown table with the numbers of vectors, cases and tests.
 pub fn to_markdown(rows: &[RequirementRow]) -> String {
     let mut text = String::from(
         "| requirement | level | basis | sources | errata | accepted | rejected | cases | tests | fuzzed |\n\
@@ -273,7 +274,8 @@ pub fn to_markdown(rows: &[RequirementRow]) -> String {
 mod tests {
     use super::*;
 
-    /// Each requirement has a vector, a case, or a reason why it has none.
+    /// Each requirement that is observable in a codec has an accepted vector, a case, a test of the
+    /// simulated CNC, or a reason why it is excluded.
     #[test]
     fn every_requirement_is_verified_or_excluded() {
         let rows = matrix();
@@ -292,7 +294,8 @@ mod tests {
         }
     }
 
-    /// All formats have all requirements, and the sections have all functions and streams.
+    /// All formats have all requirements, and the sections have all functions and the types of all
+    /// streams.
     #[test]
     fn all_formats_have_all_rows() {
         let rows = matrix();

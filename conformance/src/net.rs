@@ -1,4 +1,5 @@
-//! The only module that opens sockets; a lint forbids this in other modules.
+//! The only module that opens sockets: the lint `clippy::disallowed_methods` forbids this in the
+//! other modules.
 
 #![allow(clippy::disallowed_methods, reason = "this is the one place")]
 
@@ -15,12 +16,14 @@ use crate::gate::Permit;
 /// Listens on an address; for port 0 the system chooses the port.
 ///
 /// # Errors
-/// An error of the system, for example if the port is in use or this machine does not have the address.
+/// An error of the system, for example if the port is in use or this machine does not have the
+/// address.
 pub fn listen(addr: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(addr)
 }
 
-/// Accepts the connections of a listener in its own thread, until the `Acceptor` is dropped.
+/// Accepts the connections of a listener in a separate thread, until the `Acceptor` is stopped or
+/// dropped.
 #[derive(Debug)]
 pub struct Acceptor {
     addr: SocketAddr,
@@ -29,7 +32,8 @@ pub struct Acceptor {
 }
 
 impl Acceptor {
-    /// Calls `take` with each accepted connection and the address of its peer.
+    /// Starts the thread `name`, which calls `take` with each accepted connection and the address
+    /// of its peer.
     ///
     /// # Errors
     /// If the listener has no address, or the system cannot start a thread.
@@ -48,8 +52,8 @@ impl Acceptor {
             match accepted {
                 Ok((stream, peer)) => take(stream, peer),
                 Err(error) => {
-                    // The most likely cause is that no file descriptor is free: waits until other
-                    // connections end.
+                    // The most likely cause is that no file descriptor is free. The pause gives
+                    // other connections time to end.
                     tracing::warn!("no connection accepted: {error}");
                     thread::sleep(Duration::from_millis(50));
                 }
@@ -64,12 +68,13 @@ impl Acceptor {
         self.addr
     }
 
-    /// Stops accepting connections.
+    /// Stops accepting connections, and waits for the thread to end.
     pub fn stop(&mut self) {
         let Some(thread) = self.thread.take() else { return };
         self.stopped.store(true, Ordering::SeqCst);
-        // The thread blocks in `accept` until a connection arrives. If no connection can be made, the
-        // thread is not joined.
+        // The thread blocks in `accept` until a connection arrives, so a connection wakes it. If
+        // the connection fails and the thread still runs, the thread is not joined: it might never
+        // end.
         if self.wake_listener().is_ok() || thread.is_finished() {
             let _panicked = thread.join();
         }
@@ -93,11 +98,12 @@ impl Drop for Acceptor {
     }
 }
 
-/// Connects to a listener on this machine without a gate: a client with a deliberate defect uses this
-/// connection to the simulated CNC.
+/// Connects to a listener on this machine without a gate. The suite's reference client, which can
+/// have a seeded defect, connects in this way to the CNC that the suite plays.
 ///
 /// # Errors
-/// An error of the system, or [`io::ErrorKind::PermissionDenied`] for another machine.
+/// An error of the system, or [`io::ErrorKind::PermissionDenied`] if `addr` is not a loopback
+/// address.
 pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
     if !addr.ip().is_loopback() {
         let why = "a deliberately faulty client connects only to this machine";
@@ -109,16 +115,16 @@ pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result
     Ok(stream)
 }
 
-/// The other end of a [`Wire`]: a socket, or a CNC in this process.
+/// The other end of a [`Wire`]: a socket, or a simulated CNC in this process.
 pub trait Peer: fmt::Debug + Send {
     fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
 
-    /// Receives bytes that have arrived, waiting for at most `timeout`. Returns 0 at the end of the
-    /// connection.
+    /// Receives bytes that have arrived, waiting for at most `timeout`. Returns the number of
+    /// bytes, which is 0 at the end of the connection.
     ///
     /// # Errors
-    /// Those of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no bytes
-    /// arrived.
+    /// Those of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
+    /// bytes arrived.
     fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize>;
 }
 
@@ -127,7 +133,7 @@ pub trait LocalPeers: fmt::Debug + Send + Sync {
     /// Opens a connection.
     fn connect(&self) -> Box<dyn Peer>;
 
-    /// Advances the clock by `time`.
+    /// Advances the clock of the CNC by `time`.
     fn pass(&self, time: Duration);
 }
 
@@ -175,7 +181,8 @@ impl Wire {
         self.peer.send(permit.frame())
     }
 
-    /// Like [`send`](Self::send), but in pieces of this many bytes, with a pause after each.
+    /// Like [`send`](Self::send), but in pieces of at most `piece` bytes, with a pause after each
+    /// piece.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,
@@ -189,12 +196,12 @@ impl Wire {
         Ok(())
     }
 
-    /// Receives bytes that have arrived, waiting for at most `timeout`. Returns 0 at the end of the
-    /// connection.
+    /// Receives bytes that have arrived, waiting for at most `timeout`. Returns the number of
+    /// bytes, which is 0 at the end of the connection.
     ///
     /// # Errors
-    /// Those of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no bytes
-    /// arrived.
+    /// Those of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if no
+    /// bytes arrived.
     pub fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
         self.peer.receive(buf, timeout)
     }

@@ -3,7 +3,7 @@
 use ads_cnc::CncStr;
 use ads_cnc::value::DataType;
 
-/// The type of values and contents.
+/// The type by which values and contents are shown.
 #[derive(Clone, Debug, Default)]
 pub struct ValueFormat {
     /// The type; without a type, a value is shown as bytes.

@@ -16,7 +16,7 @@ use common::file::TestFile;
 /// Time limit for an example to end, without the time of the build.
 const TIME: Duration = Duration::from_secs(60);
 
-/// Builds the examples, unless the current test run has built them.
+/// Builds the examples; cargo does nothing if they are up to date.
 fn built() -> &'static [PathBuf] {
     static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
     BUILT.get_or_init(|| {

@@ -1,11 +1,17 @@
-//! Vectors that `check` extracts from captured traffic match the schema of the golden vectors, which is
-//! in the folder next to the folder of this package.
+//! Vectors that `check` extracts from captured traffic match the schema of the golden vectors in
+//! the folder `spec-vectors`, which is not a part of this package.
+
+#[allow(dead_code, reason = "this test uses folders only")]
+#[path = "common/file.rs"]
+mod file;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::Value;
+
+use file::TestFolder;
 
 const SCHEMA: &str =
     concat!(env!("CARGO_MANIFEST_DIR"), "/../spec-vectors/schema/vectors.schema.json");
@@ -17,32 +23,21 @@ const CALLS: [(&[&str], usize); 3] = [
     (&["set", "V.E.Testvar[1]", "7"], 3),
 ];
 
-/// A temporary folder that is removed when this value is dropped.
-struct Folder(PathBuf);
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _gone = fs::remove_dir_all(&self.0);
-    }
-}
-
 fn ads_cnc(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ads-cnc")).current_dir(folder).args(args).output().unwrap()
 }
 
 #[test]
 fn extracted_vectors_match_the_schema() {
-    let folder =
-        Folder(std::env::temp_dir().join(format!("ads-cnc-extracted-{}", std::process::id())));
-    fs::create_dir_all(&folder.0).unwrap();
+    let folder = TestFolder::new();
     let schema: Value = serde_json::from_str(&fs::read_to_string(SCHEMA).unwrap()).unwrap();
     let schema = jsonschema::validator_for(&schema).unwrap();
     for (place, (call, least)) in CALLS.into_iter().enumerate() {
         let (file, vectors) = (format!("{place}.pcapng"), format!("{place}.json"));
-        let said = ads_cnc(&folder.0, &[call, &["--capture", &file]].concat());
+        let said = ads_cnc(folder.path(), &[call, &["--capture", &file]].concat());
         assert_eq!(said.status.code(), Some(0), "{call:?}: {said:?}");
-        ads_cnc(&folder.0, &["check", "--any-port", &file, "--extract-vectors", &vectors]);
-        let document = fs::read_to_string(folder.0.join(vectors)).unwrap();
+        ads_cnc(folder.path(), &["check", "--any-port", &file, "--extract-vectors", &vectors]);
+        let document = folder.read(&vectors);
         let document: Value = serde_json::from_str(&document).unwrap();
         let faults: Vec<String> =
             schema.iter_errors(&document).map(|fault| fault.to_string()).collect();

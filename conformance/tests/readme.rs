@@ -4,7 +4,8 @@
 #[path = "readme/bench.rs"]
 mod bench;
 mod common;
-// The document lists the crates for Linux; other systems use other crates to end processes.
+// `conformance/doc/dependencies.md` lists the crates for Linux; other systems use other crates to
+// end processes.
 #[cfg(target_os = "linux")]
 #[path = "readme/dependencies.rs"]
 mod dependencies;
@@ -69,7 +70,8 @@ fn every_script_of_the_gate_is_documented() {
     }
 }
 
-/// Every call that this test does not execute is executed by the file that `ELSEWHERE` names.
+/// Every call that this test does not execute is executed or replaced by the file that `ELSEWHERE`
+/// names.
 #[test]
 fn other_calls_are_executed_elsewhere() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
@@ -92,7 +94,7 @@ fn other_calls_are_executed_elsewhere() {
     }
 }
 
-/// The documents show every command, and every option in the documents exists.
+/// TOOLS.md names every command, and every option in TOOLS.md and in the README exists.
 #[test]
 fn documented_commands_and_options_exist() {
     let help = |words: &[&str]| {

@@ -12,7 +12,8 @@ use ads_cnc_fuzz::{Defect, Folder, TARGETS, corpus};
 /// Number of inputs of the corpus that are repeated.
 const INPUTS: usize = 4;
 
-/// Bytes that are repeated: they nest, separate or continue what the readers of text parse.
+/// Bytes that are repeated. Some of them nest, separate or continue parts of the texts that targets
+/// parse.
 const BYTES: [u8; 8] = *b"\0\xFFA0[.\"\n";
 
 fn main() -> ExitCode {

@@ -11,7 +11,7 @@ DIMENSIONS_MAX = (STREAM_MAX - 20) // 4
 
 
 def open_text(field, shortest, longest):
-    """The functions for a text that ends at its first NUL or at the end of the stream; a tail is kept."""
+    """The functions that write and read a text that ends at its first NUL or at the end of the stream, with a tail."""
     def write(value, _context):
         data = text_bytes(value[field])
         if not shortest <= len(data) <= longest:
@@ -29,7 +29,7 @@ def open_text(field, shortest, longest):
 
 
 def name_request():
-    """The functions for a name that may end in a NUL; only more NULs may follow that NUL."""
+    """The functions that write and read a name that may end in a NUL; only more NULs may follow that NUL."""
     write, read_open = open_text("name", 1, DYNAMIC_NAME_MAX)
 
     def read(data, context):

@@ -15,7 +15,7 @@ def program_stream_write(value, _context):
 
 
 def program_stream_read(data, _context):
-    """Decode any bytes: at least one byte, and at most as many as a packet has."""
+    """Decode the data of one write: any bytes, at least one byte and at most PACKET_MAX bytes."""
     if len(data) > nc.PACKET_MAX:
         raise Malformed("too-long", 0, "data")
     if not data:

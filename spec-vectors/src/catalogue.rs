@@ -290,7 +290,8 @@ pub enum Status {
     Ruled,
 }
 
-/// A contradiction in the documents, and the ruling on it.
+/// A place where the documents contradict each other or leave a question open, and the ruling on
+/// it.
 ///
 /// ```
 /// use ads_cnc_vectors::{Status, erratum};

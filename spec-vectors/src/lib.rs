@@ -5,8 +5,8 @@
 //!
 //! - a [`Requirement`] states an obligation of an implementation, its sources in the manuals, and its
 //!   level;
-//! - an [`Erratum`] records a contradiction in the manuals: each reading with its section, and the
-//!   ruling;
+//! - an [`Erratum`] records a place where the manuals contradict each other or leave a question
+//!   open: each reading with its section, and the ruling;
 //! - a [`Vector`] is one stream, divided into annotated [`Segment`]s, with its value or with the fault
 //!   for which it has to be rejected;
 //! - a [`Sequence`] is a case that needs a whole text or several steps: data streaming and the Service
@@ -24,7 +24,7 @@
 //! ```
 //!
 //! This crate neither encodes nor decodes: the vectors judge codecs, so none of them is derived from a
-//! codec. `check.py` verifies them independently, using only Python's `struct`.
+//! codec. `check.py` verifies them independently, using only the standard library of Python.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

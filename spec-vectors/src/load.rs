@@ -17,7 +17,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub struct Catalogue {
     /// The documents that sources and readings cite.
     pub documents: Vec<Document>,
-    /// The requirements, sorted by area and number.
+    /// The requirements, grouped by area, and sorted by number in each area.
     pub requirements: Vec<Requirement>,
     /// The errata, sorted by number.
     pub errata: Vec<Erratum>,
@@ -275,8 +275,8 @@ mod tests {
         assert!(error.message.contains("extra"), "{error}");
     }
 
-    /// The types neither lose nor change a field of a sequence: serializing a parsed sequence gives the
-    /// same JSON.
+    /// The types neither lose nor change a field of a sequence: serialising a parsed sequence gives
+    /// the same JSON.
     #[test]
     fn sequences_survive_a_round_trip() {
         for &(file, text) in SEQUENCES {
@@ -291,8 +291,8 @@ mod tests {
         }
     }
 
-    /// The types neither lose nor change a field of a vector: serializing a parsed vector gives the same
-    /// JSON.
+    /// The types neither lose nor change a field of a vector: serialising a parsed vector gives the
+    /// same JSON.
     #[test]
     fn vectors_survive_a_round_trip() {
         for &(file, text) in VECTORS {

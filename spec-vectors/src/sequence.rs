@@ -32,7 +32,7 @@ pub struct HexPiece {
 pub struct FillPiece {
     /// The repeated text, usually one character.
     pub fill: String,
-    /// How many times they are repeated.
+    /// How many times the text is repeated.
     pub count: usize,
 }
 

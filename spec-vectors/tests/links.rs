@@ -257,8 +257,8 @@ fn requirements_about_bytes_have_both_verdicts() {
     }
 }
 
-/// A frame that carries another vector ends with the stream of that vector, and has the address of that
-/// vector.
+/// A frame that carries another vector ends with the stream of that vector. The frame of a request
+/// has the address of the carried vector; the frame of a reply names the frame of its request.
 #[test]
 fn frames_carry_the_named_vector() {
     for v in vectors() {
@@ -303,7 +303,7 @@ fn printed_examples_name_their_source() {
     }
 }
 
-/// The examples in the README are entries of the data, word for word.
+/// The JSON examples in the README are equal to entries of the data.
 #[test]
 fn readme_shows_real_entries() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

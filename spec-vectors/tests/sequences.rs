@@ -77,7 +77,8 @@ fn rejected_sequences_have_a_sibling() {
     }
 }
 
-/// A sibling has the same steps as the rejected case before its fault, or one additional step.
+/// The steps of a rejected case, by their IDs, are the first steps of its sibling, with at most one
+/// step left out.
 #[test]
 fn siblings_have_the_same_steps() {
     for case in sequences() {

@@ -18,8 +18,9 @@ use crate::stream::{Decode, Encode};
 ///
 /// Each record is a [`DescriptorRef`].
 ///
-/// The read length of the request is a multiple of 84 and limits the number of records. At the end of
-/// the list, a reply has fewer records.
+/// The read length of the request limits the number of records: a request for 84 × `k` bytes has a
+/// reply with at most `k` records, and fewer at the end of the list. For other read lengths above 84,
+/// one record is assumed.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
 ///

@@ -17,8 +17,8 @@ pub(crate) fn text_len(bytes: &[u8]) -> usize {
     bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len())
 }
 
-/// Splits bytes into a text of `len` bytes and its tail; `None` unless one or more NULs, and nothing
-/// else, follow the text.
+/// Splits bytes whose first NUL is at `len` (see [`text_len`]) into the text before the NUL and its
+/// tail, the bytes after the NUL; `None` without a NUL, or if a byte of the tail is not NUL.
 #[inline]
 pub(crate) fn split_padded(bytes: &[u8], len: usize) -> Option<TextRef<'_>> {
     match bytes.split_at_checked(len)? {

@@ -1,5 +1,7 @@
-//! Variables with a flexible data type: the streams of the channel interface and of the axis
-//! interface (VAR-1 … VAR-26, VAR-28).
+//! The requests and replies for variables with a flexible data type, such as V.E, V.G and V.A: those
+//! of the channel interface and of the axis interface.
+//!
+//! Requirements: VAR-1 … VAR-26 and VAR-28.
 
 mod codes;
 mod description;

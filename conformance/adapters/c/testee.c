@@ -1,6 +1,6 @@
 /*
- * An adapter for `ads-cnc run --testee`, with a codec for every stream of the
- * golden vectors. It needs only C11 and libc:
+ * An adapter for `ads-cnc run --testee`, with a codec for all streams of the golden
+ * vectors except the replies of ReadDeviceInfo and ReadState. It needs only C11 and libc:
  *
  *     cc -std=c11 -O2 -o testee testee.c
  *     ads-cnc run --testee ./testee
@@ -663,7 +663,7 @@ static void index_offset(Codec *c) {
     show(c, "element", UNS16, offset % c->stride);
 }
 
-/* ---- All streams, with their fields as in the table of the vectors ------ */
+/* ---- The streams, with their fields as in the table of the vectors ------ */
 
 #define DESCRIBED U32("handle"), U32("type"), U32("access"), U32("size"), F(LIST, "dimensions")
 

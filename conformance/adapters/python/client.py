@@ -3,8 +3,8 @@
 
     ads-cnc run --client "python3 client.py"
 
-It executes the actions that it reads from stdin. If ADS_CNC_DO contains an action, it executes only that
-action and exits.
+This program executes the actions that it reads from stdin. If the environment variable ADS_CNC_DO contains an
+action, the program executes only that action and exits.
 """
 import json
 import os

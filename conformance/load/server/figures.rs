@@ -1,4 +1,4 @@
-//! Medians and percentiles of the slices, as rows of a table.
+//! Medians and percentiles of the slices of time in which a server is measured, as rows of a table.
 
 use std::fmt;
 
@@ -20,7 +20,7 @@ impl Figures {
 | clients × at a time | server | requests/s | `serve` to it | p50, `serve` to it | p50 | p90 | p99 | p99.9 | max | CPU |
 |---|---|---|---|---|---|---|---|---|---|---|";
 
-    /// `cpu` is the CPU time of all slices together.
+    /// `cpu` is the CPU time of the server in all slices together, in seconds.
     pub(crate) fn new(name: &str, mut slices: Vec<Slice>, cpu: Option<f64>) -> Self {
         let median = |slice: &mut Slice| {
             slice.nanos.sort_unstable();
@@ -88,7 +88,8 @@ impl fmt::Display for Spread {
     }
 }
 
-/// A time in seconds, formatted with three digits.
+/// A time in seconds, formatted in µs with three digits, or from 1 ms on in ms with two decimal
+/// places.
 struct Time(f64);
 
 impl fmt::Display for Time {

@@ -1,4 +1,4 @@
-//! The clients: each has its own connection and thread, and several pending requests.
+//! The clients: each has its own connection and thread, and one or more pending requests.
 
 use std::collections::VecDeque;
 use std::io::{self, Read as _, Write as _};
@@ -6,6 +6,8 @@ use std::net::{SocketAddr, TcpStream};
 use std::sync::Barrier;
 use std::thread;
 use std::time::{Duration, Instant};
+
+use ads_cnc_conformance::number::to_u32;
 
 use crate::work::{Result, Work};
 
@@ -32,7 +34,7 @@ pub(crate) struct Slice {
 }
 
 /// Sends requests for a slice of time. Checks every reply; a wrong reply is an error. An echo
-/// server repeats the same reply, which has the number of request 0.
+/// server (`is_echo`) repeats the same reply, whose invoke ID is 0.
 pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) -> Result<Slice> {
     let clients = (0..load.clients).map(|_| Client::connect(addr, work, is_echo));
     let clients = clients.collect::<Result<Vec<_>>>()?;
@@ -57,7 +59,7 @@ pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) ->
     Ok(all)
 }
 
-/// Sends `depth` requests in one write, and returns the number of replies.
+/// Sends `depth` requests in one write, and returns the number of replies before a pause of 500 ms.
 pub(crate) fn answered_of_burst(addr: SocketAddr, work: &Work, depth: usize) -> Result<usize> {
     let mut client = Client::connect(addr, work, false)?;
     client.ask(depth)?;
@@ -87,7 +89,7 @@ struct Client<'a> {
 }
 
 impl<'a> Client<'a> {
-    /// Connects and waits for the first reply.
+    /// Connects, sends one request, and waits for its reply.
     fn connect(addr: SocketAddr, work: &'a Work, is_echo: bool) -> Result<Self> {
         let stream = TcpStream::connect_timeout(&addr, WAIT_MAX)?;
         stream.set_nodelay(true)?;
@@ -120,9 +122,10 @@ impl<'a> Client<'a> {
                 return Err("more replies than requests".into());
             }
             for sent in under_way.drain(..replies) {
-                // Times over four seconds are counted as four; ten seconds without a byte are an error.
+                // A time over 4.29 s (`u32::MAX` ns) counts as 4.29 s. 10 s without a byte are an
+                // error.
                 let nano = now.duration_since(sent).as_nanos();
-                nanos.push(u32::try_from(nano).unwrap_or(u32::MAX));
+                nanos.push(to_u32(nano));
             }
             // A reply after the end of the slice counts for the latency, but not for the rate.
             if now.duration_since(begin) < load.time {

@@ -16,7 +16,7 @@ const START: Duration = Duration::from_secs(30);
 pub(crate) struct Server {
     pub(crate) name: &'static str,
     pub(crate) addr: SocketAddr,
-    /// The version.
+    /// The versions of pyads and Python, or empty for the other servers.
     pub(crate) about: String,
     child: Child,
 }
@@ -57,7 +57,8 @@ impl Server {
     }
 
     fn start(name: &'static str, mut command: Command) -> Result<Self> {
-        // The pipe closes when this process ends for any reason.
+        // The pipe to stdin closes when this process ends for any reason; then the echo server and
+        // the server of pyads end too.
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().map_err(|error| format!("{name}: {error}"))?;
         let stdout = child.stdout.take();

@@ -22,7 +22,7 @@ struct AmsClient {
     packet: u64,
     /// Number of bytes sent by the machine (index 0) and to the machine (index 1).
     sent: [u64; 2],
-    /// The direction of the first request.
+    /// The direction of requests, from the client to the other party of the first frame.
     direction: SegmentDirection,
 }
 
@@ -62,7 +62,7 @@ impl AmsClients {
         known.packet = mark.packet;
         let [asked, replied] = &mut known.sent;
         let (sent, received) = if is_reply { (replied, asked) } else { (asked, replied) };
-        // Add the AMS/TCP header that the frame would have over TCP.
+        // Add the AMS/TCP header that the frame would have if it was sent over TCP.
         let length = to_u32(frame.bytes.len());
         let bytes = [&[0, 0], &length.to_le_bytes()[..], frame.bytes].concat();
         *sent = sent.saturating_add(u64::try_from(bytes.len()).unwrap_or(u64::MAX));

@@ -17,20 +17,21 @@ const BUFFER: usize = 0x1_0000;
 /// Maximum length of a record or block in bytes; reading ends at a longer one.
 pub const RECORD_MAX: usize = 0x80_0000;
 
-/// Maximum number of interfaces of a pcapng section.
+/// Maximum number of interfaces of a pcapng section; further ones are ignored.
 const INTERFACES_MAX: usize = 4096;
 
 /// A captured packet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Packet<'p> {
-    /// The number of the packet, from 1 as in other tools.
+    /// The number of the packet, counted from 1 as in Wireshark.
     pub(super) number: u64,
     pub(super) time: Option<Time>,
     pub(super) link: Linktype,
     pub(super) bytes: &'p [u8],
     /// Number of bytes that were not captured.
     pub(super) missing: usize,
-    /// Whether the suite is the client, according to the comment that it writes to its captures.
+    /// Whether the suite is the client, according to the comment that the suite writes to its
+    /// captures.
     pub(super) is_of_suite: bool,
 }
 
@@ -39,7 +40,8 @@ pub(super) struct Packet<'p> {
 pub enum FileEnd {
     /// The file ended after a complete record.
     Whole,
-    /// The file ended inside a record, or before bytes that are not a record.
+    /// Reading ended early, for example inside a record or before bytes that are not a record. The
+    /// text states the reason.
     Cut(String),
 }
 
@@ -59,7 +61,7 @@ pub enum FileError {
     Empty,
 }
 
-/// The link type and time resolution of an interface.
+/// The link type of an interface, and the resolution and offset of its times.
 struct CaptureInterface {
     link: Linktype,
     /// Units of time per second.
@@ -98,12 +100,8 @@ pub(super) fn packets(
             Err(PcapError::Incomplete(_)) => false,
             Err(PcapError::BufferTooSmall) => true,
             Err(PcapError::UnexpectedEof) => {
-                let left = reader.data().len();
-                let whole = if left == 0 { "inside a record" } else { "in the middle of a record" };
-                return Ok(FileEnd::Cut(format!(
-                    "it ends {whole}, {} into it",
-                    plural(left, "byte")
-                )));
+                let left = plural(reader.data().len(), "byte");
+                return Ok(FileEnd::Cut(format!("it ends inside a record, {left} into it")));
             }
             Err(error) => {
                 let what = match error {

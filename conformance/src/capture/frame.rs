@@ -15,7 +15,7 @@ pub(super) const ACK: u8 = 0x10;
 const WINDOW: u16 = 0xFFFF;
 const HOPS: u8 = 64;
 
-/// A connection: its two ends, and the number of bytes that each has sent.
+/// A connection: its two ends, with the next sequence number of each.
 #[derive(Clone, Debug)]
 pub(super) struct Flow {
     local: Endpoint,
@@ -37,7 +37,8 @@ impl Flow {
         Self { local: end(local, 1), remote: end(remote, 2) }
     }
 
-    /// The whole packet with all headers, beginning with Ethernet.
+    /// Builds a whole packet with all headers, beginning with Ethernet. An `outgoing` packet is
+    /// sent by the local end.
     pub(super) fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) -> io::Result<Vec<u8>> {
         let (from, to) = if outgoing {
             (&mut self.local, &self.remote)
@@ -56,7 +57,7 @@ impl Flow {
             syn: flags & SYN != 0,
             psh: flags & PSH != 0,
             ack: flags & ACK != 0,
-            // The first segment acknowledges nothing.
+            // The first segment, a SYN without ACK, acknowledges nothing.
             acknowledgment_number: if flags & ACK == 0 { 0 } else { to.next },
             ..TcpHeader::new(from.addr.port(), to.addr.port(), from.next, WINDOW)
         });

@@ -19,7 +19,7 @@ pub(super) enum FramePiece {
     Broken(Error, Vec<u8>, Span),
     /// The beginning of a frame whose rest was not captured.
     Cut(Vec<u8>, Span),
-    /// Bytes skipped to find the next frame.
+    /// The number of bytes that were skipped to find the next frame.
     Skipped(usize),
     /// The beginning of a frame at the end of the connection.
     Unfinished,
@@ -30,11 +30,11 @@ pub(super) enum FramePiece {
 pub(super) struct Span {
     pub(super) first: CapturePosition,
     pub(super) last: CapturePosition,
-    /// Offset of the byte after the frame, from the beginning of its direction.
+    /// Offset of the byte after the frame, from the beginning of its direction of the connection.
     pub(super) end: u64,
 }
 
-/// One direction of a connection.
+/// The bytes of one direction of a connection that are not yet split into frames.
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     bytes: Vec<u8>,
@@ -43,14 +43,14 @@ pub(super) struct Frames {
     marks: VecDeque<(usize, CapturePosition)>,
     /// Offset of the first byte of the buffer, from the beginning of the direction.
     offset: u64,
-    /// Whether synchronization was lost, so that a frame may begin at any offset.
+    /// Whether the start of the next frame is unknown, so that a frame may begin at any offset.
     is_lost: bool,
     skipped: usize,
 }
 
 impl Frames {
-    /// Memory of the buffer and its marks; for many small segments, the marks need more memory than
-    /// the bytes.
+    /// Memory of the buffer and its marks in bytes; for many small segments, the marks need more
+    /// memory than the bytes.
     pub(super) fn memory_size(&self) -> usize {
         let marks = self.marks.capacity().saturating_mul(size_of::<(usize, CapturePosition)>());
         self.bytes.capacity().saturating_add(marks)
@@ -73,7 +73,7 @@ impl Frames {
         while self.step(out) {}
     }
 
-    /// Handles missing bytes: the current frame remains incomplete.
+    /// Handles `length` bytes that were not captured: the current frame remains incomplete.
     pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(FramePiece)) {
         let begun = self.bytes.len();
         if begun > 0 {
@@ -99,7 +99,7 @@ impl Frames {
         self.emit_skipped(out);
     }
 
-    /// Removes and emits one piece of the buffer; returns whether another one may follow.
+    /// Removes one piece from the buffer and emits it; returns whether another piece may follow.
     fn step(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
         if self.is_lost {
             return self.find(out);
@@ -136,7 +136,8 @@ impl Frames {
         }
     }
 
-    /// Skips to the next offset at which a frame may begin.
+    /// Skips to the next offset at which a frame may begin; returns whether there is such an
+    /// offset.
     fn find(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
         let last = self.bytes.len().saturating_sub(FrameRef::HEADERS_LEN);
         if self.bytes.len() < FrameRef::HEADERS_LEN {
@@ -197,12 +198,12 @@ impl Frames {
     }
 }
 
-/// Maximum number of bytes shown that are not a frame.
+/// Maximum number of bytes that are shown if they are not a frame.
 const SHOWN: usize = 64;
 
 /// Length of a message between a client and its local router (open port, close port, router
-/// notification); `None` if `tcp` is not the header of such a message. Such a message is shorter
-/// than an AMS header.
+/// notification, local NetId); `None` if `tcp` is not the header of such a message. Such a message
+/// is shorter than an AMS header.
 fn router(tcp: &[u8]) -> Option<usize> {
     let header = AmsTcpHeader::decode(tcp).ok()?;
     let length = usize::try_from(header.length).ok().filter(|length| *length < AMS_HEADER_LEN)?;

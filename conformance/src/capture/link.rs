@@ -12,8 +12,8 @@ use super::endpoint::Endpoint;
 use super::file::Packet;
 use crate::number::to_usize;
 
-/// The EtherType of EtherCAT, and the type of EtherCAT frames that contain AMS frames (the upper four
-/// bits of the EtherCAT header).
+/// The EtherType of EtherCAT, and the type of EtherCAT frames that contain AMS frames (the upper
+/// four bits of the EtherCAT header).
 const ETHERCAT: u16 = 0x88A4;
 const AMS_TYPE: u16 = 2;
 
@@ -32,8 +32,8 @@ pub(super) struct TcpSegment<'p> {
     pub(super) missing: usize,
 }
 
-/// An AMS frame in an EtherCAT frame. Beckhoff's ADS Monitor records the frames that the AMS router of
-/// a PC forwards in this form: one per packet, in the order in which the router received them.
+/// An AMS frame in an EtherCAT frame. Beckhoff's ADS Monitor records the frames that the AMS router
+/// of a PC forwards in this form: one per packet, in the order in which the router received them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AmsFrame<'p> {
     pub(super) header: AmsHeader,
@@ -55,7 +55,7 @@ pub(super) enum PacketContent<'p> {
     Fragment,
     /// A header is truncated or invalid.
     Unreadable,
-    /// An unknown link type.
+    /// An unsupported link type.
     Link(i32),
 }
 
@@ -72,8 +72,8 @@ pub(super) fn content<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
         Linktype::RAW | Linktype::IPV4 | Linktype::IPV6 | Linktype(12 | 14) => {
             LaxSlicedPacket::from_ip(bytes).ok()
         }
-        // The address family is in the byte order of the capturing machine, so the IP version
-        // decides.
+        // The first four bytes are the address family in the byte order of the capturing machine.
+        // They are skipped: the IP header contains the version.
         Linktype::NULL | Linktype::LOOP => LaxSlicedPacket::from_ip(after(4)).ok(),
         Linktype::LINUX_SLL => Some(LaxSlicedPacket::from_ether_type(typed(14), after(16))),
         Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), after(20))),
@@ -86,8 +86,9 @@ pub(super) fn content<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
     }
 }
 
-/// Uses the length in the AMS header, because the length in the EtherCAT header has only 11 bits, and
-/// short Ethernet frames are padded.
+/// Finds the AMS frame in the payload of an EtherCAT frame. The length is taken from the AMS
+/// header, because the length in the EtherCAT header has only 11 bits, and short Ethernet frames
+/// are padded.
 fn of_ethercat(payload: &[u8]) -> PacketContent<'_> {
     let Some((kind, bytes)) = payload.split_first_chunk() else {
         return PacketContent::Unreadable;
@@ -105,8 +106,7 @@ fn of_ethercat(payload: &[u8]) -> PacketContent<'_> {
 
 fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> PacketContent<'p> {
     let Some((from, to, missing)) = read.net.as_ref().and_then(|net| ends(net, missing)) else {
-        // A packet that ends inside the IP header is unreadable; it need not contain another
-        // protocol.
+        // A packet that ends inside the IP header is unreadable: it may contain TCP.
         return if read.stop_err.is_some() {
             PacketContent::Unreadable
         } else {

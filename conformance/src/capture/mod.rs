@@ -14,7 +14,7 @@
 //! ```
 //! use ads_cnc_conformance::capture::{CaptureOptions, check};
 //!
-//! // The beginning of a pcap file without a packet.
+//! // A pcap file without packets, which consists of its header only.
 //! let file = b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\xff\xff\0\0\x01\0\0\0";
 //! let checked = check(&file[..], CaptureOptions::default())?;
 //! assert_eq!(checked.tally.packets, 0);
@@ -64,7 +64,7 @@ pub const AMS_TCP_PORT: u16 = 48898;
 pub struct CaptureOptions {
     /// The TCP ports to read.
     pub ports: Ports,
-    /// The collector of golden vectors; `None` to collect none.
+    /// The collector of golden vectors; `None` if no vectors are collected.
     pub vectors: Option<Collector>,
 }
 
@@ -102,7 +102,8 @@ pub enum CapturePiece {
         /// Number of missing bytes; 0 if unknown.
         length: u64,
     },
-    /// The number of bytes that are not a frame, or that are only the beginning of a frame.
+    /// The number of bytes that are not a frame, or that are only the beginning of a frame; 0 for
+    /// the beginning of a frame at the end of a connection.
     Rest(usize),
 }
 
@@ -120,7 +121,8 @@ pub enum CapturePiece {
 /// ```
 ///
 /// # Errors
-/// If the file has another format. A truncated file is read up to its end, see [`FileEnd`].
+/// If the file is empty or has another format, or reading fails at its start. A truncated file is
+/// read up to its end, see [`FileEnd`].
 pub fn frames(
     input: impl Read + Send,
     ports: Ports,
@@ -160,7 +162,7 @@ impl CapturePiece {
 
 /// An event while reading a file.
 enum ReadStep<'s> {
-    /// The next packet, its content, and whether its segment is on a selected port.
+    /// The next packet, its content, and whether the content is a TCP segment of a selected port.
     Packet(&'s Packet<'s>, PacketContent<'s>, bool),
     /// An event on a connection.
     Event(ConnectionEvent, &'s ConnectionTable),
@@ -213,7 +215,8 @@ const PACKETS_BETWEEN_COUNTS: u64 = 4096;
 /// Judges a file of captured packets: pcap, pcapng or NetMon 2.x.
 ///
 /// # Errors
-/// If the file has another format. A truncated file is judged up to its end.
+/// If the file is empty or has another format, or reading fails at its start. A truncated file is
+/// judged up to its end.
 pub fn check(input: impl Read + Send, options: CaptureOptions) -> Result<Checked, FileError> {
     let mut table = ConnectionTable::new(options.ports);
     let mut judge = TrafficJudge::new(options.vectors);

@@ -1,6 +1,6 @@
 //! Reads packets from a NetMon 2.x file, the format of Beckhoff's ADS Monitor.
 //!
-//! All numbers are little-endian. Offsets are from the beginning of the file.
+//! All numbers are little-endian. The offsets in the file count from its beginning.
 //!
 //! | offset | file header |
 //! |--:|---|
@@ -40,8 +40,8 @@ pub(super) const MAGIC_1: [u8; 4] = *b"RTSS";
 const HEADER_LEN: usize = 128;
 const PACKET_HEADER_LEN: usize = 16;
 
-/// Position in the file header of the offset and length of the frame table, followed by those of four
-/// or five other tables.
+/// Position in the file header of the offset and length of the frame table, which are followed by
+/// those of five other tables.
 const TABLES: usize = 24;
 const TABLES_END: usize = 72;
 
@@ -89,7 +89,7 @@ pub(super) fn packets(
     })
 }
 
-/// The offsets of packets, in any order.
+/// The number and the sum of the offsets of packets, to compare lists of offsets in any order.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Offsets {
     count: u64,
@@ -106,9 +106,11 @@ impl Offsets {
 struct Header {
     /// Number of bytes after each packet.
     trailer: usize,
-    /// The link type of all packets.
+    /// The link type of all packets if the packets have no trailer.
     link: u16,
     begin: Option<Moment>,
+    /// Microseconds from `begin` to the start time.
+    fraction: u64,
     /// Offset of the first table, which is the end of the packets.
     packets_end: u64,
     /// Offset and length of the frame table.
@@ -155,6 +157,7 @@ impl<R: Read> Input<R> {
             trailer,
             link: word(&bytes, 6),
             begin: Moment::from_rfc3339(&begin),
+            fraction: u64::from(word(&bytes, 22)).saturating_mul(1000),
             packets_end,
             table: (long(&bytes, TABLES).into(), long(&bytes, TABLES.saturating_add(4)).into()),
         }))
@@ -187,6 +190,7 @@ impl<R: Read> Input<R> {
         cut(self.fill(trailer))?;
         let link = if trailer.is_empty() { header.link } else { word(trailer, 0) };
         let micros = u64::from(long(&about, 0)) | u64::from(long(&about, 4)) << 32;
+        let micros = micros.saturating_add(header.fraction);
         let begin = header.begin.map(Moment::seconds);
         let time = begin.map(|begin| Time::of_units(micros, MICROSECONDS, begin));
         let original = to_usize(long(&about, 8));
@@ -236,4 +240,23 @@ fn word(bytes: &[u8], at: usize) -> u16 {
 fn long(bytes: &[u8], at: usize) -> u32 {
     let four = bytes.get(at..).and_then(<[u8]>::first_chunk).copied();
     u32::from_le_bytes(four.unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_start_time_has_milliseconds() {
+        let mut file = b"GMBU\0\x02\x01\0".to_vec();
+        file.extend([2026_u16, 11, 4, 26, 9, 30, 0, 250].map(u16::to_le_bytes).concat());
+        file.extend([144_u32, 4].map(u32::to_le_bytes).concat());
+        file.resize(HEADER_LEN, 0);
+        // A packet without bytes, five microseconds after the start, and the frame table.
+        file.extend([5_u32, 0, 0, 0, 128].map(u32::to_le_bytes).concat());
+        let mut times = Vec::new();
+        let end = packets(&file[MAGIC.len()..], |packet| times.extend(packet.time)).unwrap();
+        let times: Vec<String> = times.iter().map(Time::to_string).collect();
+        assert_eq!((end, times), (FileEnd::Whole, vec!["09:30:00.250005 UTC".to_owned()]));
+    }
 }

@@ -59,7 +59,7 @@ impl Observation for CapturedFrames<'_> {
         match self {
             Self::Exchange(exchange, location) => {
                 let evidence = Evidence::from(*exchange);
-                // A note about a truncation may follow.
+                // In `evidence.result`, a note about a truncation may follow the result.
                 let words = exchange.result_in_words();
                 let result = evidence.result.replacen(&exchange.result(), &words, 1);
                 let call = format!("{}\n            {location}", evidence.call);

@@ -1,4 +1,5 @@
-//! The table of TCP connections: receives segments, emits frames with their location.
+//! The table of TCP connections, which receives segments, and emits frames with their location in
+//! the capture.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +11,12 @@ use super::link::TcpSegment;
 use super::tcp::{CapturePosition, DirectedSegment, DirectionState, ReassembledPiece};
 use crate::number::to_u32;
 
-/// Maximum number of connections that are followed at the same time; beyond that, the connection that
-/// was idle for the longest time is ended.
+/// Maximum number of connections that are followed at the same time; beyond that, the connection
+/// that was idle for the longest time is ended.
 pub(super) const CONNECTIONS_MAX: usize = 1024;
 
-/// Maximum memory in bytes for incomplete frames and early segments of all connections.
+/// Maximum memory in bytes for incomplete frames and early segments of all connections; beyond
+/// that, the connection of the current segment is ended.
 pub(super) const BUFFERED_MAX: usize = 0x200_0000;
 
 /// The TCP ports whose connections are judged.
@@ -29,7 +31,7 @@ pub enum Ports {
 /// A direction of a connection.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SegmentDirection {
-    /// Number of the connection, from 1.
+    /// Number of the connection: from 1 for TCP, much larger without TCP.
     pub(super) connection: u64,
     pub(super) from: Endpoint,
     pub(super) to: Endpoint,
@@ -41,14 +43,14 @@ pub(super) enum ConnectionEvent {
     Router,
     Broken(Error, Vec<u8>, SegmentDirection, Span),
     Cut(Vec<u8>, SegmentDirection, Span),
-    /// Number of bytes that were not captured.
+    /// Number of bytes that were not captured; 0 if unknown.
     Gap(u64, SegmentDirection, CapturePosition),
-    /// Number of bytes skipped to find the next frame.
+    /// Number of bytes that were skipped to find the next frame.
     Skipped(usize),
-    /// A connection whose beginning was not captured.
+    /// The number of a connection whose beginning was not captured.
     Joined(u64),
-    /// A conversation whose beginning was not captured, although every frame after the start of the
-    /// capture was.
+    /// The number of a conversation without TCP. Frames before the start of the capture may be
+    /// missing, but no later ones.
     Running(u64),
     /// A frame that was incomplete when the connection or the capture ended.
     Unfinished,
@@ -146,7 +148,8 @@ impl ConnectionTable {
             self.end(key, out);
         }
         if !self.open.contains_key(&key) {
-            // This is a FIN or an acknowledgement repeated after the end of the connection.
+            // A segment without data does not open a connection: it may be an acknowledgement or a
+            // FIN that follows the end of a connection.
             if segment.payload.is_empty() && !segment.syn {
                 return;
             }
@@ -298,7 +301,7 @@ impl TcpConnection {
         }
     }
 
-    /// Emits the waiting segments.
+    /// Emits the waiting segments, and then the end of the connection.
     fn finish(&mut self, out: &mut Vec<ConnectionEvent>) {
         let [one, other] = self.ends;
         for (side, (from, to)) in [(one, other), (other, one)].into_iter().enumerate() {

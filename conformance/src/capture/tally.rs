@@ -16,7 +16,7 @@ use crate::text::{escape, plural, shorten};
 use crate::value_format::ValueFormat;
 use crate::values::until_nul;
 
-/// Maximum number of different unknown addresses that are counted.
+/// Maximum number of different keys in a map of counters, such as unknown addresses.
 const UNKNOWN_MAX: usize = 1000;
 
 /// Maximum number of entries that a line shows.
@@ -33,7 +33,7 @@ pub struct CaptureTally {
     pub fragments: u64,
     /// Packets with a truncated or invalid header.
     pub unreadable: u64,
-    /// Packets by unknown link type.
+    /// Packets with an unsupported link type, by link type.
     pub links: BTreeMap<i32, u64>,
     /// TCP segments on the selected ports.
     pub segments: u64,
@@ -49,7 +49,7 @@ pub struct CaptureTally {
     pub repeated: u64,
     /// Segments that were captured before an earlier segment.
     pub early: u64,
-    /// Gaps, where bytes are missing.
+    /// Gaps, that is, places where bytes were not captured.
     pub gaps: u64,
     /// Bytes skipped to find a frame.
     pub skipped: u64,
@@ -57,18 +57,18 @@ pub struct CaptureTally {
     pub frames: u64,
     /// Messages between clients and their local router.
     pub router: u64,
-    /// Frames to AMS ports that do not belong to a task of a CNC, by port.
+    /// Requests to, and replies from, AMS ports that do not belong to a task of a CNC, by port.
     pub other_ports: BTreeMap<u16, u64>,
-    /// Frames with commands other than the three services, by command.
+    /// Frames with commands other than Read, Write and ReadWrite, by command.
     pub commands: BTreeMap<u16, u64>,
-    /// Calls of addresses without a function, by address.
+    /// Requests to addresses without a documented function, by address.
     pub unknown: BTreeMap<String, u64>,
     /// Requests with a reply.
     pub exchanges: u64,
     /// The first exchanges: packet, function, address and result.
     pub listed: Vec<String>,
     /// Requests with an error reply.
-    pub refused: u64,
+    pub rejected: u64,
     /// Requests whose reply was not captured.
     pub unanswered: u64,
     /// Requests that were dropped because too many waited for a reply.
@@ -77,7 +77,7 @@ pub struct CaptureTally {
     pub unkept: u64,
     /// Replies whose request was not captured.
     pub unasked: u64,
-    /// Frames whose rest was not captured.
+    /// Frames that were incomplete at the end of a connection or of the capture.
     pub unfinished: u64,
     /// The way in which the file ended.
     pub end: Option<FileEnd>,
@@ -88,7 +88,7 @@ pub(super) const fn count(number: &mut u64) {
     *number = number.saturating_add(1);
 }
 
-/// Increments the counter of a key.
+/// Increments the counter of a key. A new key is ignored if the map has [`UNKNOWN_MAX`] keys.
 pub(super) fn count_of<K: Ord>(all: &mut BTreeMap<K, u64>, key: K) {
     if all.len() < UNKNOWN_MAX || all.contains_key(&key) {
         count(all.entry(key).or_default());
@@ -99,7 +99,7 @@ pub(super) fn count_of<K: Ord>(all: &mut BTreeMap<K, u64>, key: K) {
 const LISTED_MAX: usize = 10_000;
 
 impl CaptureTally {
-    /// Adds a request with its reply to the list.
+    /// Adds a request with its reply to the list, unless the list has [`LISTED_MAX`] entries.
     pub(super) fn list(&mut self, packet: u64, exchange: &Exchange) {
         if self.listed.len() < LISTED_MAX {
             let (asked, result) = (asked(exchange), answered(exchange));
@@ -120,7 +120,7 @@ impl CaptureTally {
         cut.into_iter().chain(gaps).collect()
     }
 
-    /// Whether the suite sent all the requests.
+    /// Whether all packets are of connections in which the suite is the client.
     pub const fn is_of_suite(&self) -> bool {
         self.packets > 0 && self.of_suite == self.packets
     }
@@ -139,7 +139,7 @@ impl CaptureTally {
         // Number, unit and text of each line.
         let counters = [
             (self.ethercat, "AMS frame", " in EtherCAT, without TCP"),
-            (self.refused, "request", " with an error reply"),
+            (self.rejected, "request", " with an error reply"),
             (self.joined, "connection", " with a beginning that was not captured"),
             (self.repeated, "segment", " retransmitted"),
             (self.early, "segment", " out of order"),
@@ -183,14 +183,14 @@ impl CaptureTally {
     }
 }
 
-/// Maximum number of shown bytes of a value.
+/// Maximum number of bytes of a value that are shown.
 const VALUE_MAX: usize = 16;
 
-/// Maximum number of shown fields of a request, and of characters of each.
+/// Maximum number of fields of a request that are shown, and of characters of each.
 const FIELDS_MAX: usize = 3;
 const FIELD_MAX: usize = 64;
 
-/// Maximum number of shown characters of a reply.
+/// Maximum number of characters of a reply that are shown.
 const REPLY_MAX: usize = 100;
 
 /// Describes a request: the function with the name or index in its data, or the address.
@@ -198,9 +198,9 @@ fn asked(exchange: &Exchange) -> String {
     let call = exchange.call();
     let (function, fault) = match call.dispatch() {
         Ok(request) => (request.function(), String::new()),
-        Err(refusal) => {
+        Err(rejection) => {
             let function = function_at(&call);
-            let fault = function.and_then(|function| mistake(function, &call, &refusal));
+            let fault = function.and_then(|function| mistake(function, &call, &rejection));
             let Some((function, fault)) = function.zip(fault) else {
                 return format!("not documented: {exchange}");
             };
@@ -246,10 +246,10 @@ fn shown(field: &str, bytes: &[u8]) -> Option<String> {
 }
 
 /// Describes the error in a call of `function`; `None` if the call may not be meant for `function`.
-fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Option<String> {
+fn mistake(function: Function, call: &Call<'_>, rejection: &DispatchError) -> Option<String> {
     let spec = function.spec();
     let is_com = |port: AmsPort| port == AmsPort::COM;
-    match refusal {
+    match rejection {
         DispatchError::Stream(error) => Some(format!("malformed: {error}")),
         _ if is_com(call.port) != is_com(spec.task.port()) => {
             Some(format!("at port {} instead of {}", call.port, spec.task.port()))
@@ -262,7 +262,8 @@ fn mistake(function: Function, call: &Call<'_>, refusal: &DispatchError) -> Opti
     }
 }
 
-/// The result of an exchange, with the first bytes of a value.
+/// The result of an exchange: the fields or the first bytes of the reply, the first bytes that were
+/// written, or the error.
 fn answered(exchange: &Exchange) -> String {
     let written = (exchange.service == AdsService::Write).then_some(&*exchange.data);
     match exchange.success() {
@@ -296,7 +297,7 @@ fn bytes_of(data: &[u8]) -> String {
     }
 }
 
-/// The first counters of a map as text.
+/// The first [`SHOWN`] counters of a map as text; `None` if the map is empty.
 fn unjudged<K: Display>(what: &str, all: &BTreeMap<K, u64>) -> Option<String> {
     let shown = all.iter().take(SHOWN).map(|(key, number)| format!("{key} ({number})"));
     let shown: Vec<String> = shown.collect();

@@ -1,4 +1,5 @@
-//! TCP reassembly of one direction of a connection: receives segments, emits bytes in order.
+//! TCP reassembly of one direction of a connection, which receives segments and emits bytes in
+//! order.
 
 use std::collections::BTreeMap;
 use std::ops::Bound;
@@ -29,7 +30,8 @@ const BEFORE_SYN: u32 = 0x1_0000;
 pub(super) struct CapturePosition {
     pub(super) packet: u64,
     pub(super) time: Option<Time>,
-    /// Offset up to which the sender of the bytes had received the other direction; `None` if unknown.
+    /// Offset up to which the sender of the bytes had received the other direction; `None` if
+    /// unknown.
     pub(super) acknowledged: Option<u64>,
 }
 
@@ -37,7 +39,7 @@ pub(super) struct CapturePosition {
 pub(super) enum ReassembledPiece<'a> {
     /// The next bytes.
     Data(&'a [u8], CapturePosition),
-    /// Bytes that were not captured.
+    /// The number of bytes that were not captured; 0 if unknown.
     Gap(u64, CapturePosition),
 }
 
@@ -52,7 +54,7 @@ pub(super) struct DirectedSegment<'a> {
     pub(super) mark: CapturePosition,
 }
 
-/// The state of one direction.
+/// The state of one direction of a connection.
 #[derive(Debug, Default)]
 pub(super) struct DirectionState {
     /// Sequence number of the next byte, if known.
@@ -136,7 +138,8 @@ impl DirectionState {
         self.end.is_some_and(|end| self.offset >= end)
     }
 
-    /// Memory of the waiting segments; for many small ones, the map needs more memory than the bytes.
+    /// Memory of the waiting segments in bytes; for many small segments, the map needs more memory
+    /// than their bytes.
     pub(super) fn memory_size(&self) -> usize {
         let each = size_of::<(u64, EarlySegment)>();
         self.buffered.saturating_add(self.ahead.len().saturating_mul(each))
@@ -207,7 +210,7 @@ impl DirectionState {
         }
     }
 
-    /// Emits the waiting segments, with gaps, at the end of the direction.
+    /// Emits the waiting segments, and the gaps before and after them, at the end of the direction.
     pub(super) fn flush(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while !self.ahead.is_empty() {
             self.skip_gap(out);
@@ -273,7 +276,8 @@ impl DirectionState {
         }
     }
 
-    /// Stops waiting for missing bytes if the other side has acknowledged them, or if too many bytes
+    /// Stops waiting for missing bytes if the other side has acknowledged them and
+    /// `REORDERED_SEGMENTS_MAX` more segments have been captured, or if too many bytes or segments
     /// wait.
     fn give_up_gap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         self.waiting = self.waiting.saturating_add(1);
@@ -284,7 +288,7 @@ impl DirectionState {
         }
     }
 
-    /// Emits the gap and continues after it.
+    /// Emits the gap before the first waiting segment, and continues after the gap.
     fn skip_gap(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         let from = Bound::Included(self.offset);
         let first = self.ahead.range((from, Bound::Unbounded)).next();

@@ -1,4 +1,5 @@
-//! Creates golden vectors from captured traffic, without addresses and texts that identify a machine.
+//! Creates golden vectors from captured traffic, without addresses and texts that identify a
+//! machine.
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
@@ -21,12 +22,13 @@ use crate::client::frame;
 use crate::codec::decode_stream;
 use crate::number::to_usize;
 use crate::rules::TargetVariable;
+use crate::simulator::program::digest;
 use crate::text::json as json_text;
 
 /// Maximum number of vectors of a capture.
 pub const VECTORS_MAX: usize = 10_000;
 
-/// The addresses of client and CNC in every vector.
+/// The addresses of client and CNC in every collected frame.
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 20, 1, 1]), port: AmsPort(0x8001) };
 const CNC: AmsNetId = AmsNetId([192, 0, 2, 10, 1, 1]);
 
@@ -52,7 +54,8 @@ impl Collector {
         self.vectors.is_empty()
     }
 
-    /// Adds the vectors of a request and of the data of its reply.
+    /// Adds vectors of the data of a request, of the data of its reply, and of both frames. `reply`
+    /// is the data of a successful reply; `None` for an error.
     pub(super) fn add(
         &mut self,
         request: &Request<'_>,
@@ -61,7 +64,7 @@ impl Collector {
         known: Option<&TargetVariable>,
     ) {
         let function = request.function();
-        // NC programs are confidential.
+        // NC programs may be confidential, so they are collected only together with texts.
         if function == Function::WriteProgramStream && !self.keep_texts {
             return;
         }
@@ -94,7 +97,8 @@ impl Collector {
         self.frames(&Call { data: &sent, ..*call }, received.as_deref());
     }
 
-    /// Adds both frames, encoded again with other addresses.
+    /// Adds the frame of the request, and that of a successful reply, encoded again with other
+    /// addresses.
     fn frames(&mut self, call: &Call<'_>, received: Option<&[u8]>) {
         let cnc = AmsAddr { net_id: CNC, port: call.port };
         let header = AmsHeader::request(cnc, CLIENT, call.service.command(), 1);
@@ -280,7 +284,8 @@ fn segments(stream: Stream, bytes: &[u8], prefix: &str) -> Vec<Segment> {
     all
 }
 
-/// Replaces the letters of the texts in a stream, except kinds and types, which the manual defines.
+/// Replaces the letters of the texts in a stream, except in kinds and type names, which the manual
+/// defines.
 fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     let mut scrubbed = bytes.to_vec();
     let mut places = Vec::new();
@@ -314,10 +319,8 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     scrubbed
 }
 
-/// FNV-1a with 64 bits: the IDs of vectors must be the same on every machine and in every version.
+/// A hash that is the same on every machine and in every version, as the IDs of vectors must be.
 fn hash<const N: usize>(parts: [&[u8]; N]) -> u64 {
     let bytes = parts.iter().flat_map(|part| part.iter().copied().chain([0xFF]));
-    bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
-    })
+    digest(&bytes.collect::<Vec<_>>())
 }

@@ -1,5 +1,5 @@
 //! Writes a capture for Wireshark in pcapng format, with artificial Ethernet, IP and TCP headers
-//! around the bytes of a real connection.
+//! around the bytes of a connection.
 //!
 //! The file contains the bytes that were passed to and received from the system, in this order and
 //! with the time of this machine, not the segments and acknowledgements on the network. Each
@@ -38,7 +38,7 @@ use crate::number::to_u32;
 /// The comment of a capture whose requests the suite sends.
 pub(super) const SUITE: &str = "the client is ads-cnc run";
 
-/// Maximum number of bytes of a TCP segment, as on Ethernet.
+/// Maximum number of data bytes of a TCP segment, which fits into an Ethernet frame.
 const SEGMENT_MAX: usize = 1440;
 
 /// A capture that is being written. [`finish`](Self::finish) returns the first error of the system.
@@ -46,7 +46,7 @@ pub struct Capture {
     out: Box<dyn Write + Send>,
     flow: Option<Flow>,
     error: Option<io::Error>,
-    /// Called with an error if the capture is dropped before it is finished.
+    /// Called with the first error of the system if the capture is dropped before it is finished.
     dropped: Option<Box<dyn FnOnce(io::Error) + Send>>,
 }
 
@@ -57,7 +57,7 @@ impl fmt::Debug for Capture {
 }
 
 impl Capture {
-    /// Creates or replaces a file.
+    /// Creates a file, or replaces an existing file, and writes the capture to it.
     pub fn create(file: &Path) -> io::Result<Self> {
         Self::new(Box::new(BufWriter::new(File::create(file)?)))
     }
@@ -87,7 +87,7 @@ impl Capture {
         capture
     }
 
-    /// Completes the capture.
+    /// Ends the open connection, if any, and completes the file.
     ///
     /// # Errors
     /// The first error of the system while writing.
@@ -175,7 +175,7 @@ fn block(kind: u32, body: &[u8]) -> Vec<u8> {
     block
 }
 
-/// Options of a section header.
+/// Codes of options of a section header.
 const COMMENT: u16 = 1;
 const USER_APPLICATION: u16 = 4;
 

@@ -21,7 +21,7 @@ use crate::values::plain;
 
 /// Maximum number of characters of a value in a table; CSV and JSON contain the whole value.
 const VALUE_MAX: usize = 48;
-/// Maximum size in bytes of a value that is read; `get` reads larger ones.
+/// Maximum size in bytes of a value that is read; `get` reads larger values.
 const CONTENT_MAX: u32 = 0x1_0000;
 
 /// List objects and elements, or all variables
@@ -111,7 +111,7 @@ enum BrowseFormat {
     Json,
 }
 
-/// Maximum size in bytes of all values together.
+/// Number of bytes of all values together after which no more values are read.
 const CONTENTS_MAX: usize = 8 << 20;
 
 /// The bytes of a value, or the reason why it was not read.
@@ -261,7 +261,7 @@ fn read_all(
                 enough = Some(format!("not read: {why}"));
                 Err(format!("not read: {why}"))
             }
-            // An unreadable list does not stop the others.
+            // A value that cannot be read does not prevent reading the other values.
             Err(
                 why @ (ToolError::Ads { .. }
                 | ToolError::Reply(_)

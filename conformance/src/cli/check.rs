@@ -118,11 +118,11 @@ const LISTED_MAX: usize = 10;
 
 const KIB: u64 = 1024;
 
-/// A file that counts the bytes read from it, for the progress.
+/// A file that counts the KiB read from it as steps of the progress.
 #[derive(Debug)]
 struct CountedRead {
     file: File,
-    /// Number of bytes read since the last full KiB.
+    /// Number of bytes read since the last counted KiB.
     odd: u64,
 }
 
@@ -160,7 +160,8 @@ impl CheckArgs {
             checked.outcomes.retain(|outcome| outcome.case.subject != CaseSubject::CapturedClient);
         }
         notes.iter().for_each(print_error);
-        // Cases that are not selected were judged too; the report omits them.
+        // The traffic was judged by all cases; the report omits the cases that --only and --edition
+        // do not select.
         let selection = Selection { edition: self.edition, only: self.only.clone() };
         let cases: Vec<Case> =
             checked.outcomes.iter().map(|outcome| outcome.case.clone()).collect();
@@ -241,7 +242,7 @@ impl CheckArgs {
         capture::check(CountedRead { file, odd: 0 }, CaptureOptions { ports, vectors })
     }
 
-    /// Writes the vectors; returns a line for each file.
+    /// Writes the vectors; returns a line with their number and files, or no line without vectors.
     fn extract(&self, checked: &Checked) -> io::Result<Vec<String>> {
         let (Some(place), Some(vectors)) = (&self.extract_vectors, &checked.vectors) else {
             return Ok(Vec::new());

@@ -42,11 +42,13 @@ enum Instruction {
     Bye,
 }
 
-/// Exit code of a client with the defect of crashing, as after SIGABRT.
+/// Exit code with which a client with a defect crashes; a shell reports this code for a process
+/// that SIGABRT ended.
 const ABORT_EXIT_CODE: i32 = 134;
 
 impl ClientCommandArgs {
-    /// Executes the instructions of the suite until `bye` or the end of stdin.
+    /// Executes the instructions of the suite until `bye` or the end of stdin; with --once,
+    /// executes one action.
     pub(super) fn execute(&self) -> Exit {
         if self.list_defects {
             return written(list());
@@ -111,7 +113,8 @@ fn answer(fault: Option<client_suite::ClientFault>) -> io::Result<()> {
     Ok(())
 }
 
-/// Executes an action and returns the result; with some defects, it exits or hangs instead.
+/// Executes an action and returns the line with its result. With some defects, the line is not
+/// JSON, or the process exits or hangs instead.
 fn done(
     fault: Option<client_suite::ClientFault>,
     cnc_address: &CncAddress,
@@ -127,7 +130,7 @@ fn done(
     }
 }
 
-/// Executes the action in the environment variable `ADS_CNC_DO`.
+/// Executes the action in the environment variable `ADS_CNC_DO`, or answers `hello`.
 fn once(fault: Option<client_suite::ClientFault>) -> io::Result<()> {
     let env_variable =
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));

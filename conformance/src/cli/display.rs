@@ -35,7 +35,8 @@ pub(super) struct DisplayArgs {
     #[arg(long, short)]
     verbose: bool,
 
-    /// Show only the last line, and the rejected writes above it
+    /// Show only the last line and, above it, each reason for the exit code that is not a verdict,
+    /// such as a rejected write
     #[arg(long, short, conflicts_with = "verbose")]
     quiet: bool,
 

@@ -29,7 +29,8 @@ impl FromStr for ExecutedTo {
 
 const NEEDED: &str = "expected the number of a channel and a file, such as 1=executed.nc";
 
-/// The file, opened before a program is streamed so that an error is reported early.
+/// The open file of a channel. It is opened before a program is streamed, so that an error is
+/// reported early.
 #[derive(Debug)]
 pub(super) struct ExecutedFile<'a>(&'a ExecutedTo, File);
 
@@ -44,7 +45,7 @@ impl ExecutedTo {
 }
 
 impl ExecutedFile<'_> {
-    /// Writes the executed lines.
+    /// Writes the latest executed lines that the simulated CNC has stored.
     pub(super) fn write(mut self, cnc: &Cnc) -> Result<(), String> {
         let executed = cnc.with_program(self.0.channel, |program| program.executed().clone());
         let executed = executed.map_err(|error| error.to_string())?;
@@ -53,7 +54,8 @@ impl ExecutedFile<'_> {
     }
 }
 
-/// Logs the number of executed lines of each channel that received a stream.
+/// Logs the number of executed lines of each channel that has executed lines, or whose streaming
+/// was aborted.
 pub(super) fn log(cnc: &Cnc) {
     for channel in cnc.model().channels() {
         let ran =

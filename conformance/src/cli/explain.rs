@@ -22,7 +22,7 @@ use crate::explain::{
 };
 use crate::text::did_you_mean;
 
-/// Maximum input size in bytes: several frames of maximum length.
+/// Maximum size of the input in bytes (16 MiB).
 const INPUT_MAX: u64 = 0x100_0000;
 
 /// Explain bytes field by field
@@ -32,11 +32,11 @@ const INPUT_MAX: u64 = 0x100_0000;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Explain {
-    /// Bytes in hex, in the order they are sent; - reads hex from stdin
+    /// Bytes in hex, in the order in which they are sent; - reads hex from stdin
     #[arg(value_name = "HEX")]
     hex_bytes: Vec<String>,
 
-    /// Read the bytes from a binary file; - is stdin
+    /// Read the bytes from this binary file; - is stdin
     #[arg(long, value_name = "FILE", conflicts_with = "hex_bytes")]
     file: Option<PathBuf>,
 
@@ -77,7 +77,7 @@ pub(super) struct Explain {
     #[arg(long = "type", value_name = "TYPE", value_parser = type_by_name)]
     ty: Option<DataType>,
 
-    /// Number of elements in each dimension of the value
+    /// Number of elements in each dimension of a value or content
     #[arg(long, value_name = "N,…", value_delimiter = ',', requires = "ty")]
     dimensions: Vec<u32>,
 
@@ -130,7 +130,7 @@ fn is_capture(bytes: &[u8]) -> bool {
     starts.iter().any(|start| bytes.starts_with(start))
 }
 
-/// Whether the bytes are a text of hexadecimal digits.
+/// Whether the bytes are a text of hexadecimal bytes; false for an empty text.
 fn is_hex(bytes: &[u8]) -> bool {
     let text = std::str::from_utf8(bytes);
     text.is_ok_and(|text| parse_hex(text).is_ok_and(|bytes| !bytes.is_empty()))
@@ -155,7 +155,7 @@ fn meant_as_hex(group: u32) -> Option<IndexGroup> {
 }
 
 impl Explain {
-    /// Explains the bytes and returns the exit code.
+    /// Explains the bytes, or lists the streams, and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let done = if self.list { self.list() } else { self.run() };
         done.unwrap_or_else(|(exit, why)| {
@@ -190,7 +190,7 @@ impl Explain {
         if let Some(name) = &self.stream {
             return Stream::by_name(name).map(ExplainSubject::Stream).ok_or_else(|| {
                 let near = did_you_mean(name, Stream::all().map(|stream| stream.layout().name));
-                // The vectors use these names for subjects that are not streams.
+                // The golden vectors use these names for inputs that are not streams.
                 let instead = match name.as_str() {
                     "index-group" | "index-offset" => {
                         "--group NUMBER --offset NUMBER explain an address"
@@ -228,7 +228,7 @@ impl Explain {
         }
     }
 
-    /// The bytes to explain; `None` if only an address is to be explained.
+    /// The bytes to explain; `None` to explain only the address of --group and --offset.
     fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
         let text = match (&self.file, self.hex_bytes.as_slice()) {
             (Some(file), _) => {
@@ -324,7 +324,8 @@ fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Maps a write error; a broken pipe is not an error, because the reader closed it on purpose.
+/// Adds the exit code and a message to a write error. A broken pipe is not an error, because the
+/// reader closed it on purpose.
 fn written(result: io::Result<()>) -> Result<(), (Exit, String)> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

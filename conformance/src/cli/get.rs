@@ -19,9 +19,9 @@ use crate::values::{lines, plain};
 /// Read a variable, a parameter, an object or an element by its name
 ///
 /// The type of a variable comes from its description. The command requests the description by name,
-/// or, on a CNC without that function, searches the descriptions of the variable's kind. It
-/// searches for a COM object or an element in the lists of the channel, of the platform, its axes
-/// and spindles; --of shortens the search. The command writes nothing.
+/// or, with --axis or on a CNC without that function, searches the descriptions of the variable's
+/// kind. It searches for a COM object or an element in the lists of the channel, of the platform,
+/// its axes and spindles; --of shortens the search. The command writes nothing.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
 pub(super) struct Get {
@@ -92,7 +92,8 @@ impl Get {
         Ok(self.judge(&object, &bytes))
     }
 
-    /// The exit code for these bytes: a failure if they are not a value of the type.
+    /// The exit code for these bytes. Without --hex, it is a failure if they are not a value of the
+    /// type and, with --plain, if the type is unknown.
     fn judge(&self, object: &ListedValue, bytes: &[u8]) -> Exit {
         match object.ty.elements(bytes) {
             Ok(Some(_)) => Exit::Success,

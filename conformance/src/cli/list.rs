@@ -1,4 +1,4 @@
-//! Lists the cases that would be run (`run --list`).
+//! Lists the selected cases, and why a case would not be run (`run --list`).
 
 use std::io::{self, Write};
 
@@ -13,7 +13,7 @@ pub(super) struct Listed {
     title: String,
     subject: CaseSubject,
     requirements: Vec<&'static str>,
-    /// Why the case would not be run.
+    /// Why the case would not be run; `None` if it would be run.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_run: Option<String>,
 }
@@ -30,7 +30,8 @@ impl Listed {
     }
 }
 
-/// The cases of a plan in their order; `unmet` returns why a case cannot be run.
+/// The selected cases of a plan in their order, each with the reason of `unmet` why it cannot be
+/// run; then the selected cases that the edition of --edition does not have.
 pub(super) fn of_plan(plan: &Plan, unmet: impl Fn(Needs) -> Option<String>) -> Vec<Listed> {
     let run = plan.selected().map(|case| Listed::new(case, unmet(case.needs)));
     let foreign = plan.foreign.iter().map(|(case, why)| Listed::new(case, Some(why.clone())));

@@ -37,6 +37,6 @@ impl std::str::FromStr for Filter {
 /// Starts logging to stderr.
 pub(super) fn to_stderr(filter: Filter) {
     let lines = fmt::layer().with_writer(io::stderr).with_ansi(false);
-    // This fails only if a logger is already set, which no command of the tool does.
+    // This fails only if a logger is already set; the tool sets a logger at most once.
     let _already_set = tracing_subscriber::registry().with(lines).with(filter.0).try_init();
 }

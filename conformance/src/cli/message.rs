@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use crate::exit::Exit;
 
-/// Writes an error to stderr; ignores a failure of the write.
+/// Writes an error or a message to stderr; ignores a failure of the write.
 pub(super) fn print_error(why: impl std::fmt::Display) {
-    // The text may quote a device, a file or a testee.
+    // The text may quote control characters of a device, a file or a testee.
     let why = crate::text::escape_lines(&why.to_string());
     super::progress::clear();
     let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");

@@ -105,7 +105,7 @@ fn command() -> clap::Command {
 }
 
 impl Subcommands {
-    /// The filter of --log, or the default of the command.
+    /// The log filter of the command if --log is not given; `None` for no log.
     fn log(&self) -> Option<log::Filter> {
         match self {
             Self::Serve(_) => "info".parse().ok(),
@@ -121,7 +121,7 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(mut error) => {
             suggest(&mut error);
-            // Help and version come as errors with the exit code 0.
+            // clap returns the texts of --help and --version as errors with the exit code 0.
             let code = u8::try_from(error.exit_code()).unwrap_or(Exit::Usage.code());
             let _unprinted = error.print();
             return ExitCode::from(code);
@@ -130,7 +130,8 @@ pub fn main() -> ExitCode {
     cli.run()
 }
 
-/// Adds the nearest subcommands or options to an error about an unknown one.
+/// Adds the most similar subcommands, or the most similar option, to an error about an unknown
+/// subcommand or option.
 fn suggest(error: &mut clap::Error) {
     if !matches!(error.kind(), ErrorKind::InvalidSubcommand | ErrorKind::UnknownArgument) {
         return;

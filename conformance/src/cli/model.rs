@@ -1,4 +1,4 @@
-//! Options that choose the data model of the simulated CNC.
+//! Options that choose the data model, the edition and the version of the simulated CNC.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use crate::simulator::{Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
 /// The heading of these options in the help.
 const MODEL: &str = "Simulated CNC";
 
-/// Options that choose the data model.
+/// Options that choose the data model, the edition and the version.
 #[derive(Debug, clap::Args)]
 pub(super) struct ModelArgs {
     /// Read the data model from this file [default: the built-in model].
@@ -31,7 +31,11 @@ fn cnc_version(text: &str) -> Result<CncVersion, String> {
 }
 
 impl ModelArgs {
-    /// Connects to the device, or starts the simulated CNC with this model and connects to it.
+    /// Connects to the device, or starts the simulated CNC with this model and connects to it. A
+    /// dry run does not connect.
+    ///
+    /// # Errors
+    /// Those of [`TargetArgs::open_or`]; wrong usage if the options are given for a device.
     pub(super) fn open(&self, target: &TargetArgs) -> Result<Session, ToolError> {
         let is_given = self.model.is_some() || self.edition.is_some() || self.cnc_version.is_some();
         if is_given && target.is_device() {

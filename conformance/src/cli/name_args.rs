@@ -17,11 +17,11 @@ use crate::session::ToolError;
 use crate::text::{nearest, plural};
 use crate::value_format::type_by_name;
 
-/// The options that identify a value.
+/// The arguments that identify a variable, parameter, object or element.
 #[derive(Args, Clone, Debug)]
 pub(super) struct NameArgs {
-    /// Name of a variable (V.E.list, V.E.list[3], V.G.NP[0].V), of a parameter (P1, V.P.count), of a
-    /// COM object or of an element of SDA and GEO
+    /// Name of a variable (V.E.list, V.E.list[3], V.G.NP[0].V), of a parameter (P1, V.P.count), of
+    /// a COM object or of an element of SDA and GEO
     #[arg(value_name = "NAME", value_parser = given_name)]
     name: String,
 
@@ -32,15 +32,16 @@ pub(super) struct NameArgs {
     #[arg(long, value_name = "INDEX", value_parser = axis)]
     axis: Option<ChannelAxis>,
 
-    /// List of objects, if several have the name: as shown by browse; * and ? match
+    /// List that contains the name, as browse names it; * and ? are wildcards [default: all lists]
     #[arg(long, value_name = "LIST", conflicts_with = "axis")]
     of: Option<String>,
 
-    /// Index offset, if a list has the name several times
+    /// Index offset of the object, if a list has the name several times
     #[arg(long, value_name = "NUMBER", value_parser = number, conflicts_with = "axis")]
     offset: Option<u32>,
 
-    /// Type of the value, without a request for its description: BOOLEAN, SGN32, REAL64, STRING, …
+    /// Type of the value: BOOLEAN, SGN32, REAL64, STRING, …; for a variable, the command then does
+    /// not request the description
     #[arg(long = "type", value_name = "TYPE", value_parser = type_by_name)]
     pub(super) ty: Option<DataType>,
 }
@@ -57,7 +58,8 @@ impl NameArgs {
         }
     }
 
-    /// Advice for the user if the name was not found.
+    /// Advice for the user after an ADS error, or if the name was not found; `None` after any other
+    /// error.
     pub(super) fn advice(
         &self,
         error: &ToolError,
@@ -135,7 +137,8 @@ pub(super) fn no_channel(absent: &[Channel], there: &[Channel]) -> String {
 /// Maximum number of axes of a channel that are queried for a variable.
 const AXES_MAX: u32 = 32;
 
-/// Time limit for the search for names that are similar to an unknown name.
+/// Time limit for the search for names that are similar to an unknown name, and for the search for
+/// axes that have a variable.
 const COMPARING_MAX: Duration = Duration::from_secs(5);
 
 fn is_like_variable(name: &str) -> bool {
@@ -163,9 +166,10 @@ impl NameArgs {
     }
 
     /// Lists the channels of the CNC if it does not have the channel of --channel, otherwise the
-    /// names that are most similar to the unknown name.
+    /// names that are most similar to the unknown name: names of variables and, if `objects`, also
+    /// of objects and elements.
     fn look_for(&self, target: &TargetArgs, model: &ModelArgs, objects: bool) -> Option<String> {
-        // A second session would overwrite the capture of the first one.
+        // A second session would overwrite the capture of the first session.
         if target.capture().is_some() {
             return None;
         }
@@ -205,7 +209,8 @@ impl NameArgs {
     }
 }
 
-/// Type, size, unit and access of an object on one line.
+/// Name, type, size, unit, access, list, address and handle of a value on one line, as far as they
+/// are known.
 pub(super) fn headline(object: &ListedValue) -> String {
     let mut parts: Vec<String> = Vec::new();
     if !object.ty.name.is_empty() {
@@ -232,7 +237,8 @@ fn axis(text: &str) -> Result<ChannelAxis, String> {
     ChannelAxis::new(place).map_err(|error| error.to_string())
 }
 
-/// Maps a write error; a broken pipe is not an error, because the reader closed it on purpose.
+/// Converts a write error to [`ToolError::Internal`]. A broken pipe is not an error, because the
+/// reader closed it on purpose.
 pub(super) fn written(result: io::Result<()>) -> Result<(), ToolError> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
@@ -242,7 +248,7 @@ pub(super) fn written(result: io::Result<()>) -> Result<(), ToolError> {
     }
 }
 
-/// Parses a number, decimal or in hex with 0x.
+/// Parses a number of 32 bits, decimal or in hex with 0x.
 pub(super) fn number(text: &str) -> Result<u32, String> {
     let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
     let number = match hex {

@@ -1,4 +1,4 @@
-//! Prints the requests that a dry run does not send.
+//! Prints requests in a dry run, which does not send them.
 
 use std::fmt;
 use std::io::{self, Write as _};
@@ -9,9 +9,9 @@ use crate::exchange::{Exchange, ExchangeError};
 use crate::report::lines;
 use crate::text::plural;
 
-/// Prints a request that was not sent.
+/// Prints a request of a dry run to stdout.
 pub(super) fn print(exchange: &Exchange) {
-    // A closed stdout is not an error.
+    // A failure to write, for example to a closed stdout, is not an error.
     let _unread = write!(io::stdout().lock(), "{}", NotSent(exchange));
 }
 

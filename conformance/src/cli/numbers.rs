@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// A parser of whole numbers in this range.
+/// A parser for clap that accepts the whole numbers in this range.
 pub(super) fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
 where
     T: FromStr + PartialOrd + Display + Clone,
@@ -16,7 +16,7 @@ where
     }
 }
 
-/// A parser of times in milliseconds or seconds.
+/// A parser of a time: a whole number from 1 to `u32::MAX`, whose unit the option defines.
 pub(super) fn time() -> impl Fn(&str) -> Result<u64, String> + Clone {
     whole(1..=u64::from(u32::MAX))
 }

@@ -1,4 +1,4 @@
-//! Progress on the terminal.
+//! Shows the progress of a command on stderr.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,8 +12,8 @@ use crate::text::plural;
 
 /// Minimum time between two updates of the line on a terminal.
 pub(super) const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
-/// Maximum number of characters of the line. A longer line would wrap, and a part of it would stay
-/// on the screen.
+/// Maximum number of characters of the line on a terminal. On a terminal of 80 columns, a longer
+/// line would wrap, and a part of it would stay on the screen.
 pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, overwritten in place on a terminal.
@@ -29,14 +29,15 @@ impl ProgressLine {
         Self { live: io::stderr().is_terminal(), last: Instant::now(), width: 0 }
     }
 
-    /// Shows a text on a terminal, unless the line was updated within [`UPDATE_INTERVAL`].
+    /// Shows a text on a terminal, unless the line was created or updated within the last
+    /// [`UPDATE_INTERVAL`].
     pub(super) fn update(&mut self, text: impl FnOnce() -> String) {
         if self.live && self.is_due(UPDATE_INTERVAL) {
             self.show(&text());
         }
     }
 
-    /// Whether the last update is at least this long ago.
+    /// Whether the last update, or the creation of the line, is at least this long ago.
     pub(super) fn is_due(&self, every: Duration) -> bool {
         self.last.elapsed() >= every
     }
@@ -54,7 +55,7 @@ impl ProgressLine {
         self.width = line.chars().count();
     }
 
-    /// The part of a text that fits on one line of the terminal.
+    /// The first [`WIDTH`] characters of a text on a terminal, otherwise the whole text.
     pub(super) fn fitted(&self, text: &str) -> String {
         let most = if self.live { WIDTH } else { usize::MAX };
         text.chars().take(most).collect()
@@ -86,10 +87,10 @@ pub(super) fn clear() {
     }
 }
 
-/// A run that is shorter than this duration shows no progress.
+/// The time after which a run first shows its progress on a terminal.
 const SHORT_RUN: Duration = Duration::from_secs(1);
 
-/// Time between two lines if stderr is not a terminal.
+/// Time between two lines, and before the first line, if stderr is not a terminal.
 pub(super) const LOG_INTERVAL: Duration = Duration::from_secs(10);
 
 /// Shows the counts of a run on stderr until it is dropped.
@@ -138,8 +139,8 @@ impl Drop for Watch {
 
 pub(super) fn progress_text(counts: Counts, unit: &str, elapsed: Duration) -> String {
     let Counts { all, done, failed, requests } = counts;
-    // `all` is 0 until the program under test has introduced itself, because the number of cases
-    // depends on the program.
+    // `all` is 0 until a testee or client has answered hello, because the number of steps depends
+    // on its answer.
     let mut text = match all {
         0 if requests == 0 => "waiting for the first message".to_owned(),
         _ => format!("{done} of {all} {unit}"),

@@ -78,7 +78,7 @@ impl ReportArgs {
     }
 }
 
-/// Parses the file of a statement, whose name ends with its format.
+/// Parses the file of a statement: a name that ends in .html or .md, or `-`.
 fn statement_file(text: &str) -> Result<PathBuf, String> {
     match Path::new(text).extension().and_then(OsStr::to_str) {
         Some("html" | "md") => Ok(text.into()),

@@ -25,7 +25,7 @@ pub(super) const WAIVER: &str = "  [[waiver]]
   reason = \"sizes are rounded up to 4 until firmware 2.1\"
   expires = 2027-01-31        # the waiver is not valid from this day on";
 
-/// Formats that are made from the JSON report.
+/// The options for the formats of a report other than JSON.
 #[derive(Args, Clone, Debug)]
 pub(super) struct ReportFormats {
     /// Write the report as one self-contained HTML file
@@ -45,7 +45,7 @@ pub(super) struct ReportFormats {
     badge: Option<PathBuf>,
 }
 
-/// A function that writes a format.
+/// A function that writes a report in a format.
 type FormatWriter = fn(&Report, &mut dyn Write) -> io::Result<()>;
 
 impl ReportFormats {
@@ -69,12 +69,12 @@ impl ReportFormats {
         self.requested().next().is_none()
     }
 
-    /// The files of the formats.
+    /// The files of the requested formats.
     fn files(&self) -> impl Iterator<Item = &Path> {
         self.requested().map(|(file, _)| file)
     }
 
-    /// Rejects two formats on stdout.
+    /// Checks that at most one of the requested formats and the file `json` is written to stdout.
     pub(super) fn check(&self, json: Option<&Path>) -> Result<(), String> {
         let files = json.into_iter().chain(self.files());
         match files.filter(|file| is_stdout(file)).count() {
@@ -104,12 +104,12 @@ pub(super) struct Reports {
 }
 
 impl Reports {
-    /// The file of the JSON report.
+    /// The file of --json.
     pub(super) fn json(&self) -> Option<&Path> {
         self.json.as_deref()
     }
 
-    /// Checks that the reports can be written, and returns the known failures.
+    /// Checks that the reports can be written, and returns the waivers in the file of --waivers.
     pub(super) fn waivers(&self) -> Result<Waivers, String> {
         let waivers = self.waivers.as_deref().map(waivers).transpose()?;
         self.forms.check(self.json())?;
@@ -130,14 +130,14 @@ impl Reports {
         }
     }
 
-    /// Writes the reports, and the result with `print` to stdout unless a report is written to
+    /// Writes the reports to their files. Calls `print` with stdout, unless a report is written to
     /// stdout.
     pub(super) fn write(
         &self,
         report: &Report,
         print: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Exit {
-        // Write the files first: the reader of stdout may close the pipe.
+        // Write the files first, because the reader of stdout may be slow or close the pipe.
         let json = self.json();
         let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
         let written = written.and_then(|()| self.forms.write(report));
@@ -192,7 +192,7 @@ pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::R
     })
 }
 
-/// Prints that a report cannot be written, and returns the exit code.
+/// Prints that a report cannot be written, and returns the exit code of an internal error.
 pub(super) fn lost(error: io::Error) -> Exit {
     print_error(format_args!("cannot write the report: {error}"));
     Exit::Internal

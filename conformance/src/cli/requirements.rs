@@ -1,4 +1,4 @@
-//! `ads-cnc requirements`: prints the traceability matrix.
+//! `ads-cnc requirements`: prints requirements with everything that verifies them.
 
 use std::io::{self, Write as _};
 
@@ -25,7 +25,7 @@ pub(super) struct Requirements {
     #[arg(value_name = "AREA|ID|STREAM", conflicts_with = "only")]
     wanted: Vec<String>,
 
-    /// Same as the argument, with the option name of run; repeatable
+    /// Same as the argument, under the name that the option has in run; repeatable
     #[arg(long, value_name = "AREA|ID|STREAM")]
     only: Vec<String>,
 
@@ -94,8 +94,9 @@ impl Requirements {
     }
 }
 
-/// Whether the word or pattern names the requirement in this row, one of its cases or vectors, or
-/// the word is the name of a stream or function that the requirement defines.
+/// Whether the word or pattern names the requirement in this row, its area, one of its parts,
+/// sections, cases or vectors; or the word is the name of a stream or function that cites the
+/// requirement.
 fn is_named(row: &RequirementRow, word: &str) -> bool {
     let has =
         |ids: &[String], prefix: &str| ids.iter().any(|id| matches(word, &format!("{prefix}{id}")));
@@ -106,7 +107,7 @@ fn is_named(row: &RequirementRow, word: &str) -> bool {
         || has(&row.rejected, "vec-")
 }
 
-/// The message for a word that does not match any row.
+/// The message for a word that matches neither a row nor an erratum, with similar names.
 fn no_such(word: &str, rows: &[RequirementRow]) -> String {
     let functions = Function::ALL.iter().map(|one| id(*one));
     let made: Vec<String> = functions.chain(sections()).collect();
@@ -121,7 +122,7 @@ fn no_such(word: &str, rows: &[RequirementRow]) -> String {
     )
 }
 
-/// The clauses of the stream or function of this name.
+/// The clauses of the stream of this name and of its fields, or of the function of this name.
 fn clauses(name: &str) -> Vec<&'static str> {
     let streams = Stream::by_name(&name.to_ascii_lowercase()).into_iter();
     let functions = Function::ALL.iter().filter(|one| name.eq_ignore_ascii_case(&id(**one)));

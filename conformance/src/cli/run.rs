@@ -92,7 +92,8 @@ pub(super) struct Run {
         conflicts_with_all = ["client", "client_listen", "only", "list", "json", "waivers"])]
     check_protocol: bool,
 
-    /// Also send malformed requests and unknown commands, to verify that the CNC rejects them
+    /// Also send malformed requests, for example to unknown addresses, to verify that the CNC
+    /// rejects them
     ///
     /// The effect on a CNC that accepts them is unknown. Needs `malformed = true` in the file of
     /// --allow-write and a target on loopback. Loopback does not guarantee that no machine moves:
@@ -101,13 +102,13 @@ pub(super) struct Run {
     malformed: bool,
 
     /// Run only these cases: an area (VAR), a requirement (VAR-11), a section of a manual and those
-    /// below it (ads:4.3, stream:3, service:2), a stream (variable-description) or the ID of a case; *
-    /// and ? are wildcards; repeatable or comma-separated [default: all]
+    /// below it (ads:4.3, stream:3, service:2), a stream (variable-description) or the ID of a
+    /// case; * and ? are wildcards; repeatable or comma-separated [default: all]
     #[arg(long, help_heading = SELECTION, value_name = "AREA|ID|STREAM", value_delimiter = ',')]
     only: Vec<String>,
 
-    /// Judge by this edition only, en-1.05 or de-1.051; the simulated CNC follows it [default:
-    /// both]
+    /// Judge by this edition only, en-1.05 or de-1.051; the simulated CNC follows the edition
+    /// [default: both]
     #[arg(long, hide_short_help = true, help_heading = SELECTION, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
@@ -123,8 +124,8 @@ pub(super) struct Run {
         conflicts_with_all = ["testee", "client", "client_listen"])]
     all: bool,
 
-    /// Stop after N failed cases, also known ones (--waivers); all cases of the codec are judged
-    /// together
+    /// Stop after N failed cases, waived failures included; the cases of the codec are always all
+    /// run
     #[arg(long, hide_short_help = true, help_heading = SELECTION, value_name = "N",
         allow_negative_numbers = true, value_parser = whole(1..=u32::MAX),
         conflicts_with_all = ["testee", "client_listen"])]
@@ -190,7 +191,7 @@ Exit codes, the first that applies:
     )
 }
 
-/// Prints the values that could not be restored; returns whether there are any.
+/// Prints the values that could not be restored; returns whether such values exist.
 fn print_left_changed(changes: &Changes) -> bool {
     let left = changes.left();
     for one in &left {
@@ -223,7 +224,8 @@ impl From<Unmatched> for Stopped {
 }
 
 impl Run {
-    /// Runs the suite and writes its reports.
+    /// Runs the suite and writes its reports, or prints the profile, lists the cases or checks the
+    /// testee protocol, as the options say.
     pub(super) fn execute(&self) -> Exit {
         if self.print_profile {
             let text = if self.target.is_device() {
@@ -241,7 +243,7 @@ impl Run {
             return printed.map_or_else(super::report_output::lost, |()| Exit::Success);
         }
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
-            // An invalid file is an error even without a target.
+            // An invalid file for --allow-write is an error even without a target.
             self.target.allowed().map_err(|error| error.to_string())?;
             if self.target.has_file() && !self.target.is_device() {
                 return Err(
@@ -310,7 +312,8 @@ impl Run {
                 return Exit::Internal;
             }
         };
-        // A run that waits for a client prints no time limit: its first line contains the address.
+        // A run that waits for a client prints no time limit, because the first line on stderr must
+        // contain the address on which it waits.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
         let is_default = self.deadline.is_default();
         if asks && !is_default && !self.client.waits() && !self.display.is_quiet() {
@@ -411,7 +414,8 @@ impl Run {
                 return Exit::Usage;
             }
         };
-        // Every write to the simulated CNC of this process is allowed.
+        // Without --target, no gate is needed: every write to the simulated CNC of this process is
+        // allowed.
         let gate = self
             .target
             .is_device()
@@ -464,7 +468,7 @@ impl Run {
         Ok(Report::new(about, &outcomes, &left_out))
     }
 
-    /// The reason why cases were not run, if the run ended early because of --max-fail.
+    /// Says how many cases were not run because of --max-fail; `None` if --max-fail ended nothing.
     fn ended(&self, outcomes: &[CaseOutcome]) -> Option<String> {
         let unrun = outcomes.iter().filter(|one| one.note.as_deref() == Some(ENOUGH)).count();
         let most = plural(self.max_fail.filter(|_| unrun > 0)?, "failed case");
@@ -492,8 +496,8 @@ impl Run {
     }
 
     fn write(&self, report: &Report) -> Exit {
-        // The description of a device was printed on stderr: do not repeat it if stdout is a
-        // terminal, too.
+        // What the discovery found was printed on stderr: do not repeat it on stdout if both are
+        // terminals.
         let found_shown = io::stdout().is_terminal() && io::stderr().is_terminal();
         let display = DisplayOptions { found_shown, ..self.display.display() };
         self.reports.write(report, |out| report::print(report, display, out))

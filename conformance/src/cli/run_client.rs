@@ -66,7 +66,8 @@ impl ClientArgs {
         self.client.is_none() && self.client_listen.is_some()
     }
 
-    /// All scenarios of a client.
+    /// The cases for a client: all scenarios with --client, otherwise only the case that judges the
+    /// requests of a client that connects by itself.
     pub(super) fn cases(&self) -> Vec<Case> {
         match &self.client {
             Some(_) => client_suite::scenarios().iter().map(Scenario::case).collect(),
@@ -77,7 +78,7 @@ impl ClientArgs {
     /// Judges the client by the cases of a plan. After `most` failed cases, the others are not run.
     ///
     /// # Errors
-    /// If the suite cannot listen on the address.
+    /// If the suite may not or cannot listen on the address, or the capture cannot be written.
     pub(super) fn judge(
         &self,
         plan: &Plan,
@@ -127,7 +128,8 @@ impl ClientArgs {
     }
 }
 
-/// Serves clients that connect by themselves.
+/// Serves clients that connect by themselves, until all have disconnected, a signal arrives or the
+/// deadline is over, and judges their requests.
 fn wait_for_client(
     server: &TestServer,
     deadline: Deadline,
@@ -135,7 +137,7 @@ fn wait_for_client(
 ) -> Result<OfClient, String> {
     let (addr, net_id) = (server.addr(), server.net_id());
     let mut hint_printed = false;
-    // `listen` calls this closure for the first time when the server accepts connections.
+    // When `listen` calls this closure for the first time, the server serves connections.
     let go_on = || {
         if !hint_printed {
             print_error(format_args!(

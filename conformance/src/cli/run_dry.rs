@@ -41,7 +41,7 @@ pub(super) fn list(
     for spec in queries.map(Function::spec) {
         let (service, port) = (spec.service.to_string(), spec.task.port().0);
         writeln!(out, "  {service:<9}  port {port}  {} ({})", spec.name, spec.clause)?;
-        // The cases query the classes at GEO too.
+        // The cases request the address of an instance at the port of GEO too.
         if spec.name == Function::FindInstance.spec().name && profile.has_port(AmsPort::GEO) {
             let port = AmsPort::GEO.0;
             writeln!(out, "  {service:<9}  port {port}  {} ({})", spec.name, spec.clause)?;

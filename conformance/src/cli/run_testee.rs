@@ -21,10 +21,11 @@ use crate::testee::{
 };
 use crate::text::shorten;
 
-/// Maximum number of bytes of stderr in a report; of a longer stderr, the report contains the end.
+/// Maximum number of characters of stderr in a report; of a longer stderr, the report contains the
+/// end.
 const STDERR_SHOWN: usize = 4000;
 
-/// Maximum number of characters of a name in a report.
+/// Maximum number of characters of the name, version or language of a program in a report.
 const NAME_MAX: usize = 200;
 
 pub(super) struct OfTestee {
@@ -48,7 +49,8 @@ pub(super) fn run(
     OfTestee { target: target("testee", command, identity, &process.stderr()), outcomes }
 }
 
-/// The program in a report: its name, version and language, and the end of its stderr.
+/// The description of a testee or client in a report: name, version, language, command, and the end
+/// of stderr. Without a name, the name is `kind`.
 pub(super) fn target(
     kind: &str,
     command: &str,
@@ -70,7 +72,8 @@ pub(super) fn target(
     }
 }
 
-/// Checks the protocol step by step, and prints each fault with the expected answer.
+/// Checks the protocol step by step. Prints each step and, for a wrong step, the fault and the
+/// lines sent and received.
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
     let mut process = TesteeProcess::new(command, timeout);
     let findings = check_protocol(&mut process);

@@ -21,7 +21,8 @@ use crate::selftest::{self, SelfTestProgress};
 ///
 /// The vectors judge codecs with a defect, the cases over the wire judge CNCs with a defect, and
 /// the scenarios judge clients with a defect. A defect is detected if a requirement that it
-/// violates fails. `serve --list-defects` lists the defects.
+/// violates fails. `serve --list-defects` lists the defects of codecs and CNCs, `client
+/// --list-defects` those of clients.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Exit codes: 0 every defect without a documented reason detected, and no false \
@@ -44,12 +45,12 @@ pub(super) struct SelfTestArgs {
         value_parser = whole(0..=u32::MAX))]
     seed: Option<u32>,
 
-    /// Measure the changed defects, or all if a case changed, and write detection.tsv and
-    /// detection.md to this folder
+    /// Measure the changed defects, or all if the list of cases, a level or the default model
+    /// changed, and write detection.tsv and detection.md to this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["seed", "only"])]
     renew: Option<PathBuf>,
 
-    /// Show every tested implementation and every undetected defect
+    /// Show every tested implementation and every missed defect
     #[arg(long, short)]
     verbose: bool,
 

@@ -24,7 +24,7 @@ use crate::simulator::{
 };
 use crate::text::did_you_mean;
 
-/// The end of the help.
+/// The end of the help text of `serve`.
 const AFTER_HELP: &str = "\
 Examples:
   ads-cnc serve
@@ -81,8 +81,8 @@ pub(super) struct ServeArgs {
     #[arg(long, value_name = "PACE")]
     pace: Option<Pace>,
 
-    /// At the end, write the streamed lines that this channel ran to this file, at most the last
-    /// MiB; repeatable for several channels.
+    /// At the end, write the streamed lines that this channel ran to this file; of more than 1 MiB,
+    /// at least the last MiB; repeatable for several channels.
     #[arg(long, value_name = "CHANNEL=FILE")]
     executed: Vec<ExecutedTo>,
 
@@ -95,8 +95,8 @@ pub(super) struct ServeArgs {
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// List the defects, or those whose ID or requirements contain PART, and exit. Columns,
-    /// separated by tabs: ID, violated requirements, effect.
+    /// List the defects, or those whose ID contains PART or that violate the requirement PART, and
+    /// exit. Columns, separated by tabs: ID, violated requirements, effect.
     #[arg(long, value_name = "PART", num_args = 0..=1, default_missing_value = "")]
     list_defects: Option<String>,
 }
@@ -151,7 +151,7 @@ pub(super) fn serve(args: &ServeArgs) -> ExitCode {
         return exit_with_error(Exit::Internal, format_args!("cannot print the address: {error}"));
     }
     drop(out);
-    // The threads of the server handle the connections.
+    // The threads of the server handle the connections until a signal arrives.
     interrupt.wait();
     tracing::info!("stopped by a signal");
     drop(server);
@@ -175,7 +175,7 @@ impl ServeArgs {
 /// Checks the address that the simulated CNC listens on.
 ///
 /// # Errors
-/// If other machines can reach it and --allow-remote is not set.
+/// If the address is not a loopback address and --allow-remote is not set.
 pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), String> {
     if addr.ip().is_loopback() {
         return Ok(());
@@ -252,7 +252,8 @@ fn list_defects(part: &str) -> ExitCode {
     if listed.peek().is_none() {
         let parts = faults::all().iter().flat_map(|seed| seed.id.split('.'));
         let near = did_you_mean(part, parts);
-        let why = format!("no defect contains {part} in its ID or its requirements{near}");
+        let why =
+            format!("no defect contains {part} in its ID or violates the requirement {part}{near}");
         return exit_with_error(Exit::Usage, why);
     }
     for seed in listed {
@@ -265,7 +266,10 @@ fn list_defects(part: &str) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The defect with this ID, if an ID is given.
+/// The defect with this ID; `None` without an ID.
+///
+/// # Errors
+/// If no defect has the ID; the error suggests similar IDs.
 pub(super) fn find_defect(id: Option<&str>) -> Result<Option<SeededDefect>, String> {
     let Some(id) = id else { return Ok(None) };
     faults::by_id(id).cloned().map(Some).ok_or_else(|| unknown_defect(id))

@@ -70,8 +70,9 @@ printed by get --json, is the same as 1,2,3,4,5,6. In an array of texts, put a t
 double quotes.
 
 Exit codes: 0 written, and the same value read back; 1 the CNC rejects the write, describes the
-object as read only, or returns another value, as for a command that it consumes; 2 wrong usage, or
-a value that does not fit; 3 no reply; 4 rejected for safety; 70 internal error.";
+object as read only, rejects reading it back, or returns another value, as for a command that it
+consumes; 2 wrong usage, or a value that does not fit; 3 no reply; 4 rejected for safety; 70
+internal error.";
 
 impl Set {
     pub(super) fn execute(&self) -> Exit {
@@ -87,7 +88,7 @@ impl Set {
         if let Some(object) = &alone {
             check(object)?;
             let checked = self.target.ask_gate(|session| session.check_write(&object.address));
-            checked.map_err(|refused| self.wrong(&question).unwrap_or(refused))?;
+            checked.map_err(|rejected| self.wrong(&question).unwrap_or(rejected))?;
         }
         let mut session = self.open(alone.as_ref())?;
         if let Some(object) = &alone {
@@ -98,7 +99,8 @@ impl Set {
         let size = object.size();
         let NewValue { old, ty, mut bytes } = self.value(&object, &mut session)?;
         if object.address.content().is_some() {
-            // A content has a fixed size: the rest of a text is filled with zeros.
+            // The content of an object or element has a fixed size: a shorter text is padded with
+            // zeros.
             bytes.resize(to_usize(size).max(bytes.len()), 0);
         }
         if session.is_simulated() && !self.target.has_file() {
@@ -122,8 +124,8 @@ impl Set {
         Ok(judge(&ty, &bytes, new.as_deref()))
     }
 
-    /// If --allow-write is not set, reads the description of the object from the device to find an
-    /// error in the name or the value; `None` if no such error is found.
+    /// Reads the description of the object from the device to find an error in the name or the
+    /// value. `None` if no such error is found, and if --allow-write is given.
     fn wrong(&self, question: &Lookup) -> Option<ToolError> {
         if self.target.has_file() {
             return None;
@@ -139,7 +141,8 @@ impl Set {
         })
     }
 
-    /// Parses the value by the type of the object and the length of its value.
+    /// Reads the current value, and parses the new value by the type of the object and the length
+    /// of the current value.
     fn value(&self, object: &ListedValue, session: &mut Session) -> Result<NewValue, ToolError> {
         let old = match session.read(&object.address) {
             Ok(old) => Some(old),
@@ -156,23 +159,23 @@ impl Set {
         Ok(NewValue { old, ty, bytes })
     }
 
-    /// Checks the write with the gate before connecting, if the name alone determines the address.
+    /// Checks the write with the gate of the session before the description is requested. A dry run
+    /// prints a rejected write.
     fn ask_gate(&self, object: &ListedValue, session: &mut Session) -> Result<(), ToolError> {
         if session.is_simulated() && !self.target.has_file() {
             return Ok(());
         }
         let checked = session.check_write(&object.address);
         if checked.is_err() && session.is_dry() {
-            // The error of a rejected write contains the value, which can be parsed only if the
-            // type is known.
+            // The printed write contains the value, which can be parsed only if the type is known.
             let value = parse(&object.ty, &self.value).unwrap_or_default();
             return session.write(&object.address, &value);
         }
         checked
     }
 
-    /// Connects to the target. The gate of the simulated CNC allows exactly this write, also in a
-    /// dry run.
+    /// Opens the session. In a dry run without --target and --allow-write, its gate allows the
+    /// write of `alone`, the object whose address the name alone determines.
     fn open(&self, alone: Option<&ListedValue>) -> Result<Session, ToolError> {
         let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
@@ -211,7 +214,7 @@ struct NewValue {
     bytes: Vec<u8>,
 }
 
-/// Checks that the CNC describes the object as writable.
+/// Checks that the object is not a P parameter, and that the CNC does not describe it as read-only.
 fn check(object: &ListedValue) -> Result<(), ToolError> {
     let name = &object.name;
     if matches!(object.address, ValueAddress::Parameter { kind: DynamicKind::P, .. }) {
@@ -226,11 +229,12 @@ fn check(object: &ListedValue) -> Result<(), ToolError> {
     }
 }
 
-/// Compares the value read back with the written value; compares a text only up to its NUL.
+/// Compares the value read back with the written value; compares a text only up to its NUL. Without
+/// a value read back, the exit code is that of a failure, because the write is not confirmed.
 fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let Some(new) = new else {
         print_error("the value was written, but the CNC rejects reading it back");
-        return Exit::Success;
+        return Exit::Failure;
     };
     let same = written == new
         || plain(ty, written).is_some_and(|written| plain(ty, new).as_ref() == Some(&written));
@@ -240,4 +244,15 @@ fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let wrote = plain(ty, written).unwrap_or_default();
     print_error(format_args!("the CNC accepted {wrote}, but now returns another value"));
     Exit::Failure
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_that_cannot_be_read_back_is_a_failure() {
+        assert_eq!(judge(&Type::UNKNOWN, &[1], None), Exit::Failure);
+        assert_eq!(judge(&Type::UNKNOWN, &[1], Some(&[1])), Exit::Success);
+    }
 }

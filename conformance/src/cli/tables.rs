@@ -1,4 +1,5 @@
-//! `ads-cnc tables` and `ads-cnc wireshark`: print the tables of the codec for other programs.
+//! `ads-cnc tables` prints the tables of the codec, and `ads-cnc wireshark` a dissector that is
+//! generated from them.
 
 use std::io::{self, Write};
 

@@ -60,12 +60,13 @@ pub(super) struct TargetArgs {
     #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     net_id: Option<AmsNetId>,
 
-    /// AMS NetId of this client; the device needs a route to it [default: this machine's address
-    /// and .1.1]
+    /// AMS NetId of this client; the device needs a route to it [default: this machine's IPv4
+    /// address and .1.1; on loopback 127.0.0.1.1.2]
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     source_net_id: Option<AmsNetId>,
 
-    /// Timeout for a connection and for a reply, in milliseconds [default: 2000]
+    /// Timeout for a connection and for a reply, in milliseconds; without effect on a simulated CNC
+    /// that the command starts [default: 2000]
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "MS",
         allow_negative_numbers = true, value_parser = time())]
     timeout: Option<u64>,
@@ -75,7 +76,8 @@ pub(super) struct TargetArgs {
         allow_negative_numbers = true, value_parser = pace)]
     rate: Option<Duration>,
 
-    /// File with the allowed writes, the device and the end of the permission [default: no writes]
+    /// File that names the allowed writes, the device and the time at which the permission ends
+    /// [default: no writes to a device]
     #[arg(long, help_heading = TARGET, value_name = "FILE")]
     allow_write: Option<PathBuf>,
 
@@ -87,11 +89,11 @@ pub(super) struct TargetArgs {
     #[arg(long, help_heading = TARGET)]
     dry_run: bool,
 
-    /// Whether malformed requests are allowed; set by an option of `run`.
+    /// Whether malformed requests are allowed; set by the option `--malformed` of `run`.
     #[arg(skip)]
     malformed: bool,
 
-    /// Whether the suite sends the requests; if so, a capture contains a comment about it.
+    /// Whether the suite sends the requests; if so, a capture contains a comment that says so.
     #[arg(skip)]
     is_of_suite: bool,
 
@@ -109,7 +111,7 @@ pub(super) struct DeadlineArgs {
     deadline: u64,
 }
 
-/// The default deadline in seconds, which is longer than a run with two requests per second takes.
+/// The default deadline in seconds, in which 28,800 requests can be sent at two per second.
 const DEADLINE: u64 = 4 * 3600;
 
 impl DeadlineArgs {
@@ -129,7 +131,7 @@ impl fmt::Display for DeadlineArgs {
     }
 }
 
-/// The channel.
+/// The option --channel.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct ChannelArgs {
     /// Number of the channel
@@ -138,50 +140,50 @@ pub(super) struct ChannelArgs {
 }
 
 impl TargetArgs {
-    /// Whether a device is the target.
+    /// Whether --target is given.
     pub(super) const fn is_device(&self) -> bool {
         self.target.is_some()
     }
 
-    /// Timeout for a reply.
+    /// The timeout for a connection and for a reply.
     pub(super) fn timeout(&self) -> Duration {
         self.timeout.map_or(TIMEOUT, Duration::from_millis)
     }
 
-    /// Whether there is a file for --allow-write.
+    /// Whether --allow-write is given.
     pub(super) const fn has_file(&self) -> bool {
         self.allow_write.is_some()
     }
 
-    /// Whether this is a dry run.
+    /// Whether --dry-run is given.
     pub(super) const fn is_dry(&self) -> bool {
         self.dry_run
     }
 
-    /// Sets the timeout for a reply, unless an option sets it.
+    /// Sets the timeout, unless --timeout is given.
     pub(super) fn with_timeout(mut self, timeout: Option<Duration>) -> Self {
         let milliseconds = timeout.and_then(|time| u64::try_from(time.as_millis()).ok());
         self.timeout = self.timeout.or(milliseconds);
         self
     }
 
-    /// Marks the target as one to which the suite sends the requests.
+    /// Marks the requests as those of the suite, for the comment in a capture.
     pub(super) fn of_suite(self) -> Self {
         Self { is_of_suite: true, ..self }
     }
 
-    /// Allows malformed requests.
+    /// Sets whether malformed requests are allowed.
     pub(super) fn with_malformed(self, malformed: bool) -> Self {
         Self { malformed, ..self }
     }
 
-    /// Connects to the device, or to a simulated CNC of this process.
+    /// Like [`open_or`](Self::open_or), with the default model of the simulated CNC.
     pub(super) fn open(&self) -> Result<Session, ToolError> {
         self.open_or(default_cnc)
     }
 
-    /// Connects to the device, or starts the simulated CNC that `cnc` creates. Without a file for
-    /// --allow-write, the gate of the simulated CNC allows this entry only.
+    /// Like [`open_or`](Self::open_or), but without --target and --allow-write, the gate allows the
+    /// writes of this entry to the simulated CNC.
     pub(super) fn open_to_write(
         &self,
         entry: Entry,
@@ -197,8 +199,8 @@ impl TargetArgs {
         }
     }
 
-    /// Checks a write to a device with the gate before connecting. A dry run does not check it
-    /// here, because it shows the rejected write later.
+    /// Checks a write to a device with the gate before connecting. A dry run skips this check,
+    /// because it shows the rejected write later.
     pub(super) fn ask_gate(
         &self,
         check: impl FnOnce(&Session) -> Result<(), ToolError>,
@@ -211,13 +213,21 @@ impl TargetArgs {
         }
     }
 
-    /// The content of the file for --allow-write, with or without a target.
+    /// The content of the file for --allow-write; `None` without the option. Does not need a
+    /// target.
+    ///
+    /// # Errors
+    /// Wrong usage, if the file cannot be read or is invalid.
     pub(super) fn allowed(&self) -> Result<Option<Allowed>, ToolError> {
         let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
         allowed.map_err(|error| ToolError::Usage(error.to_string()))
     }
 
     /// The gate that checks each request before it is sent to the target.
+    ///
+    /// # Errors
+    /// If the file for --allow-write is invalid, the host of --target has no address, or the file
+    /// does not permit the malformed requests that --malformed asks for.
     pub(super) fn gate(&self) -> Result<Gate, ToolError> {
         let gate = Gate::queries().with_allowed(self.allowed()?);
         match (self.device()?, self.malformed) {
@@ -231,7 +241,8 @@ impl TargetArgs {
         }
     }
 
-    /// Connects to the device, or starts the simulated CNC that `cnc` creates.
+    /// Connects to the device, or starts the simulated CNC that `cnc` creates and connects to it.
+    /// In a dry run, does not connect; the session prints its requests.
     pub(super) fn open_or(
         &self,
         cnc: impl FnOnce() -> Result<Cnc, ToolError>,
@@ -248,7 +259,8 @@ impl TargetArgs {
         }
     }
 
-    /// The options of the device, for a command line in a hint; empty for the simulated CNC.
+    /// The options --target, --net-id and --source-net-id as given, for a command line in a hint;
+    /// empty without --target.
     pub(super) fn as_options(&self) -> String {
         let mut options = String::new();
         let ids = [("--net-id", self.net_id), ("--source-net-id", self.source_net_id)];
@@ -259,12 +271,12 @@ impl TargetArgs {
         options
     }
 
-    /// The file of the capture.
+    /// The file of --capture.
     pub(super) fn capture(&self) -> Option<&Path> {
         self.capture.as_deref()
     }
 
-    /// The session, with a capture if the option requests one.
+    /// Adds a capture to the session, if --capture is given.
     pub(super) fn recorded(&self, session: Session) -> Result<Session, ToolError> {
         let capture = self.begin_capture()?;
         Ok(match capture {
@@ -273,7 +285,7 @@ impl TargetArgs {
         })
     }
 
-    /// Starts the capture that the option requests.
+    /// Creates the file of --capture; `None` without the option.
     pub(super) fn begin_capture(&self) -> Result<Option<Capture>, ToolError> {
         let Some(file) = &self.capture else { return Ok(None) };
         let failed = |error: io::Error| {
@@ -296,7 +308,8 @@ impl TargetArgs {
     }
 
     /// Prints the error of the command, if any, with advice, and returns the exit code of the
-    /// process. An incomplete capture is an error, too.
+    /// process. If the command succeeded but the capture is incomplete, the exit code is that of an
+    /// internal error.
     pub(super) fn end(
         &self,
         done: Result<Exit, ToolError>,
@@ -332,19 +345,19 @@ impl TargetArgs {
     }
 }
 
-/// Prints once that the replies are those of a simulated CNC.
+/// Prints, at most once in this process, that the command uses a simulated CNC.
 fn tell_simulated() {
     static TOLD: Once = Once::new();
     TOLD.call_once(|| print_error("using a simulated CNC, because --target is not given"));
 }
 
-/// The default model of the simulated CNC.
+/// A simulated CNC with the default model.
 pub(super) fn default_cnc() -> Result<Cnc, ToolError> {
     let internal = |error| ToolError::Internal(format!("the default model: {error}"));
     Cnc::with_default_model().map_err(internal)
 }
 
-/// A gate that allows this write to a simulated CNC.
+/// A gate that allows queries and the writes of this entry to a simulated CNC.
 pub(super) fn simulator_gate(entry: Entry) -> Gate {
     let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
     Gate::queries().with_allowed(Some(Allowed {
@@ -375,11 +388,12 @@ pub(super) fn net_id(text: &str) -> Result<AmsNetId, String> {
 fn pace(text: &str) -> Result<Duration, String> {
     let invalid = || "expected a number greater than 0".to_owned();
     let rate: f64 = text.parse().map_err(|_| invalid())?;
-    // An infinite rate would mean no time between requests, and 0 an infinite time.
+    // For the rate `inf`, the time is 0. For the rate 0, the time would be infinite, which is an
+    // error.
     Duration::try_from_secs_f64(rate.recip()).map_err(|_| invalid())
 }
 
-/// The address of a host, with the port of AMS/TCP if none is given.
+/// The address of a host; the port is 48898 if none is given.
 fn resolve(host: &str) -> io::Result<SocketAddr> {
     if let Ok(ip) = host.parse::<IpAddr>() {
         return Ok(SocketAddr::new(ip, AMS_TCP_PORT));

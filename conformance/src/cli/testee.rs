@@ -20,8 +20,8 @@ pub(super) struct TesteeArgs {
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// Replace the codec by a faulty one to test the suite: accepts-all, refuses-all, hangs,
-    /// crashes, …
+    /// Misbehave in a way that the suite must detect, to test the suite: accepts-all, refuses-all,
+    /// hangs, crashes, …; noisy, decodes-only and terse are correct
     #[arg(long, value_name = "NAME", conflicts_with = "defect", value_parser = Miniature::by_name)]
     miniature: Option<Miniature>,
 }
@@ -108,7 +108,7 @@ fn misbehave(miniature: Miniature, own: &CodecTestee) -> io::Result<()> {
     Ok(())
 }
 
-/// Hangs until the process is killed, for at most a minute.
+/// Hangs until the process is killed; exits after a minute.
 fn stay() -> ! {
     std::thread::sleep(std::time::Duration::from_secs(60));
     std::process::exit(i32::from(Exit::Internal.code()))

@@ -1,4 +1,4 @@
-//! Sends ReadDeviceInfo and ReadState, through the gate.
+//! Sends ReadDeviceInfo and ReadState requests, if the gate allows them.
 
 use std::fmt;
 
@@ -14,14 +14,14 @@ use crate::evidence::Evidence;
 use crate::exchange::{ExchangeError, Violation, violations};
 use crate::text::hex;
 
-/// A command whose request has no data. The type is that of its reply.
+/// A command whose request has no data. The type that implements this trait is its reply.
 pub trait Inquiry: for<'a> Decode<'a> {
     const COMMAND: Command;
     const NAME: &'static str;
     /// The requirement of the reply.
     const CLAUSE: ClauseId;
 
-    /// The ADS error number.
+    /// The ADS error number; 0 means success.
     fn result(&self) -> AdsError;
 }
 
@@ -52,14 +52,14 @@ pub enum InquiryReply<R> {
     Reply(R),
     /// An ADS error of the device.
     Rejected(AdsError),
-    /// An AMS error: the router does not know the address.
+    /// An error in the AMS header, for example because the router does not know the address.
     Ams(AdsError),
 }
 
 /// An inquiry and its result.
 #[derive(Debug)]
 pub struct Inquired<R> {
-    /// Port to which the request was sent.
+    /// The AMS port to which the request was sent.
     pub port: AmsPort,
     /// The frame sent; empty if nothing was sent.
     pub sent: Vec<u8>,
@@ -67,7 +67,7 @@ pub struct Inquired<R> {
     pub received: Vec<u8>,
     /// The reply, or why there is no valid reply.
     pub outcome: Result<InquiryReply<R>, ExchangeError>,
-    /// Rules of AMS/TCP that the received frame violates.
+    /// The requirements of the headers and of the reply that the received frames violate.
     pub violations: Vec<Violation>,
 }
 
@@ -111,9 +111,8 @@ impl Client {
     ) -> Result<InquiryReply<R>, ExchangeError> {
         let header = self.next_header(inquired.port, R::COMMAND);
         let bytes = super::whole(header, &[])?;
-        let Inquired { received, violations: broken, .. } = inquired;
-        let came = self.deliver(&bytes, header, received, broken)?;
-        inquired.sent = bytes;
+        let Inquired { sent, received, violations: broken, .. } = inquired;
+        let came = self.deliver(&bytes, header, sent, received, broken)?;
         let reply = came.and_then(|got| {
             inquired.violations.extend(violations(&header, &got));
             decode_reply(&got, &inquired.received)

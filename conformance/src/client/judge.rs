@@ -1,4 +1,4 @@
-//! Checks the headers of received frames.
+//! Checks the headers of a received frame, and the lengths in its reply.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::operation::AdsService;
@@ -9,7 +9,8 @@ use crate::ads_service::{clause, decode_reply, reply_stream};
 use crate::exchange::{Exchange, ExchangeError, Violation, violations};
 use crate::text::plural;
 
-/// Whether the payload is a reply with a result of 0 or 2 bytes, or a length of 2 bytes.
+/// Whether the payload would be a valid reply if its result had 0 or 2 bytes, or its length field 2
+/// bytes.
 fn is_narrow(service: AdsService, payload: &[u8]) -> bool {
     let missing: [(usize, &[u8]); 3] = [(0, &[0; 4]), (0, &[0; 2]), (6, &[0; 2])];
     missing.into_iter().any(|(at, zeros)| {
@@ -19,7 +20,8 @@ fn is_narrow(service: AdsService, payload: &[u8]) -> bool {
 }
 
 impl Client {
-    /// Adds the violations in the headers of the received frame.
+    /// Adds the violations in the received frame to the exchange. After an error, also closes the
+    /// connection.
     pub(super) fn judge(&mut self, asked: &AmsHeader, exchange: &mut Exchange) {
         let mut broken = Vec::new();
         match &exchange.outcome {
@@ -59,7 +61,7 @@ impl Client {
                         add(ADS_5, "no data, and no error in the AMS header".to_owned());
                     }
                 }
-                // The start of the next frame on this connection is unknown.
+                // After an error, the start of the next frame on this connection is unknown.
                 self.disconnect();
             }
         }

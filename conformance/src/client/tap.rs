@@ -15,5 +15,8 @@ pub trait Tap: fmt::Debug + Send {
     fn closed(&mut self);
 
     /// Ends the record.
+    ///
+    /// # Errors
+    /// The first error of the system while the record was written.
     fn finish(self: Box<Self>) -> io::Result<()>;
 }

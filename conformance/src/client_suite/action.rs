@@ -7,9 +7,10 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActionWord {
     pub name: &'static str,
-    /// Names of the arguments. The last argument may contain blanks.
+    /// Names of the arguments. The value of the last argument may contain spaces.
     pub arguments: &'static [&'static str],
-    /// The result of the action, and what the client does if the name does not say it.
+    /// The result of the action and, if needed, the possible values of an argument and the effect
+    /// of the action.
     pub gives: &'static str,
 }
 
@@ -63,7 +64,8 @@ pub struct Action {
 }
 
 impl Action {
-    /// Parses an action such as `read-by-name 1 V.E.Testvar SGN32[5]`.
+    /// Parses an action such as `read-by-name 1 V.E.Testvar SGN32[5]`; `None` if the action is
+    /// unknown or an argument is missing or empty.
     ///
     /// ```
     /// use ads_cnc_conformance::client_suite::Action;

@@ -24,7 +24,8 @@ use crate::judge::{
 use crate::process::{interrupt, progress};
 use crate::simulator::Cnc;
 
-/// After this many consecutive scenarios without an answer, the remaining scenarios are not run.
+/// After this many consecutive scenarios without a valid answer, the remaining scenarios are not
+/// run.
 const UNANSWERED_MAX: usize = 12;
 
 #[derive(Debug)]
@@ -35,8 +36,8 @@ pub struct JudgedClient {
     pub requests: usize,
 }
 
-/// Runs a client through scenarios in order, and judges it. After `most` failed scenarios, the remaining
-/// ones are not run.
+/// Runs a client through scenarios in order, and judges it. After `most` failed scenarios, the
+/// remaining scenarios are not run.
 pub fn judge(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
@@ -157,8 +158,9 @@ fn one_line(actor: &mut dyn ClientUnderTest, protocol: &mut ScenarioChecks) {
     }
 }
 
-/// Runs this project's client with a defect through the scenarios that test the violated requirement,
-/// until this requirement fails. A valid variant runs through all scenarios.
+/// Runs this project's client with a defect through the scenarios that test the violated
+/// requirement, until this requirement fails. All scenarios test the requirement `CLIENT`. A valid
+/// variant runs through all scenarios.
 pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     let mut own = ReferenceClient { fault: Some(defect.fault) };
     let wanted = Rule::of(defect.requirement).id;
@@ -177,8 +179,8 @@ pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
     outcomes
 }
 
-/// Runs one scenario. Returns its outcome, whether the client gave no valid answer, and the number of
-/// requests that the client sent.
+/// Runs one scenario. Returns its outcome, whether the client gave no valid answer, and the number
+/// of requests that the client sent.
 fn play(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
@@ -206,8 +208,8 @@ fn play(
     let mut requests = RequestJudge::of_scenario();
     requests.judge(&exchanges, &mut scenario_checks);
     requests.finish(&mut scenario_checks);
-    // `asks` is empty if the client may correctly send no request: it may reject a program with a
-    // loop word before it sends anything.
+    // `asks` is empty if the scenario is about replies, the order of requests, or a program that
+    // the client must not stream.
     request_match::judge(&scenario.asks, &exchanges, may_write(scenario), &mut scenario_checks);
     if let Some(watch) = scenario.watch {
         ordering::judge(watch, scenario, &script, &exchanges, &mut scenario_checks);
@@ -233,7 +235,8 @@ fn may_write(scenario: &Scenario) -> bool {
     word.starts_with("write") || ["stream", "serve-echo", "ask-service"].contains(&word)
 }
 
-/// Judges the client's answer to the action. Returns why the scenario has no verdict, if it has none.
+/// Judges the client's answer to the action. Returns why the scenario has no verdict; `None` if it
+/// has a verdict.
 fn judge_reaction(
     scenario: &Scenario,
     script: &ScenarioScript,
@@ -241,18 +244,9 @@ fn judge_reaction(
     last: Option<&RecordedExchange>,
     scenario_checks: &mut ScenarioChecks,
 ) -> Option<Stop> {
-    let expected = match &scenario.expect {
-        ExpectedAnswer::Result(value) => Expected::result(value.clone()),
-        ExpectedAnswer::Asked(ask) => Expected::result(ask(script)?),
-        ExpectedAnswer::ResultOrError(value) => {
-            Expected { error: true, ..Expected::result(value.clone()) }
-        }
-        ExpectedAnswer::AskedOrError(ask) => {
-            Expected { error: true, ..Expected::result(ask(script)?) }
-        }
-        ExpectedAnswer::Done => Expected { result: None, any: true, error: false },
-        ExpectedAnswer::DoneOrError => Expected { result: None, any: true, error: true },
-        ExpectedAnswer::Error => Expected { result: None, any: false, error: true },
+    let Some(expected) = Expected::of(&scenario.expect, script) else {
+        let why = "the simulated CNC rejects the request for the expected answer";
+        return Some(Stop::Harness(why.to_owned()));
     };
     let rules = scenario.rules();
     let passed = match reaction {
@@ -327,6 +321,22 @@ struct Expected {
 }
 
 impl Expected {
+    /// The expected answer of a scenario; `None` if it is that of the simulated CNC, which rejects
+    /// the request.
+    fn of(answer: &ExpectedAnswer, script: &ScenarioScript) -> Option<Self> {
+        Some(match answer {
+            ExpectedAnswer::Result(value) => Self::result(value.clone()),
+            ExpectedAnswer::Asked(ask) => Self::result(ask(script)?),
+            ExpectedAnswer::ResultOrError(value) => {
+                Self { error: true, ..Self::result(value.clone()) }
+            }
+            ExpectedAnswer::AskedOrError(ask) => Self { error: true, ..Self::result(ask(script)?) },
+            ExpectedAnswer::Done => Self { result: None, any: true, error: false },
+            ExpectedAnswer::DoneOrError => Self { result: None, any: true, error: true },
+            ExpectedAnswer::Error => Self { result: None, any: false, error: true },
+        })
+    }
+
     const fn result(value: Value) -> Self {
         Self { result: Some(value), any: false, error: false }
     }
@@ -420,5 +430,15 @@ mod tests {
         assert_eq!(verdicts, [Verdict::HarnessError, Verdict::Pass, Verdict::Pass]);
         let note = judged.outcomes[0].note.as_deref().unwrap();
         assert!(note.starts_with("the case panicked: ") && note.contains("the first action"));
+    }
+
+    /// A scenario whose expected answer is unknown has no verdict, and is not passed silently.
+    #[test]
+    fn an_unknown_expected_answer_is_a_harness_error() {
+        let server = TestServer::new(([127, 0, 0, 1], 0).into()).unwrap();
+        let scenario = Scenario::new("client-unknown", "Unknown", "count-objects 1");
+        let scenario = scenario.expect(ExpectedAnswer::Asked(|_| None));
+        let judged = judge(&mut ReferenceClient::default(), &server, &[scenario], None);
+        assert_eq!(judged.outcomes[0].verdict(), Verdict::HarnessError);
     }
 }

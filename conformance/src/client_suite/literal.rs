@@ -1,6 +1,6 @@
-//! Requests and replies printed in the manuals as whole frames, built from the printed bytes and from
-//! headers written by hand, without the codec. They detect errors of the codec, which this project's
-//! client and the simulated CNC share.
+//! The requests and replies that the manuals print, as whole frames: the printed data and
+//! handwritten headers, without the codec. These frames detect errors of the codec, which this
+//! project's client and the simulated CNC share.
 
 use crate::number::to_u32;
 
@@ -13,7 +13,8 @@ pub(super) struct Literal {
     pub(super) group: u32,
     pub(super) offset: u32,
     pub(super) data: Vec<u8>,
-    /// The length in bytes to which a client may pad `data` with NULs, if `data` is a name; otherwise 0.
+    /// The length in bytes to which a client may pad `data` with NULs, if `data` is a name;
+    /// otherwise 0.
     pub(super) padded: usize,
     /// The data of the reply, without result and length; empty for a Write.
     pub(super) reply: Vec<u8>,
@@ -23,7 +24,7 @@ pub(super) struct Literal {
 const HEADERS: usize = 38;
 
 impl Literal {
-    /// The equivalent requests: with the channel by rank, and with padded names.
+    /// The request and its equivalents: with the channel addressed by rank, and with a padded name.
     fn forms(&self) -> Vec<Self> {
         let by_index = Self { group: self.group & !0x10_0000, ..self.clone() };
         let mut forms = vec![self.clone(), by_index];
@@ -53,7 +54,8 @@ impl Literal {
         (front, after)
     }
 
-    /// Whether a frame is this request; its source address, invoke ID and read length are not compared.
+    /// Whether a frame is this request; its NetIds, source port, invoke ID and read length are not
+    /// compared.
     fn is(&self, frame: &[u8]) -> bool {
         let (front, after) = self.request();
         let between = if self.command == 3 { 0_usize } else { 4 };

@@ -20,8 +20,8 @@ pub struct ClientHello {
     pub client: Identity,
     /// The names of the actions that the client implements.
     pub actions: Vec<String>,
-    /// Whether the client keeps running and reads actions from stdin, or is started for each
-    /// action.
+    /// Whether the client keeps running and reads actions from stdin. If false, it is started for
+    /// each action.
     #[serde(default)]
     pub stays: bool,
 }
@@ -33,7 +33,7 @@ pub struct CncAddress {
     pub addr: SocketAddr,
     /// The AMS NetId of the CNC.
     pub net_id: AmsNetId,
-    /// The AMS port of the task that executes the action.
+    /// The AMS port of the task that serves the action.
     pub port: u16,
 }
 
@@ -52,7 +52,8 @@ pub(super) fn action_command(cnc_address: &CncAddress, scenario: &str, action: &
     })
 }
 
-/// The environment variables of a client that is started for each action.
+/// The environment variables with which the suite starts a client: for hello and, unless the client
+/// keeps running, for each action.
 pub(super) fn environment(
     cnc_address: &CncAddress,
     scenario: &str,
@@ -70,10 +71,10 @@ pub(super) fn environment(
     ]
 }
 
-/// Maximum length of an answer as shown in a message.
+/// Maximum number of characters of a result or an error in a message.
 const SHOWN: usize = 200;
 
-/// The result of an action that returns no value.
+/// The result that this project's client returns for an action without a value.
 pub(super) const DONE: Value = Value::Bool(true);
 
 /// The result of an action in the client's answer.
@@ -81,7 +82,7 @@ pub(super) const DONE: Value = Value::Bool(true);
 #[serde(rename_all = "lowercase")]
 pub enum ActionResult {
     Result(Value),
-    /// The CNC rejected the request, or its reply was invalid.
+    /// The action failed: for example, the CNC rejected a request, or its reply was invalid.
     Error(String),
     /// The client does not implement the action.
     Unsupported(String),

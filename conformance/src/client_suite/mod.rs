@@ -56,7 +56,7 @@ pub trait ClientUnderTest {
         None
     }
 
-    /// The output of the client to stderr.
+    /// The end of the client's output to stderr.
     fn stderr(&self) -> String {
         String::new()
     }

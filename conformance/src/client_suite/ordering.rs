@@ -144,7 +144,7 @@ fn stream(
     );
 }
 
-/// A read or write of a variable of the Service Interface.
+/// A read or write of a variable of the Service Interface; `value` is `None` for a read.
 struct ServiceVariableAccess<'t> {
     exchange: &'t RecordedExchange,
     variable: ServiceVariable,

@@ -10,7 +10,8 @@ use super::test_server::{RecordedExchange, TestServer};
 use crate::judge::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Stop};
 use crate::simulator::{Cnc, ModelError};
 
-/// The case that judges all requests of such a client, with the requirements of all functions.
+/// The case that judges all requests of a client that is not controlled by the suite. It has the
+/// requirements of all functions, of the services, of the headers and of the ports.
 pub fn requests_case() -> Case {
     let functions = Function::ALL.iter().map(|function| function.spec().clause);
     let mut requirements: Vec<&'static str> =
@@ -28,8 +29,8 @@ pub fn requests_case() -> Case {
 }
 
 /// Serves the default model to every client until all connections are closed or `go_on` returns
-/// false, and judges every request. Returns the outcome, whose requirements are those of the received
-/// requests, and the number of requests.
+/// false, and judges every request. Returns the outcome, which has the checked requirements,
+/// and the number of requests.
 ///
 /// # Errors
 /// An error in the default model, which a test excludes.

@@ -11,7 +11,8 @@ use crate::deadline::Deadline;
 use crate::process::{GRACE, LineProcess, START, Subprocess, not_json};
 use crate::text::did_you_mean;
 
-/// The value of the environment variables with scenario and action when the suite requests hello.
+/// The value of the environment variables `ADS_CNC_SCENARIO` and `ADS_CNC_DO` when the suite
+/// requests hello.
 const HELLO: &str = "hello";
 
 /// A client that is started by a command line.
@@ -35,7 +36,7 @@ impl ClientProcess {
         Self { process: self.process.with_deadline(deadline), ..self }
     }
 
-    /// Receives the line with the answer; if no line arrives in time, the process is killed.
+    /// Receives the line with the answer; without a valid line in time, the process is killed.
     fn recv(&mut self, timeout: Duration) -> Result<String, ClientReaction> {
         let line = self.process.recv(timeout);
         if line.is_err() {
@@ -76,7 +77,8 @@ impl ClientProcess {
         Ok(match serde_json::from_str::<ActionResult>(&line) {
             Ok(answer) => ClientReaction::Answer(answer),
             Err(error) => {
-                // The process is killed, because its next line may be the late answer to this action.
+                // The process is killed, because its next line may be the late answer to this
+                // action.
                 self.process.running = None;
                 ClientReaction::Garbled(not_json(&line, &error))
             }
@@ -123,7 +125,8 @@ impl ClientUnderTest for ClientProcess {
     }
 
     fn act(&mut self, cnc_address: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
-        // If the client has printed additional lines, its next line cannot be attributed to an action.
+        // If the client has printed an additional line, its next line cannot be attributed to an
+        // action, so the process is killed.
         if let Some(unasked) = self.process.running.as_ref().and_then(LineProcess::unasked) {
             self.process.running = None;
             self.unasked.push(unasked);

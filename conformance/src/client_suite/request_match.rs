@@ -1,4 +1,4 @@
-//! Compares the requests of a client with those that the scenario expects.
+//! Compares the requests of a client with the requests that the scenario expects.
 
 use ads_cnc::CncStr;
 use ads_cnc::ads::FrameRef;
@@ -94,7 +94,7 @@ fn one(
     let place = |one: &RawRequest| (one.group, one.offset) == (ask.group, ask.offset);
     let is_data = |one: &RawRequest| one.data == ask.data || ask.also.contains(&one.data);
     let service = |one: &RawRequest| one.command == ask.command;
-    // The request that is compared: that with the most parts equal to the expected request.
+    // The request that is most similar to the expected request, by the ranking in `alike`.
     let nearest = sent.iter().max_by_key(|(one, _)| {
         let alike = [
             place(one) && is_data(one) && service(one) && one.port == ask.port,
@@ -130,7 +130,8 @@ fn one(
         scenario_checks.check(ask.place, false, exchange, || describe(ask), found);
         return;
     }
-    // The manual specifies only for the decoder whether the port of SDA or GEO serves the class.
+    // The manual specifies only for the decoder which port serves the class. For other classes, the
+    // port of GEO is accepted too.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
     scenario_checks.check(GEN_4, port, exchange, || format!("port {}", ask.port), || one.port);

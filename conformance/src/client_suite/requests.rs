@@ -44,7 +44,7 @@ impl RequestJudge {
         Self { rules: RuleBook::new(false), before: None, learns: false }
     }
 
-    /// Adds the checks of the rules to the findings.
+    /// Adds the checks of the rule book to `scenario_checks`.
     pub(super) fn finish(self, scenario_checks: &mut ScenarioChecks) {
         scenario_checks.record.append(self.rules.records.into_client_record());
     }
@@ -129,7 +129,8 @@ fn name(command: Command) -> String {
     }
 }
 
-/// The requirement that a request violates whose address has no function.
+/// The requirement violated by a request whose address has no function, or no function of the
+/// request's service.
 fn address_clause(call: &Call<'_>) -> Rule {
     match (call.dispatch(), call.port) {
         (Err(DispatchError::Group(_)), AmsPort::COM) => ADR_3.into(),

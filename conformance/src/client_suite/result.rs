@@ -1,10 +1,12 @@
-//! Compares the result of a client with the expected value; several JSON notations of a value are equal.
+//! Compares the result of a client with the expected value; several JSON notations of a value are
+//! equal.
 
 use serde_json::Value;
 
-/// Whether a result equals the expected value. An array of one element equals the element, and nested
-/// arrays equal the flat array. A number may be written as a string. Of an object, only the fields that
-/// the client returns are compared.
+/// Whether a result equals the expected value. An array of one element equals the element, and
+/// nested arrays equal the flat array. A number may be written as a string, a boolean as 0 or 1,
+/// and null as an empty array or object. Of an object, only the expected fields that the client
+/// returns are compared, of which there must be at least one.
 pub(super) fn same(expected: &Value, found: &Value) -> bool {
     match (expected, found) {
         (Value::Object(expected), Value::Object(found)) => {

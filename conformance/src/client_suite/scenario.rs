@@ -1,4 +1,5 @@
-//! A scenario: an action, the requests that the client must send, and the answer that it must return.
+//! A scenario: an action, the requests that the client must send, and the answer that it must
+//! return.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
@@ -144,7 +145,8 @@ pub(super) enum RequestOrder {
     Host,
     /// The client acts as a service that no NC program requests, and must not write.
     IdleHost,
-    /// The client acts as the NC program, and reads and writes the variables in the specified order.
+    /// The client acts as the NC program, and reads and writes the variables in the specified
+    /// order.
     Caller,
 }
 
@@ -153,13 +155,13 @@ pub(super) enum RequestOrder {
 pub struct Scenario {
     /// The ID, whose meaning never changes.
     pub id: String,
-    /// The verified behaviour, as a sentence.
+    /// The verified behaviour, as a sentence; for a changed reply, the action and the change.
     pub title: String,
     /// The action with its arguments; for `stream`, the suite appends the file name.
     pub(super) action: String,
     pub(super) asks: Vec<ExpectedRequest>,
     pub(super) expect: ExpectedAnswer,
-    /// The rules that the client's answer must satisfy; if empty, the rule of the first request.
+    /// The rules that the client's answer must satisfy; if empty, the method `rules` has a default.
     pub(super) rules: Vec<Rule>,
     /// Further requirements that the scenario tests.
     pub(super) more: Vec<ClauseId>,
@@ -226,7 +228,8 @@ impl Scenario {
         self
     }
 
-    /// The rules for the client's answer; by default, the requirement of the first request.
+    /// The rules for the client's answer; by default, the requirement of the first request or,
+    /// without a request, `CLIENT`.
     pub(super) fn rules(&self) -> Vec<Rule> {
         match (self.rules.as_slice(), self.asks.first()) {
             ([], Some(ask)) => vec![ask.place],
@@ -237,7 +240,7 @@ impl Scenario {
 
     /// The scenario as a case of the suite.
     pub fn case(&self) -> Case {
-        // If the client must send no request, the requirements of frames and ports are not tested.
+        // If the client may send no request, the requirements of frames and ports are not tested.
         let silent = matches!(self.watch, Some(RequestOrder::NoStream(_)));
         let mut requirements =
             if silent { Vec::new() } else { vec![ADS_5.as_str(), GEN_4.as_str()] };
@@ -266,7 +269,8 @@ impl Scenario {
         }
     }
 
-    /// The action, with the file name of the program appended.
+    /// The action, with the file name of the program appended, if any; `None` if the action is not
+    /// in the vocabulary.
     pub(super) fn action_with(&self, file: Option<&str>) -> Option<Action> {
         match file {
             Some(file) => Action::parse(&format!("{} {file}", self.action)),

@@ -29,8 +29,8 @@ impl ScenarioChecks {
         self.record.add_all(rules, passed, expected, found, || exchange.map(evidence));
     }
 
-    /// The requirement of the first failed check. Checks of requests come before those of the client's
-    /// answer, which is judged last.
+    /// The requirement of the first failed check. The checks of the requests come before the checks
+    /// of the client's answer, which is judged last.
     pub(super) fn first_failed(&self) -> Option<&'static str> {
         let mut judgements = self.record.judgements.iter();
         judgements.find(|one| one.verdict == Verdict::Fail).map(|one| one.requirement)
@@ -45,8 +45,8 @@ impl ScenarioChecks {
         }
     }
 
-    /// Records that the check of these rules failed. Rules other than that of the requirement `cause` fail
-    /// as consequences of it.
+    /// Records that the check of these rules failed. The rules of requirements other than `cause`
+    /// are recorded as consequences of `cause`.
     pub(super) fn follow(
         &mut self,
         rules: &[Rule],
@@ -115,7 +115,7 @@ pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
 mod tests {
     use super::*;
 
-    /// The evidence shows bytes that are not a request, and why they are not.
+    /// The evidence shows bytes that are not a request, and why they are not a request.
     #[test]
     fn garbage_is_shown() {
         let request = b"GET / HTTP/1.0\r\n\r\n".to_vec();

@@ -12,7 +12,7 @@ use super::literal::Literal;
 use super::tamper::{SendStep, Tamper};
 use crate::simulator::{Cnc, DATA_MAX, NET_ID};
 
-/// The number of the read of RESPONSE_STATE after which the simulated service writes its response.
+/// Number of reads of RESPONSE_STATE after which the simulated service writes its response.
 const POLLS: usize = 2;
 
 /// The replies of the CNC in a scenario.
@@ -114,8 +114,8 @@ impl ScenarioScript {
         }
     }
 
-    /// The variable of the Service Interface of channel 1 that a request reads or writes, by name
-    /// or by handle, and the written value.
+    /// The variable of the Service Interface that a request reads or writes, by its name or by its
+    /// handle in channel 1, and the written value; `None` for a read.
     pub(super) fn service_variable<'a>(
         &self,
         dispatched: &'a Request<'_>,

@@ -16,11 +16,11 @@ pub(super) enum Tamper {
     Bytewise,
     /// Sends two pieces with a pause between them; the first piece has this many bytes.
     Pieces(usize),
-    /// Sends a reply with another invoke ID and other data before the reply, in one segment.
+    /// Sends a reply with another invoke ID and other data, and then the reply, in one write.
     Foreign,
-    /// Sends the reply twice, in one segment.
+    /// Sends the reply twice, in one write.
     Twice,
-    /// Sends the reply to the previous request once more before the reply, in one segment.
+    /// Sends the reply to the previous request once more, and then the reply, in one write.
     Late,
     /// Sends only a reply with another invoke ID and other data, and closes the connection after a pause.
     OtherInvokeId,
@@ -92,10 +92,10 @@ pub(super) enum SendStep {
     Close,
 }
 
-/// A pause that is long enough for a client to read the bytes sent before it.
+/// A pause in which a client should read the bytes sent before the pause.
 const PAUSE: Duration = Duration::from_millis(40);
 
-/// The error in the AMS header with which an AMS router reports an unknown port.
+/// The AMS error with which an AMS router reports an unknown port.
 const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
 
 impl Tamper {
@@ -186,7 +186,7 @@ struct ReplyParts {
 
 enum ReplyBody {
     None,
-    /// The result and the data; `None` instead of data for a Write.
+    /// The result and the data; `None` for a Write, and if the reply ends after the result.
     Result(AdsError, Option<Vec<u8>>),
 }
 
@@ -196,7 +196,7 @@ fn rebuilt(reply: &[u8], change: impl FnOnce(&mut ReplyParts)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
         let header = frame.header();
-        // The reply to any other command starts with a result, like the reply to a Write.
+        // A reply to any other command is decoded like a reply to a Write: a result without data.
         let service = service_of(header.command).unwrap_or(AdsService::Write);
         let (result, data) = decode_reply(service, frame.data()).ok()?;
         let body = ReplyBody::Result(result, data.map(<[u8]>::to_vec));
@@ -264,7 +264,7 @@ fn with_length(reply: &[u8], place: LengthField, wrong: WrongLength) -> Vec<u8> 
 mod tests {
     use super::*;
 
-    /// The reply to a count of 123: headers, result 0, length 4, data.
+    /// A reply with the number 123: headers, result 0, length 4, data.
     fn reply() -> Vec<u8> {
         let mut bytes = vec![0, 0, 44, 0, 0, 0];
         bytes.extend([127, 0, 0, 1, 1, 2, 0, 0x80, 127, 0, 0, 1, 1, 1, 0x28, 2]);

@@ -24,24 +24,24 @@ use crate::text::plural;
 /// Maximum number of connections in a scenario; the server counts and closes further connections.
 pub(super) const CONNECTIONS_MAX: usize = 64;
 
-/// Maximum number of recorded bytes of requests and replies, where each request counts [`TURN`] bytes
-/// more than its length.
+/// After this many bytes of recorded requests and replies that wait to be judged, further requests
+/// are not recorded. Each request counts [`TURN`] bytes more than its length.
 pub(super) const RECORDED_BYTES_MAX: usize = 8 << 20;
 const TURN: usize = 128;
 
-/// How long to wait for the client to close its connections at the end of a scenario, and how long no
-/// connection must be open until [`TestServer::watch`] returns.
+/// How long to wait for the client to close its connections at the end of a scenario, and how long
+/// all connections must have been closed before [`TestServer::watch`] returns.
 const LINGER: Duration = Duration::from_millis(200);
 
 /// A request and all bytes that the server sent as its reply.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct RecordedExchange {
     pub(super) connection: usize,
-    /// The request; the last one of a connection may be incomplete.
+    /// The request; the last request of a connection may be incomplete.
     pub(super) request: Vec<u8>,
     /// All bytes that the server sent as the reply.
     pub(super) sent: Vec<u8>,
-    /// Why the bytes of the request are not a frame; `None` if they are.
+    /// Why the bytes of the request are not a frame; `None` if they are a frame.
     pub(super) fault: Option<String>,
 }
 
@@ -49,6 +49,8 @@ pub(super) struct RecordedExchange {
 #[derive(Debug, Default)]
 struct Recording {
     kept: Vec<RecordedExchange>,
+    /// The numbers of the exchanges whose reply is not sent completely, in ascending order.
+    open: Vec<usize>,
     /// Number of exchanges that were removed from `kept` to be judged.
     taken: usize,
     bytes: usize,
@@ -76,11 +78,28 @@ impl Recording {
         self.kept.get_mut(number.checked_sub(self.taken)?)
     }
 
+    /// Records an exchange whose reply is sent afterwards, until [`close`](Self::close).
+    fn open(&mut self, exchange: RecordedExchange) -> Option<usize> {
+        let number = self.record(exchange);
+        self.open.extend(number);
+        number
+    }
+
+    fn close(&mut self, number: Option<usize>) {
+        self.open.retain(|open| Some(*open) != number);
+    }
+
+    /// Removes the exchanges before the first one whose reply is not sent completely, and returns
+    /// them in their order.
     fn take_answered(&mut self) -> Vec<RecordedExchange> {
-        let last = self.kept.pop();
+        let first = self.open.first().map(|first| first.saturating_sub(self.taken));
+        let rest = first.map(|first| self.kept.split_off(first.min(self.kept.len())));
         let exchanges = self.take();
-        self.bytes = last.as_ref().map_or(0, |last| last.request.len().saturating_add(TURN));
-        self.kept.extend(last);
+        for exchange in rest.into_iter().flatten() {
+            self.grow(exchange.request.len().saturating_add(TURN));
+            self.grow(exchange.sent.len());
+            self.kept.push(exchange);
+        }
         exchanges
     }
 
@@ -236,7 +255,7 @@ impl TestServer {
         NET_ID
     }
 
-    /// Begins a scenario.
+    /// Begins a scenario: from now on, the server serves connections with this script.
     pub(super) fn begin(&self, script: ScenarioScript) {
         *lock(&self.run) = Some(Arc::new(TestRun {
             script: Mutex::new(script),
@@ -250,8 +269,8 @@ impl TestServer {
         }));
     }
 
-    /// Waits until a client has connected and all connections are closed again, or `go_on` returns
-    /// false.
+    /// Waits until a client has connected and all connections have been closed for [`LINGER`], or
+    /// `go_on` returns false.
     pub(super) fn watch(&self, mut go_on: impl FnMut() -> bool) {
         let Some(run) = lock(&self.run).clone() else { return };
         let mut quiet: Option<Instant> = None;
@@ -268,8 +287,8 @@ impl TestServer {
         }
     }
 
-    /// Removes and returns the exchanges recorded since the last call, except the last exchange, whose
-    /// reply the server may not have sent yet.
+    /// Removes and returns the exchanges recorded since the last call, up to the first exchange whose
+    /// reply the server has not sent completely.
     pub(super) fn exchanges(&self) -> Vec<RecordedExchange> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
         let exchanges = lock(&run.exchanges).take_answered();
@@ -361,7 +380,7 @@ impl TestRun {
                 }
                 let rest = received.split_off(len);
                 let request = std::mem::replace(&mut received, rest);
-                if !self.exchange(connection, request, stream)? {
+                if !self.exchange(connection, &request, stream)? {
                     return Ok(());
                 }
             }
@@ -384,21 +403,28 @@ impl TestRun {
         }
     }
 
-    /// Replies to a frame. Returns whether the connection stays open.
-    fn exchange(
-        &self,
-        connection: usize,
-        request: Vec<u8>,
-        mut stream: &TcpStream,
-    ) -> io::Result<bool> {
+    /// Records a frame and replies to it. Returns whether the connection stays open.
+    fn exchange(&self, connection: usize, request: &[u8], stream: &TcpStream) -> io::Result<bool> {
         // The request is recorded before the reply is sent, because the scenario may end as soon as
         // the client has received the reply.
-        let place = self.record(RecordedExchange {
+        let place = lock(&self.exchanges).open(RecordedExchange {
             connection,
-            request: request.clone(),
+            request: request.to_vec(),
             ..RecordedExchange::default()
         });
-        let steps = match lock(&self.script).answer(connection, &request) {
+        let stays = self.reply(connection, request, place, stream);
+        lock(&self.exchanges).close(place);
+        stays
+    }
+
+    fn reply(
+        &self,
+        connection: usize,
+        request: &[u8],
+        place: Option<usize>,
+        mut stream: &TcpStream,
+    ) -> io::Result<bool> {
+        let steps = match lock(&self.script).answer(connection, request) {
             Ok(steps) => steps,
             Err(fault) => {
                 let mut exchanges = lock(&self.exchanges);
@@ -431,9 +457,31 @@ impl TestRun {
     }
 }
 
-/// The length of a frame according to its AMS/TCP header; `None` if the header is incomplete. It is
-/// read without the codec, which judges the frame later.
+/// The length of a frame according to its AMS/TCP header; `None` if the header is incomplete. The
+/// header is read without the codec, which judges the frame later.
 fn frame_len(received: &[u8]) -> Option<usize> {
     let length = received.get(2..6)?.try_into().ok()?;
     Some(to_usize(u32::from_le_bytes(length)).saturating_add(6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Clients on several connections are answered at the same time: an exchange is not judged
+    /// before its reply is recorded.
+    #[test]
+    fn an_exchange_is_taken_after_its_reply() {
+        let mut recording = Recording::default();
+        let [first, second] = [0, 1].map(|connection| {
+            recording.open(RecordedExchange { connection, ..RecordedExchange::default() })
+        });
+        recording.close(second);
+        assert!(recording.take_answered().is_empty());
+        recording.of_number(first.unwrap()).unwrap().sent.push(7);
+        recording.close(first);
+        let sent: Vec<_> = recording.take_answered().into_iter().map(|one| one.sent).collect();
+        assert_eq!(sent, [vec![7_u8], vec![]]);
+        assert_eq!(recording.bytes, 0);
+    }
 }

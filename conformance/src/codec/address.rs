@@ -1,4 +1,4 @@
-//! Index groups and index offsets, for which the codec has no stream type.
+//! Decodes and encodes index groups and index offsets, which are not streams of the codec.
 
 use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable,
@@ -49,7 +49,8 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Co
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }
 
-/// Encodes the group that has this base and the number by which `group` exceeds the base.
+/// Encodes the group of the channel, axis or spindle whose number is the difference between `group`
+/// and `base`, the group of the number 0.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, CodecError> {
     let lacks = || CodecError::Unsupported(format!("{base} is not the base of {group}"));
     let number = group.get().checked_sub(base.get()).ok_or_else(lacks)?;
@@ -57,7 +58,7 @@ fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, CodecError
         Group::Com(com) if com.table == ComTable::Axis => {
             PlatformAxis::new(number)?.com(com.access)
         }
-        // The platform has the number 0.
+        // The number 0 is the platform, which is not a channel.
         Group::Com(_) if number == 0 => base,
         Group::Com(com) => channel(com.addressing, number)?.com(com.access),
         Group::Class(class) if class.class == Class::Spindle => {
@@ -110,7 +111,7 @@ pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, C
     let stride = stride(context)?;
     let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
     let again = IndexOffset::for_axis(stride, axis, element)?;
-    // Axis and element have at most 16 bits; otherwise encoding them would give another offset.
+    // `axis_and_element` rejects an axis of more than 16 bits.
     let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }

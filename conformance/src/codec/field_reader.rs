@@ -41,7 +41,7 @@ impl<'f> FieldReader<'f> {
         self.list(name)?.iter().map(record).collect()
     }
 
-    /// An integer, which must fit its type.
+    /// The integer in a field, which must fit the type `T`.
     pub(super) fn number<T: TryFrom<i128>>(self, name: &str) -> Result<T, CodecError> {
         integer(self.one(name)?)
     }
@@ -63,7 +63,7 @@ impl<'f> FieldReader<'f> {
         Ok(hex(self.one(name)?)?.to_vec())
     }
 
-    /// A text without its terminator.
+    /// The text in a field, without the NUL and the bytes after it.
     pub(super) fn characters(self, name: &str) -> Result<CncStr<'f>, CodecError> {
         Ok(text(self.one(name)?)?.text())
     }

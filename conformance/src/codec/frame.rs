@@ -1,4 +1,4 @@
-//! Whole frames: two headers and the stream of the service.
+//! Whole frames: an AMS/TCP header, an AMS header and the stream of the service.
 
 use ads_cnc::ads::{AdsError, AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
@@ -9,7 +9,7 @@ use super::field_reader::FieldReader;
 use super::stream::{from_fields, to_fields};
 use super::{CodecError, Decoded, collect, data, stream, uns16, uns32};
 
-/// The length field in a header, which is a counter.
+/// The length field of the AMS header, which the vectors omit because it is a counter.
 const LENGTH: &str = "data_length";
 
 const SERVICES: [&str; 6] = [
@@ -21,7 +21,7 @@ const SERVICES: [&str; 6] = [
     "read-write-reply",
 ];
 
-/// The name of the field that holds the stream of the service.
+/// The name of the field that contains the stream of the service, such as `read_request`.
 fn field_of(stream: &str) -> String {
     stream.replace('-', "_")
 }
@@ -58,14 +58,15 @@ fn cut(context: &Context, bytes: &[u8]) -> CodecError {
         service(context, &AmsHeader::decode(header)?, data)?;
         Ok(())
     };
-    // The data of other commands has no stream: only the length in the header shows that the data
+    // The data of other commands is not a stream: only the length in the header shows that the data
     // is truncated.
     let rest =
         || CodecError::InvalidFields("fewer bytes of data than the header requires".to_owned());
     parts().err().unwrap_or_else(rest)
 }
 
-/// Name and fields of the service's stream, if the command has one.
+/// Name and fields of the service's stream, or `data` and the bytes for a command that is not a
+/// service. `None` if the AMS header contains an error and no bytes follow.
 fn service(
     context: &Context,
     header: &AmsHeader,

@@ -9,14 +9,14 @@ pub const PROTOCOL: u32 = 1;
 use crate::edition::Edition;
 use crate::text::{did_you_mean, hex::compact, shorten};
 
-/// A command line to the testee.
+/// A line from the suite to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "cmd", rename_all = "lowercase")]
 pub enum TesteeCommand {
     /// The first line to the testee.
     Hello { protocol: u32 },
     Case {
-        /// Number of the case in this run.
+        /// The number of the question in this run, which the answer repeats.
         seq: u64,
         #[serde(flatten)]
         question: Box<Question>,
@@ -68,10 +68,10 @@ pub struct QuestionContext {
     pub kind: Option<Type>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dimensions: Option<Vec<u32>>,
-    /// Meaning of the axis in an index offset.
+    /// The number that one axis adds to an index offset: 0x10000 or 0x1000, in hex.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stride: Option<String>,
-    /// Index group without its number.
+    /// The index group without the number of the channel, axis or spindle, in hex.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<String>,
 }
@@ -89,7 +89,7 @@ impl From<&Context> for QuestionContext {
 }
 
 impl QuestionContext {
-    /// Converts the facts to a context of the vectors; `None` if an address is invalid.
+    /// Converts the facts to a context of the vectors; `None` if `stride` or `base` is invalid.
     pub(crate) fn context(&self) -> Option<Context> {
         let address = |text: &Option<String>| match text.as_deref() {
             None => Some(None),
@@ -159,7 +159,8 @@ impl Capabilities {
         self.editions.iter().find_map(|name| Edition::by_name(name).err())
     }
 
-    /// Whether the testee claims this op for this stream.
+    /// Whether the testee claims this op and this stream. The ops `packets` and `check` need no
+    /// claim of a stream.
     pub fn claim(&self, op: &str, stream: &str) -> bool {
         let is_text = matches!(op, "packets" | "check");
         self.ops.iter().any(|one| one == op)
@@ -179,7 +180,7 @@ pub enum Answer {
         /// The unsupported part of the question: `op`, `stream`, `edition`, `context`.
         what: String,
     },
-    /// Any other error.
+    /// The testee itself failed.
     Error {
         message: String,
     },
@@ -221,13 +222,13 @@ pub struct Rejection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Keys")]
 pub struct AnswerLine {
-    /// Number of the case; `None` if the testee could not parse the line of the case.
+    /// The number of the question; `None` if the testee could not parse the line.
     pub seq: Option<u64>,
     #[serde(flatten)]
     pub answer: Answer,
 }
 
-/// Maximum number of characters that are stored of a text in an answer.
+/// Maximum number of characters that are stored of a class, a message or `what` in an answer.
 const TEXT_MAX: usize = 400;
 
 fn short(text: &str) -> String {
@@ -242,7 +243,7 @@ impl Rejection {
 }
 
 impl Output {
-    /// Estimated memory in bytes.
+    /// Estimated memory of the output in bytes.
     pub(crate) fn weight(&self) -> usize {
         let packets = self.packets.iter().flatten().map(|packet| packet.len().saturating_add(NODE));
         let parts = [self.value.as_ref().map(weight), self.hex.as_ref().map(Vec::len)];
@@ -250,10 +251,10 @@ impl Output {
     }
 }
 
-/// Estimated memory of a JSON value in addition to its text.
+/// Estimated memory in bytes of a JSON value or a packet, in addition to its text or bytes.
 const NODE: usize = 64;
 
-/// Estimated memory of an object's map.
+/// Estimated memory in bytes of the map of a JSON object that is not empty.
 const MAP: usize = 1024;
 
 fn weight(value: &Value) -> usize {

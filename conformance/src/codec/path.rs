@@ -1,4 +1,4 @@
-//! Splits the name of a variable into its parts, and encodes it from them.
+//! Splits the name of a variable into its parts, and composes a name from parts.
 
 use ads_cnc::text::CncStr;
 use ads_cnc::{Kind, PathPart, TextRef, U32List, VariablePath};

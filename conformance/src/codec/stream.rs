@@ -58,7 +58,8 @@ where
     Ok(from_fields::<T>(context, fields)?.encode_to_vec()?)
 }
 
-/// Converts a value to fields, without counters.
+/// Converts a value to fields, without counters (fields that contain a length or a number of
+/// items).
 pub(super) fn to_fields<T>(context: &Context, value: &T) -> Result<Fields, CodecError>
 where
     T: for<'a> Decode<'a> + Serialize,
@@ -104,7 +105,8 @@ where
         .map_err(invalid)
 }
 
-/// The name of the records of a stream in the vectors: the last word of the stream's name.
+/// The name of the field that contains the records of a stream in the vectors: the last word of the
+/// stream's name.
 fn records_of(layout: &Layout) -> &'static str {
     layout.name.rsplit('-').next().unwrap_or(layout.name)
 }

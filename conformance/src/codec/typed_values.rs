@@ -11,7 +11,7 @@ use crate::number::{to_u32, to_usize};
 use crate::text::plural;
 
 /// Whether the elements of a field have a type: a value always has a type, a content only if the
-/// context contains a type.
+/// context contains a type and dimensions.
 fn is_typed(field: &str, context: &Context) -> bool {
     let has_type = context.kind.is_some() && context.dimensions.is_some();
     field == "value" || field == "content" && has_type
@@ -28,7 +28,8 @@ fn type_of(context: &Context) -> Result<(Type, DataType, &[u32]), CodecError> {
     }
 }
 
-/// Decodes the bytes of a field with the type of the context; without a type, as plain bytes.
+/// Decodes the bytes of a field to elements of the context's type. Returns a field whose elements
+/// have no type as bytes.
 pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Value, CodecError> {
     if !is_typed(field, context) {
         return Ok(data(bytes));
@@ -39,7 +40,8 @@ pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Val
     Ok(Value::List(elements.iter().map(named).collect()))
 }
 
-/// Encodes a field, which must have the number of elements that the dimensions require.
+/// Encodes a field. A field whose elements have a type must have as many elements as the dimensions
+/// require.
 pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Vec<u8>, CodecError> {
     if !is_typed(field, context) {
         let plain = || invalid(format_args!("{field} is not a single value"));
@@ -65,7 +67,7 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
     encode_elements(data_type, &items)
 }
 
-/// Encodes the elements in order.
+/// Encodes the elements in order. All texts of an array must have the same size.
 fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, CodecError> {
     let element = |one: &Tagged| {
         Ok(match data_type {

@@ -5,8 +5,8 @@
 //! - The versions differ in three features: V.P, V.L and V.S on the channel interface (VAR-19), the
 //!   description by name, and the Service Interface (SVC-11): [`CncVersion::has`].
 //!
-//! A client calls these functions before it sends a request, and a server before it answers one. The
-//! codec itself rejects no kind.
+//! A client can call these functions before it sends a request, and a server before it answers a
+//! request, as the simulated CNC does. The codec itself rejects no kind.
 //!
 //! ```
 //! use ads_cnc::VariablePath;
@@ -20,7 +20,7 @@
 //! // A variable of this kind has no handle, but can be read by its name.
 //! assert_eq!(may(Edition::German, Function::HandleByName).to_string(), "no (VAR-18)");
 //! assert_eq!(may(Edition::German, Function::ReadByName).to_string(), "yes (VAR-19)");
-//! // The English edition does not have the kind on this interface.
+//! // In the English edition, the channel interface does not have the kind V.P.
 //! assert!(!may(Edition::English, Function::ReadByName).available);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -43,7 +43,7 @@ pub use version::{CncVersion, Feature, VersionError};
 /// | | `ads-en` 1.05 | `ads-de` 1.051 |
 /// |---|---|---|
 /// | on the channel interface | V.E, V.G, V.A, V.CYC | the same, and from certain [versions](Feature::DynamicVariables) on V.P, V.L, V.S |
-/// | by name only: without 0x46, 0x47, 0x49 | V.CYC | V.CYC, V.P, V.L, V.S |
+/// | by name only: without the index offsets 0x46, 0x47, 0x49 | V.CYC | V.CYC, V.P, V.L, V.S |
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4, 4.1 and 4.2.1 (VAR-18, VAR-19, E-15).
 ///
@@ -109,7 +109,8 @@ impl Edition {
         })
     }
 
-    /// The kinds that are accessible by name only: 0x46, 0x47 and 0x49 are not available for them.
+    /// The kinds that are accessible by name only: the functions at the index offsets 0x46 (handle
+    /// by name), 0x47 and 0x49 (read and write by handle) are not available for these kinds.
     ///
     /// VAR-18
     pub const fn by_name_only(self) -> &'static [Kind<'static>] {
@@ -123,8 +124,9 @@ impl Edition {
     /// `kind` is the kind in the request or in the name, or the kind of the variable with the
     /// handle.
     ///
-    /// Without a version, the newest CNC is assumed. A function without kinds is always available.
-    /// The requirement in the result is the requirement of the function, except in these cases:
+    /// Without a version, the newest CNC is assumed. A function that has no kinds is always
+    /// available. The requirement in the result is the requirement of the function, except in these
+    /// cases:
     ///
     /// | case | available | requirement |
     /// |---|---|---|
@@ -204,7 +206,7 @@ impl fmt::Display for Edition {
 
 /// How a function addresses a variable.
 enum AddressedBy {
-    /// By index and kind, or the number of a kind.
+    /// By kind and index; or by kind only, for the number of variables.
     Index,
     Handle,
     Name,

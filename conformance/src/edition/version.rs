@@ -1,4 +1,4 @@
-//! Versions of a CNC, and the features that come with them.
+//! Versions of a CNC, and the features that depend on the version.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,9 +10,9 @@ use super::Support;
 
 /// The version of a CNC, such as `V2.11.2077`, `V3.1.3081.07` or `V4.18.0`.
 ///
-/// Parsed with or without the V, and with a dot after the V, as `ads-de` and `service-*` print it. A
-/// missing fourth number counts as 0. `Display` omits a fourth number of 0 and writes others with two
-/// digits.
+/// A version is parsed with or without the V, and with or without a dot after the V: `ads-de` and
+/// `service-*` print versions in different forms. A missing fourth number counts as 0. `Display`
+/// omits a fourth number of 0 and writes any other fourth number with at least two digits.
 ///
 /// Manual: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03, section 1.
 ///
@@ -41,8 +41,9 @@ impl CncVersion {
     /// Parses a version.
     ///
     /// # Errors
-    /// - A character is not a digit, or follows the fourth number.
-    /// - There are fewer than three numbers.
+    /// - A character is neither a digit nor a dot between two numbers, or follows the fourth
+    ///   number.
+    /// - There are fewer than three numbers, or a number has no digits.
     /// - A number exceeds 65 535.
     pub fn new(text: &str) -> Result<Self, VersionError> {
         let mut scan = VersionScan { text, at: 0 };
@@ -91,8 +92,8 @@ impl CncVersion {
     }
 
     /// The branch: the major number, and up to V3 also the minor number, because V2.11 and V3.1
-    /// count their builds separately. It is assumed from V4.18.0 and V4.29.0 that V4 is a single
-    /// branch across all minor numbers.
+    /// count their builds separately. From V4 on, all minor numbers are assumed to be one branch,
+    /// because the documents name only V4.18.0 and V4.29.0 of V4.
     const fn branch(self) -> (u16, u16) {
         match self.major {
             0..=3 => (self.major, self.minor),
@@ -108,7 +109,7 @@ impl CncVersion {
     /// | the last listed version of its branch, or later | yes | |
     /// | between both: a listed version, or a later patch of the same build | yes | |
     /// | between both: any other build | no | assumed: otherwise, a later version would not be listed |
-    /// | of a branch later than each listed version | yes | assumed |
+    /// | of a branch later than the branch of each listed version | yes | assumed |
     /// | of any other branch without a listed version | no | assumed |
     ///
     /// ```
@@ -196,8 +197,8 @@ impl Feature {
         }
     }
 
-    /// The versions that the manual prints as the first versions with the feature, in ascending
-    /// order.
+    /// The versions that the manual, or the vendors' help page, names as the first versions with
+    /// the feature, in ascending order.
     pub const fn since(self) -> &'static [CncVersion] {
         const fn v(major: u16, minor: u16, build: u16, patch: u16) -> CncVersion {
             CncVersion::from_parts(major, minor, build, patch)
@@ -229,7 +230,7 @@ impl Feature {
     }
 }
 
-/// Why a text is not a version.
+/// The reason why a text is not a version.
 ///
 /// ```
 /// use ads_cnc_conformance::edition::CncVersion;
@@ -241,7 +242,7 @@ impl Feature {
 #[error("cnc-version: {part} at offset {offset}: {fault}")]
 pub struct VersionError {
     part: &'static str,
-    /// Byte offset. All characters before it are ASCII.
+    /// The byte offset of the fault. All characters before it are ASCII.
     offset: usize,
     fault: VersionFault,
 }
@@ -260,7 +261,7 @@ enum VersionFault {
 
 struct VersionScan<'a> {
     text: &'a str,
-    /// Byte offset. All characters before it are ASCII.
+    /// The byte offset of the next character. All characters before it are ASCII.
     at: usize,
 }
 

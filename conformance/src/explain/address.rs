@@ -63,7 +63,7 @@ fn no_data(
     (part.title, part.stream) = ("No data".to_owned(), None);
     part.rows.clear();
     if !ads_address.reply {
-        // The requirement of the stream (VAR-17) only specifies the reply.
+        // The requirement of the stream `NoData` (VAR-17) specifies only replies.
         (part.clause, part.sources) = (None, Vec::new());
     }
     let (service, what) =
@@ -75,7 +75,7 @@ fn no_data(
     part
 }
 
-/// The function at the address.
+/// Finds the function at an address.
 fn find(ads_address: &ServiceAddress) -> Result<Function, DispatchError> {
     if let Some(port) = ads_address.port {
         Task::from_port(port).ok_or(DispatchError::Port(port))?;
@@ -101,7 +101,8 @@ fn find(ads_address: &ServiceAddress) -> Result<Function, DispatchError> {
             }
             Some(service) => error = DispatchError::Service { expected: takes, found: service },
             None if !spec.is_content() => return Ok(function),
-            // The direction distinguishes the read and the write of a content.
+            // Without a service, content in a reply was read, and content in a request is to be
+            // written.
             None if ads_address.reply == (takes == AdsService::Read) => {
                 content = content.or(Some(function))
             }
@@ -142,7 +143,7 @@ fn report(
     }
 }
 
-/// The function of another task at this address.
+/// Describes the function that another task has at this address; `None` if no other task has one.
 fn at_other_port(ads_address: &ServiceAddress) -> Option<String> {
     let port = ads_address.port?;
     let spec = find(&ServiceAddress { port: None, ..*ads_address }).ok()?.spec();
@@ -228,7 +229,7 @@ fn of_axis(axis: u32) -> String {
     if axis == 0 { String::new() } else { format!("axis {axis}, ") }
 }
 
-/// Explains the index offset.
+/// Explains the index offset in words, and adds notes about its other possible meanings.
 fn offset(
     ads_address: &ServiceAddress,
     function: Option<Function>,

@@ -5,7 +5,7 @@ use ads_cnc::operation::Task;
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{CncStr, TextRef};
 
-/// The task of a port.
+/// The task of an AMS port; `None` if the port is not that of a task of the CNC.
 pub(super) fn port(number: u16) -> Option<String> {
     Task::from_port(AmsPort(number)).map(|found| format!("{found} task"))
 }
@@ -34,7 +34,7 @@ pub(super) const fn state_flags(flags: StateFlags) -> Option<&'static str> {
     }
 }
 
-/// The name of an ADS error.
+/// The usual meaning of an ADS error number.
 pub(super) const fn ads_error(error: AdsError) -> Option<&'static str> {
     Some(match error {
         AdsError::NO_ERROR => "success",
@@ -65,13 +65,13 @@ pub(super) fn boolean(byte: u8) -> String {
     }
 }
 
-/// Bytes as quoted text, with control characters escaped.
+/// Formats bytes as a quoted CP1252 text, with control characters escaped.
 pub(super) fn quoted(bytes: &[u8]) -> String {
     let text: String = bytes.iter().copied().map(cp1252_to_char).collect();
     format!("{text:?}")
 }
 
-/// A text with its NULs.
+/// Formats a text, and the NULs or other bytes that follow the text in its field.
 pub(super) fn text_of(text: TextRef<'_>) -> String {
     let bytes: Vec<u8> = text.text().bytes().collect();
     let shown = quoted(&bytes);
@@ -85,7 +85,7 @@ pub(super) fn text_of(text: TextRef<'_>) -> String {
     }
 }
 
-/// The text of a field up to the first NUL.
+/// Formats the bytes of a text field like [`text_of`]; the text ends at the first NUL.
 pub(super) fn text(field: &[u8]) -> String {
     let nul = field.iter().position(|&byte| byte == 0).unwrap_or(field.len());
     let (text, end) = field.split_at_checked(nul).unwrap_or((field, &[]));

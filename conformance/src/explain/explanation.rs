@@ -14,20 +14,20 @@ use crate::number::to_usize;
 use crate::text::hex::spaced;
 use crate::value_format::ValueFormat;
 
-/// The meaning of the bytes, and the types of values in them.
+/// What to explain, and the type of the values in it.
 #[derive(Clone, Debug)]
 pub struct ExplainQuery {
-    /// What the bytes are: a stream, data of a service, or frames.
+    /// What the bytes are: a stream, data of a service, or frames; or an address without bytes.
     pub subject: ExplainSubject,
     /// The type of values and contents, which the streams do not contain.
     pub values: ValueFormat,
 }
 
-/// The meaning of the bytes.
+/// What the bytes are.
 #[derive(Clone, Debug)]
 pub enum ExplainSubject {
     Stream(Stream),
-    /// Data of a request to this address, or of its reply.
+    /// The data of a request to this address, or of a reply from it.
     Place(ServiceAddress),
     /// An address without data.
     Address(ServiceAddress),
@@ -35,7 +35,7 @@ pub enum ExplainSubject {
     Frames(Option<ServiceAddress>),
 }
 
-/// The address of a service, as far as it is known.
+/// The address that an ADS service accesses, as far as it is known.
 #[derive(Clone, Copy, Debug)]
 pub struct ServiceAddress {
     pub port: Option<AmsPort>,
@@ -50,9 +50,9 @@ pub struct ServiceAddress {
 /// The explanation of bytes; in JSON, one document with a format version.
 #[derive(Clone, Debug, Serialize)]
 pub struct Explanation {
-    /// Version of the format.
+    /// Version of the JSON format.
     pub format: u32,
-    /// Number of bytes.
+    /// Number of bytes of the input.
     pub length: usize,
     pub outcome: ExplanationOutcome,
     /// The streams in the order of their bytes; the data of a service follows the stream of the
@@ -63,11 +63,12 @@ pub struct Explanation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ExplanationOutcome {
-    /// Every stream is explained.
+    /// The bytes contain no error, and at least one part is a stream or has the address of a
+    /// function.
     Explained,
     /// The bytes contain an error.
     Faulty,
-    /// The bytes contain no error, but no table describes them.
+    /// The bytes contain no error, but no part is a stream or has the address of a function.
     Unknown,
 }
 
@@ -82,17 +83,17 @@ impl ExplanationOutcome {
     }
 }
 
-/// A stream.
+/// The explanation of a stream, or of bytes that no table describes.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct ExplainedStream {
     pub title: String,
     /// The stream's name; `None` for bytes that no table describes.
     pub stream: Option<&'static str>,
-    /// The requirement that defines it.
+    /// The requirement that defines the stream.
     pub clause: Option<&'static str>,
     /// The sources of the requirement: document, edition, section.
     pub sources: Vec<String>,
-    /// Offset of the stream in the input.
+    /// Offset of the stream in the input in bytes.
     pub at: usize,
     pub length: usize,
     /// The address to which the stream is sent, or which returns it.
@@ -100,9 +101,9 @@ pub struct ExplainedStream {
     /// The fields up to the first error.
     pub rows: Vec<ExplainedField>,
     pub faults: Vec<ExplainedFault>,
-    /// The bytes from the error on.
+    /// The bytes after the last field that was read, if there is an error.
     pub unread: Option<Unread>,
-    /// Further notes.
+    /// Notes about the whole stream.
     pub notes: Vec<String>,
 }
 
@@ -128,11 +129,11 @@ pub struct ExplainedField {
     pub meaning: &'static str,
     /// The requirement that defines the field.
     pub clause: &'static str,
-    /// Whether this field contains the error.
+    /// Whether this field contains an error.
     pub faulty: bool,
-    /// The meaning of the value.
+    /// Notes about the value, such as its meaning.
     pub notes: Vec<String>,
-    /// Whether the bytes are explained as a separate stream.
+    /// Whether the next part explains the bytes of this field as a separate stream.
     #[serde(skip)]
     pub below: bool,
 }
@@ -141,7 +142,7 @@ pub struct ExplainedField {
 pub struct ExplainedFault {
     /// The class of the error, as in vectors; `nc-line` or `nc-word` for NC text.
     pub class: &'static str,
-    /// The field; `stream` for the whole stream.
+    /// The name of the field; `stream` for the whole stream, `line 2` and so on for NC text.
     pub field: String,
     pub offset: usize,
     /// The expected number, whose unit depends on `class`, for example bytes.
@@ -175,7 +176,7 @@ pub struct ExplainedAddress {
     /// The meaning of the index offset.
     pub offset: String,
     pub function: Option<FunctionReport>,
-    /// Other meanings, and the reason if there is no function.
+    /// Other meanings of the address, and the reason if no function has this address.
     pub notes: Vec<String>,
 }
 
@@ -189,15 +190,15 @@ pub struct FunctionReport {
     pub task: String,
     /// The task's AMS port.
     pub port: u16,
-    /// Its effect on the machine: `query`, `write` or `motion`.
+    /// The effect of the function on the machine: `query`, `write` or `motion`.
     pub effect: String,
-    /// The requirement that defines it.
+    /// The requirement that defines the function.
     pub clause: &'static str,
-    /// The sources of the function.
+    /// The section of the manuals that documents the function, or the vendors' help pages.
     pub section: String,
-    /// The stream of the request.
+    /// The name of the stream in the request; `None` if the request has no data.
     pub request: Option<&'static str>,
-    /// The stream of the reply.
+    /// The name of the stream in the reply; `None` if the reply has no data.
     pub reply: Option<&'static str>,
 }
 
@@ -241,7 +242,7 @@ impl ExplainedStream {
         self.address.as_ref().is_some_and(|address| address.function.is_some())
     }
 
-    /// Adds an error and marks its row.
+    /// Adds an error, and marks the row that contains its offset.
     pub(super) fn push_fault(&mut self, fault: ExplainedFault) {
         let at = fault.offset;
         let here = |row: &&mut ExplainedField| {
@@ -254,7 +255,7 @@ impl ExplainedStream {
         self.faults.push(fault);
     }
 
-    /// Marks the bytes after offset `end` of the stream as unread.
+    /// Marks the bytes from offset `end` of the stream on as unread.
     pub(super) fn leave(&mut self, end: usize, bytes: &[u8]) {
         let rest = bytes.get(end..).unwrap_or_default();
         self.unread = (!rest.is_empty()).then(|| Unread {
@@ -286,12 +287,12 @@ impl ExplainedField {
 }
 
 impl ExplainedFault {
-    /// Converts an error of the codec, whose offset is counted from `base` bytes before the stream,
-    /// to an offset in the stream.
+    /// Converts an error of the codec. The offset of `error` counts from `base` bytes before the
+    /// stream, and the offset of the result from the start of the stream.
     pub(super) fn of(error: &Error, base: usize) -> Self {
         let field: Field = error.field();
         let offset = to_usize(error.offset()).saturating_sub(base);
-        // Omit the stream, because the part names it.
+        // Omit the name of the stream, because the part contains it.
         let whole = error.to_string();
         let reason = whole.split_once(": ").map_or(whole.as_str(), |(_, rest)| rest);
         let reason = reason.split_once(": ").map_or(reason, |(_, rest)| rest);
@@ -308,7 +309,7 @@ impl ExplainedFault {
     }
 }
 
-/// The sources of a requirement.
+/// The sources of a requirement: one text for each document, with edition and sections.
 pub(crate) fn sources(clause: &str) -> Vec<String> {
     let Some(requirement) = requirement(clause) else { return Vec::new() };
     // Create one entry for each document, with all its sections.

@@ -1,4 +1,5 @@
-//! Explains AMS/TCP frames: headers, service, and the stream in its data.
+//! Explains AMS/TCP frames: the headers, the ADS service, and the stream in the data of the
+//! service.
 
 use std::collections::HashMap;
 
@@ -58,7 +59,8 @@ struct FrameExplainer<'q> {
 }
 
 impl FrameExplainer<'_> {
-    /// Explains one frame; returns its length if another may follow.
+    /// Explains the frame that starts at offset `at` of the input; returns its length if the frame
+    /// is complete.
     fn frame(&mut self, at: usize, bytes: &[u8]) -> Option<usize> {
         let split = FrameRef::split(bytes, u32::MAX);
         let (tcp, rest) = halves(bytes, AMS_TCP_HEADER_LEN);
@@ -91,7 +93,7 @@ impl FrameExplainer<'_> {
         len
     }
 
-    /// Explains a header by its table; returns whether the header is complete.
+    /// Explains a header by its field table; returns whether the header has no error.
     fn header(&mut self, stream: Stream, at: usize, bytes: &[u8]) -> bool {
         let part = part::of_stream(stream, at, bytes, self.values);
         let whole = part.faults.is_empty();
@@ -99,7 +101,8 @@ impl FrameExplainer<'_> {
         whole
     }
 
-    /// Adds an error in the last header, and the following bytes as unread.
+    /// Adds an error to the header that was explained last, and the bytes after it as an unread
+    /// part.
     fn fault(&mut self, error: &Error, base: usize, rest: &[u8]) {
         let Some(part) = self.parts.last_mut() else { return };
         part.push_fault(ExplainedFault::of(error, base));
@@ -109,7 +112,7 @@ impl FrameExplainer<'_> {
         }
     }
 
-    /// Adds an error for missing data at the end of a frame.
+    /// Adds an error to the AMS header of a frame that contains less data than its header states.
     fn cut(&mut self, header: &AmsHeader, there: usize) {
         let Some(part) = self.parts.last_mut() else { return };
         let found = to_u32(there);
@@ -177,12 +180,12 @@ impl FrameExplainer<'_> {
         let (after, data) = inside.unwrap_or((data.len(), &[]));
         let mut part = address::of_data(&ads_address, at.saturating_add(after), data, self.values);
         if !reply && !faulty && part.faults.is_empty() {
-            part.notes.extend(refused(&ads_address, header.target.port, (service, length), data));
+            part.notes.extend(rejected(&ads_address, header.target.port, (service, length), data));
         }
         self.parts.push(part);
     }
 
-    /// The address of a request, which is stored for its reply.
+    /// Returns the address in a request, and stores it for the reply.
     fn asks(
         &mut self,
         header: &AmsHeader,
@@ -197,7 +200,8 @@ impl FrameExplainer<'_> {
         Some(ServiceAddress { port, service, group, offset, reply: false })
     }
 
-    /// The address of a reply, from its request or from the caller.
+    /// The address to which a reply belongs: that of its request or, without a request, that given
+    /// by the caller.
     fn answered(&mut self, header: &AmsHeader, service: AdsService) -> Option<ServiceAddress> {
         let key = (header.target, header.source, header.invoke_id);
         let requests = self.requests.get(&key).filter(|(command, ..)| *command == header.command);
@@ -210,7 +214,7 @@ impl FrameExplainer<'_> {
         Some(ServiceAddress { port, service, group, offset, reply: true })
     }
 
-    /// Explains a command other than the three services.
+    /// Explains a command other than Read, Write and ReadWrite.
     fn other(&mut self, command: Command, reply: bool, at: usize, data: &[u8]) {
         let name = codes::command(command)
             .map_or_else(|| format!("AMS command {}", command.0), ToOwned::to_owned);
@@ -233,14 +237,15 @@ fn halves(bytes: &[u8], at: usize) -> (&[u8], &[u8]) {
     bytes.split_at_checked(at).unwrap_or((bytes, &[]))
 }
 
-/// The data in the stream of a service, as far as present, after its offset in the stream.
+/// The offset of the field `data` in the stream of a service, and the data as far as present;
+/// `None` if the stream has no such field, or ends before it.
 fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
     let data = ads_cnc::layout::Field::by_name(stream, "data")?.spec()?;
     let at = to_usize(data.offset);
     bytes.get(at..).map(|data| (at, data))
 }
 
-/// The number in a field, if the stream can be read up to it.
+/// The number in a field, if the stream can be read up to the end of this field.
 fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     let mut number = None;
     // An error after the field is irrelevant here.
@@ -253,7 +258,7 @@ fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
 }
 
 /// The error with which the codec rejects a request although each of its streams is valid.
-fn refused(
+fn rejected(
     ads_address: &ServiceAddress,
     port: AmsPort,
     (service, read_length): (AdsService, Option<u32>),
@@ -271,8 +276,8 @@ fn refused(
         Err(DispatchError::Stream(error)) => {
             Some(format!("the codec rejects the request: {error}"))
         }
-        // For a request to an address without a function, the explanation of the address contains the
-        // reason.
+        // For a request to an address without a function, the explanation of the address contains
+        // the reason.
         _ => None,
     }
 }

@@ -1,8 +1,8 @@
 //! Explains bytes field by field: offset, bytes, field, value, meaning, requirement.
 //!
-//! [`explain`] accepts any bytes and never fails: errors are part of the [`Explanation`], which
-//! contains all fields up to an error, the error itself and the unread bytes. The fields are those
-//! of the tables in [`ads_cnc::layout`].
+//! [`explain`] accepts any bytes and never fails: an error in the bytes is part of the
+//! [`Explanation`], which contains all fields before the error, the error itself and the unread
+//! bytes. The fields are those of the tables in [`ads_cnc::layout`].
 //!
 //! ```
 //! use ads_cnc::layout::Stream;
@@ -62,8 +62,8 @@ pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     Explanation::new(bytes.len(), parts)
 }
 
-/// The names of the streams as which all bytes can be parsed, as suggestions if no stream is
-/// specified.
+/// The names of the streams whose tables accept all the bytes: suggestions for a user who has not
+/// specified a stream.
 pub fn candidates(bytes: &[u8]) -> Vec<&'static str> {
     let takes = |stream: &Stream| stream.walk(bytes, |_| ()).is_ok();
     Stream::all().filter(takes).map(|stream| stream.layout().name).collect()

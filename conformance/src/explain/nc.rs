@@ -8,13 +8,13 @@ use super::explanation::{ExplainedFault, ExplainedField, ExplainedStream};
 use super::value::row;
 use crate::number::to_usize;
 
-/// A line: offset, text and line end.
+/// A line: its offset in the data, and its bytes with the line end.
 struct Line<'a> {
     at: usize,
     bytes: &'a [u8],
 }
 
-/// Adds a row for each line.
+/// Adds a row for each line of NC text, and the faults that the codec finds in the text.
 pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
     let (data, whole) = (segment.bytes, row(segment));
     let lines = lines(data);
@@ -76,7 +76,7 @@ fn fault(part: &mut ExplainedStream, lines: &[Line<'_>], error: &LineError, what
     });
 }
 
-/// The offset of a column.
+/// The offset in the data of a line and column, which count from 1.
 fn place(lines: &[Line<'_>], line: u32, column: u32) -> usize {
     let back = |number: u32| to_usize(number.saturating_sub(1));
     lines.get(back(line)).map_or(0, |line| line.at.saturating_add(back(column)))

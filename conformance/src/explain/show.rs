@@ -7,9 +7,10 @@ use anstyle::{AnsiColor, Style};
 use super::explanation::{ExplainedAddress, ExplainedField, ExplainedStream, Explanation};
 use crate::text::plural;
 
-/// Bytes per line.
+/// Number of bytes on a line.
 const LINE: usize = 8;
-/// Maximum width of the column of values.
+/// Maximum width in characters of the columns of field names and of values; a longer cell shifts
+/// the rest of its row.
 const VALUE_MAX: usize = 40;
 
 /// Whether to use colour.
@@ -176,7 +177,7 @@ fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) 
     Ok(())
 }
 
-/// Splits hex into lines of this many bytes.
+/// Splits hex with a space after each byte into lines of `LINE` bytes.
 fn chunks(hex: &str) -> impl Iterator<Item = &str> {
     let width = LINE * 3;
     let mut rest = hex;

@@ -1,10 +1,11 @@
-//! Decodes values and contents by the type from their description or descriptor.
+//! Decodes values and contents by a type that the caller specifies.
 
 use ads_cnc::value::{DataType, Element, Elements};
 use ads_cnc::{Error, U32List};
 
 use super::codes::text_of;
 use crate::number::to_usize;
+use crate::values::indices;
 
 /// An element of a value.
 pub(super) struct TypedElement {
@@ -22,11 +23,11 @@ pub(super) fn elements(
 ) -> Result<Vec<TypedElement>, Error> {
     let elements = Elements::new(ty, U32List::from(dimensions), bytes)?;
     let len = to_usize(elements.shape().element_size());
-    let placed = (0_u32..).zip(elements);
+    let placed = (0_usize..).zip(elements);
     Ok(placed
         .map(|(item, one)| TypedElement {
             len,
-            place: place(item, dimensions),
+            place: indices(item, dimensions),
             value: element(one),
         })
         .collect())
@@ -38,16 +39,6 @@ fn element(element: Element<'_>) -> String {
         Element::String(text) => text_of(text),
         other => crate::values::number(other),
     }
-}
-
-/// The indices of an element; the last index changes fastest (VAR-21, assumed).
-fn place(item: u32, dimensions: &[u32]) -> String {
-    let (mut left, mut indices) = (item, Vec::new());
-    for &length in dimensions.iter().rev() {
-        indices.push(left.checked_rem(length).unwrap_or(0));
-        left = left.checked_div(length).unwrap_or(0);
-    }
-    indices.iter().rev().map(|index| format!("[{index}]")).collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Makes rows from the bytes of a field.
+//! Makes the rows of an explanation from the bytes of a field.
 
 use ads_cnc::address::IndexGroup;
 use ads_cnc::ads::{AdsError, Command, StateFlags};
@@ -13,7 +13,8 @@ use crate::number::to_usize;
 use crate::text::plural;
 use crate::value_format::ValueFormat;
 
-/// Maximum length of a value of unknown type that is shown as every type of its size.
+/// Maximum length in bytes of a value of unknown type that is shown as every numeric type of its
+/// size.
 const GUESSED: usize = 8;
 
 /// Adds the rows of a segment to its part.
@@ -55,7 +56,7 @@ fn is_value(stream: Stream, field: &str) -> bool {
     field == "value" || stream == Stream::Content
 }
 
-/// Adds the value of a number or NetId, and its meaning.
+/// Sets the value of a row to the number or NetId in `bytes`, and adds its meaning.
 fn interpret(row: &mut ExplainedField, stream: Stream, ty: Type, bytes: &[u8]) {
     match (ty, bytes) {
         (Type::NetId, _) => {
@@ -75,7 +76,7 @@ fn interpret(row: &mut ExplainedField, stream: Stream, ty: Type, bytes: &[u8]) {
     }
 }
 
-/// Adds the meaning of a number.
+/// Adds the meaning of a number to its row, if the field has known codes.
 fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     let low = u16::try_from(read).unwrap_or_default();
     let name = match (stream, row.field.as_str()) {
@@ -122,8 +123,8 @@ fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     }
 }
 
-/// Adds a value or content, decoded with its type if the type is known, otherwise as every type of
-/// its size.
+/// Adds a value or content: if the user has specified the type, a row for each element; otherwise
+/// one row, with a note that shows the bytes as each possible type.
 fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values: &ValueFormat) {
     let Some(ty) = values.ty else {
         row.value = plural(all.len(), "byte");
@@ -174,7 +175,8 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
     }
 }
 
-/// Formats a few bytes as each type of their size.
+/// Formats at most `GUESSED` bytes as each numeric type of their size, and longer printable bytes
+/// as a STRING.
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {
         let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));

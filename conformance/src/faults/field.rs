@@ -121,13 +121,14 @@ impl FieldDefect {
 
 impl fmt::Display for FieldDefect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let what = match self.change {
-            FieldChange::FlipLow => "the lowest bit of its first byte inverted",
-            FieldChange::Invert => "every bit inverted",
-            FieldChange::SwapBytes => "its bytes in reverse order",
-            FieldChange::Zero => "every byte 0",
+        let (part, change) = match self.change {
+            FieldChange::FlipLow => ("the lowest bit of the first byte", "is inverted"),
+            FieldChange::Invert => ("every bit", "is inverted"),
+            FieldChange::SwapBytes => ("the order of the bytes", "is reversed"),
+            FieldChange::Zero => ("every byte", "is 0"),
         };
-        write!(f, "{} with {what}", self.field)
+        let (stream, field) = (self.stream.layout().name, self.field.name());
+        write!(f, "{stream}: {part} of the field {field} {change}")
     }
 }
 

@@ -1,8 +1,9 @@
 //! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
 //! A seed is a defect or a variant: middleware around the codec or the simulated CNC, or another data
-//! model or policy of the CNC. Seeds test the suite: with a defect, at least one of the requirements
-//! that the defect violates must fail; with a valid variant, no requirement may fail.
+//! model or policy of the CNC. Seeds test the suite: with a defect that a reply can show, at least one
+//! of the requirements that the defect violates must fail; with a valid variant, no requirement may
+//! fail.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::{self, DefectKind};
@@ -52,13 +53,13 @@ pub const fn without() -> &'static [(ClauseId, &'static str)] {
     &[
         (
             VAR_29,
-            "The offsets of the functions: each of them has defects of its own, by the requirement that \
-             says what it answers.",
+            "VAR-29 lists the offsets of the functions; a defect of a function violates the requirement \
+             that specifies its reply.",
         ),
         (
             STM_21,
             "The simulated CNC does not interpret NC lines, so it has no other syntax errors to report; \
-         how a CNC reports one shows on its screen.",
+             a CNC shows them on its screen.",
         ),
     ]
 }

@@ -1,5 +1,5 @@
-//! Generated defects of one function: each operator changes the correct reply, or returns the reply to
-//! another request.
+//! Generated defects of one function: each operator rejects the request, executes another request, or
+//! changes the correct reply.
 //!
 //! ```
 //! use ads_cnc_conformance::faults;
@@ -33,7 +33,8 @@ use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 struct Operator {
     name: &'static str,
     what: &'static str,
-    /// The requirements that the defect violates, in addition to the requirement of the function.
+    /// Requirements that the defect violates in addition to those of the function and its streams, if
+    /// they concern the function (see `concerns`).
     breaks: &'static [ClauseId],
     applies: fn(&FunctionSpec) -> bool,
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
@@ -49,12 +50,19 @@ const fn operator(
     Operator { name, what, breaks, applies, answer }
 }
 
-/// Defects that handle a request as another request, or reject it.
+/// Defects that treat a request as another request, reject it, or answer a rejected request with
+/// success. They also violate the requirement of the stream of the request.
 const OF_REQUESTS: &[Operator] = &[
-    operator("reject", "it is rejected", &[], |_| true, |_, _| Err(AdsError::INVALID_DATA)),
+    operator(
+        "reject",
+        "the CNC rejects every request",
+        &[],
+        |_| true,
+        |_, _| Err(AdsError::INVALID_DATA),
+    ),
     operator(
         "rank-rejected",
-        "a channel by index is rejected",
+        "the CNC rejects index groups without the bit of logical addressing",
         &[ADR_12],
         has_rank,
         |cnc, call| {
@@ -63,35 +71,35 @@ const OF_REQUESTS: &[Operator] = &[
     ),
     operator(
         "rank-is-number",
-        "a channel by index is the one with this number",
+        "the CNC treats the rank of a channel (addressing by index) as the number of a channel",
         &[ADR_1, ADR_11],
         differs_by_rank,
         |cnc, call| cnc.at(call, group(call) | LOGICAL, offset(call)),
     ),
     operator(
         "number-is-rank",
-        "the number of a channel is its rank",
+        "the CNC treats the number of a channel (logical addressing) as the rank of a channel",
         &[ADR_1],
         differs_by_rank,
         |cnc, call| cnc.at(call, group(call) & !LOGICAL, offset(call)),
     ),
     operator(
         "first-channel",
-        "it is that of channel 1 if channel 1 has it",
+        "the CNC uses channel 1 instead of the requested channel, unless that fails",
         &[SDA_1],
         differs_by_channel,
         |cnc, call| mistaken(cnc, call, Channel, |_| 1),
     ),
     operator(
         "unknown-channel-is-first",
-        "an unknown channel is channel 1",
+        "the CNC executes a request that fails, as for an unknown channel, in channel 1",
         &[ADS_4],
         has_unknown,
         |cnc, call| instead(cnc, call, Channel, |_| 1),
     ),
     operator(
         "first-axis",
-        "it is that of axis 1 if axis 1 has it",
+        "the CNC uses axis 1 instead of the requested axis, unless that fails",
         &[ADR_7, SDA_1, SDA_13],
         |spec| {
             has_axis(spec)
@@ -102,35 +110,35 @@ const OF_REQUESTS: &[Operator] = &[
     ),
     operator(
         "next-axis",
-        "it is that of the next axis if this one has it",
+        "the CNC uses the next axis instead of the requested axis, unless that fails",
         &[ADR_7, SDA_1, SDA_13],
         |spec| has_axis(spec) && !is_alike(spec),
         |cnc, call| mistaken(cnc, call, Axis, |axis| axis.wrapping_add(1)),
     ),
     operator(
         "unknown-axis-is-first",
-        "an unknown axis is axis 1",
+        "the CNC executes a request that fails, as for an unknown axis, for axis 1",
         &[ADR_7, ADS_4],
         |spec| has_unknown(spec) && has_axis(spec),
         |cnc, call| instead(cnc, call, Axis, |_| 1),
     ),
     operator(
         "next-index",
-        "it is that of the next index if there is one",
+        "the CNC uses the next index instead of the requested index, unless that fails",
         &[DYN_5, VAR_2, VAR_20],
         has_index,
         |cnc, call| mistaken(cnc, call, Index, |index| index.wrapping_add(1)),
     ),
     operator(
         "first-index",
-        "it is that of the first index",
+        "the CNC uses the first index instead of the requested index, unless that fails",
         &[DYN_5, VAR_2, VAR_20],
         |spec| has_index(spec) && spec.clause != "SDA-9",
         |cnc, call| mistaken(cnc, call, Index, |_| least(call)),
     ),
     operator(
         "index-8-bit",
-        "the lowest 8 bits of the index count",
+        "the CNC uses only the lowest 8 bits of the index",
         &[DYN_5, VAR_2, VAR_20, SDA_4],
         has_index,
         |cnc, call| {
@@ -139,30 +147,42 @@ const OF_REQUESTS: &[Operator] = &[
     ),
     operator(
         "index-beyond-is-last",
-        "the index after the last is the last",
+        "the CNC executes a request that fails, as after the last index, with the previous index",
         &[DYN_5, VAR_2, VAR_20, SDA_4, ADS_4],
         has_index,
         |cnc, call| instead(cnc, call, Index, |index| index.wrapping_sub(1)),
     ),
-    operator("first-kind", "it is that of the first kind", &[VAR_16], has_kind, of_first_kind),
-    operator("other-attribute", "it is another attribute", &[ADR_6], is_attribute, |cnc, call| {
-        let next = if group(call) & 0xF00 == 0x800 {
-            0x400
-        } else {
-            (group(call) & 0xF00).wrapping_add(0x100)
-        };
-        cnc.at(call, group(call) & !0xF00 | next, offset(call)).or_else(|_| cnc.answer(call))
-    }),
+    operator(
+        "first-kind",
+        "the CNC uses the first kind (V.E or P) instead of the requested kind",
+        &[VAR_16],
+        has_kind,
+        of_first_kind,
+    ),
+    operator(
+        "other-attribute",
+        "the CNC returns the attribute after the requested one, or the name after the write flag",
+        &[ADR_6],
+        is_attribute,
+        |cnc, call| {
+            let next = if group(call) & 0xF00 == 0x800 {
+                0x400
+            } else {
+                (group(call) & 0xF00).wrapping_add(0x100)
+            };
+            cnc.at(call, group(call) & !0xF00 | next, offset(call)).or_else(|_| cnc.answer(call))
+        },
+    ),
     operator(
         "error-is-empty",
-        "an error is a success without data",
+        "the CNC answers a request that it rejects with success and no data",
         &[ADS_4, ADS_7, SDA_2],
         has_reply,
         |cnc, call| cnc.answer(call).or(Ok(Vec::new())),
     ),
     operator(
         "error-is-last-reply",
-        "an error is the last reply",
+        "the CNC answers a request that it rejects with its last successful reply",
         &[ADS_4, DYN_5, VAR_2, SDA_4],
         |spec| has_reply(spec) && !matches!(spec.group, GroupRule::Instances),
         |cnc, call| {
@@ -174,27 +194,27 @@ const OF_REQUESTS: &[Operator] = &[
     ),
 ];
 
-/// Defects that decode the request correctly, but reply to it or execute it wrongly.
+/// Defects that decode the request correctly, but send a wrong reply or execute the request wrongly.
 const OF_ANSWERS: &[Operator] = &[
-    operator("empty", "the reply is empty", &[], has_reply, |cnc, call| {
+    operator("empty", "a successful reply has no data", &[], has_reply, |cnc, call| {
         changed(cnc, call, Vec::clear)
     }),
-    operator("zeros", "every byte of the reply is 0", &[SDA_5], has_fields, |cnc, call| {
+    operator("zeros", "every byte of the reply's data is 0", &[SDA_5], has_fields, |cnc, call| {
         changed(cnc, call, |bytes| bytes.fill(0))
     }),
-    operator("short", "the reply lacks its last byte", &[], has_end, |cnc, call| {
+    operator("short", "the reply lacks the last byte of its data", &[], has_end, |cnc, call| {
         changed(cnc, call, |bytes| _ = bytes.pop())
     }),
     operator(
         "long",
-        "the reply has one more byte if there is room",
+        "the reply has an extra byte, 0, after its data if the read length permits",
         &[SDA_8],
         has_end,
         |cnc, call| or_short(cnc, call, changed(cnc, call, |bytes| bytes.push(0))),
     ),
     operator(
         "stale",
-        "the reply is that to the request before",
+        "a successful reply is the one to the previous request for this function",
         &[VAR_16],
         has_reply,
         |cnc, call| {
@@ -204,15 +224,21 @@ const OF_ANSWERS: &[Operator] = &[
             within_length(call, Ok(before))
         },
     ),
-    operator("frozen", "every reply repeats the first one", &[VAR_16], has_reply, |cnc, call| {
-        let correct = cnc.answer(call)?;
-        let first = cnc.memory().get(&kept()).unwrap_or(correct);
-        cnc.memory().store(kept(), first.clone());
-        within_length(call, Ok(first))
-    }),
+    operator(
+        "frozen",
+        "every successful reply repeats the first one of this function",
+        &[VAR_16],
+        has_reply,
+        |cnc, call| {
+            let correct = cnc.answer(call)?;
+            let first = cnc.memory().get(&kept()).unwrap_or(correct);
+            cnc.memory().store(kept(), first.clone());
+            within_length(call, Ok(first))
+        },
+    ),
     operator(
         "length-ignored",
-        "the reply may be longer than the read length",
+        "the CNC ignores the read length, so that a reply may be longer",
         &[ADS_1, ADS_3],
         |spec| {
             has_reply(spec)
@@ -221,18 +247,24 @@ const OF_ANSWERS: &[Operator] = &[
         },
         |cnc, call| cnc.whole(call),
     ),
-    operator("ignored", "it succeeds and changes nothing", &[], writes, |cnc, call| {
+    operator("ignored", "a write succeeds and changes nothing", &[], writes, |cnc, call| {
         rewritten(cnc, call, |_, old| old.to_vec())
     }),
-    operator("first-byte", "only the first byte is written", &[], writes, |cnc, call| {
+    operator("first-byte", "a write changes only the first byte", &[], writes, |cnc, call| {
         rewritten(cnc, call, |new, old| {
             [new.get(..1), old.get(1..)].map(Option::unwrap_or_default).concat()
         })
     }),
-    operator("late", "it is executed with the next one", &[], writes, delay_write),
+    operator(
+        "late",
+        "a write succeeds, but is executed only at the next write",
+        &[],
+        writes,
+        delay_write,
+    ),
     operator(
         "also-first-channel",
-        "it is executed in channel 1 too",
+        "a write is executed in channel 1 too",
         &[],
         |spec| {
             writes(spec)
@@ -248,7 +280,7 @@ const OF_ANSWERS: &[Operator] = &[
     ),
     operator(
         "also-next-index",
-        "it writes the next index too",
+        "a write is executed for the next index too",
         &[],
         |spec| writes(spec) && matches!(spec.clause, "VAR-12" | "VAR-13"),
         |cnc, call| {
@@ -259,7 +291,7 @@ const OF_ANSWERS: &[Operator] = &[
     ),
     operator(
         "also-next-axis",
-        "it writes the next axis too",
+        "a write is executed for the next axis too",
         &[ADR_7],
         |spec| writes(spec) && has_axis(spec) && !matches!(spec.group, GroupRule::ComContent),
         |cnc, call| {
@@ -270,7 +302,7 @@ const OF_ANSWERS: &[Operator] = &[
     ),
     operator(
         "read-only-accepted",
-        "a write of a read-only value succeeds",
+        "a write to a read-only value succeeds and changes nothing",
         &[VAR_6, COM_2],
         |spec| writes(spec) && spec.clause != "VAR-26",
         |cnc, call| {
@@ -282,7 +314,7 @@ const OF_ANSWERS: &[Operator] = &[
     ),
     operator(
         "size-ignored",
-        "a value of another size is accepted and not written",
+        "a write of a value of a wrong size succeeds and changes nothing",
         &[],
         |spec| writes(spec) && !matches!(spec.clause, "SDA-9" | "VAR-26"),
         |cnc, call| {
@@ -292,15 +324,21 @@ const OF_ANSWERS: &[Operator] = &[
             })
         },
     ),
-    operator("once", "it is rejected after the first success", &[], writes, |cnc, call| {
-        if cnc.memory().get(&kept()).is_some() {
-            return Err(AdsError::INVALID_DATA);
-        }
-        cnc.answer(call).inspect(|reply| cnc.memory().store(kept(), reply.clone()))
-    }),
+    operator(
+        "once",
+        "the CNC rejects every write after the first successful one",
+        &[],
+        writes,
+        |cnc, call| {
+            if cnc.memory().get(&kept()).is_some() {
+                return Err(AdsError::INVALID_DATA);
+            }
+            cnc.answer(call).inspect(|reply| cnc.memory().store(kept(), reply.clone()))
+        },
+    ),
 ];
 
-/// The generated defects of all functions, except those of data streaming.
+/// The generated defects of all functions except the write of data streaming.
 pub(super) fn seeds() -> impl Iterator<Item = SeededDefect> {
     // The defects of streaming are written by hand: a CNC may reject a packet temporarily, and the
     // suite cannot read a packet back.

@@ -16,8 +16,8 @@ use crate::text::named;
 pub struct SeededDefect {
     /// The ID, which is unique.
     pub id: String,
-    /// The requirements that the defect violates; with the defect, the suite must report that at least
-    /// one of them failed. Empty for a valid variant.
+    /// The requirements that the defect violates; if a reply can show the defect, the suite must report
+    /// that at least one of them failed. Empty for a valid variant.
     pub requirements: Vec<&'static str>,
     pub what: String,
     /// The kind: codec, CNC or valid variant.

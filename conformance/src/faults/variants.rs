@@ -34,7 +34,7 @@ fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyD
     }
 }
 
-/// Pads the last text of a reply, which starts at the offset `from`, with NULs to `len` bytes.
+/// Pads the bytes from the offset `from` on with NULs to `len` bytes, if they are fewer.
 fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
     let end = from.saturating_add(len).max(bytes.len());
     bytes.resize(end, 0);
@@ -49,7 +49,8 @@ pub(super) fn rows() -> impl Iterator<Item = &'static CncDefect> {
 
 #[rustfmt::skip]
 const ROWS: &[CncDefect] = &[
-    unprinted(row("different.names-padded", &[], "names are padded with NULs as far as the field goes",
+    unprinted(row("different.names-padded", &[],
+        "the CNC pads names, types and units in replies with NULs",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex) => {
                 let answer = cnc.whole(call);
@@ -73,7 +74,8 @@ const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         })),
-    unprinted(row("different.names-open", &[], "names end with the reply, without a NUL",
+    unprinted(row("different.names-open", &[],
+        "names, types and units end with the reply, without a NUL",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
                 cnc.answer(call).map(|mut bytes| {
@@ -89,9 +91,13 @@ const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         })),
-    fault("different.bytes-alone", &[], "every byte is sent by itself", CncFault::Pieces(1)),
-    fault("different.pieces-of-40", &[], "answers are sent in pieces of 40 bytes", CncFault::Pieces(40)),
-    row("different.error-numbers", &[], "errors have other numbers",
+    fault("different.bytes-alone", &[],
+        "the CNC sends each byte of a response separately",
+        CncFault::Pieces(1)),
+    fault("different.pieces-of-40", &[],
+        "the CNC sends responses in pieces of at most 40 bytes",
+        CncFault::Pieces(40)),
+    row("different.error-numbers", &[], "errors have other numbers than those of the simulated CNC",
         |cnc, call| cnc.answer(call).map_err(|error| AdsError(error.0 ^ 0x9811_0000))),
     row("different.error-one", &[], "every error has the same number",
         |cnc, call| cnc.answer(call).map_err(|_| AdsError(0x706))),
@@ -101,7 +107,7 @@ const ROWS: &[CncDefect] = &[
         }
         measured(bytes)
     }),
-    sent("different.errors-in-header", "errors stand in the AMS header, and there is no data",
+    sent("different.errors-in-header", "errors are in the AMS header of a response without data",
         |_, _, mut bytes| match u32_at(&bytes, 38) {
             Some(error @ 1..) => {
                 set_u32(&mut bytes, 30, error);
@@ -110,7 +116,8 @@ const ROWS: &[CncDefect] = &[
             }
             _ => bytes,
         }),
-    unprinted(row("different.handles", &[], "handles are other numbers",
+    unprinted(row("different.handles", &[],
+        "variables have other handles than those of the simulated CNC",
         |cnc, call| handles(cnc, call, |handle| handle ^ 0xC0DE_5A00))),
     unprinted(row("different.variables-reversed", &[], "the variables of a kind are in reverse order",
         |cnc, call| match (function(call), u32_at(call.data, 0), call.data.get(4..)) {
@@ -143,7 +150,8 @@ const ROWS: &[CncDefect] = &[
                 (first..=last).map(one).collect::<Result<Vec<_>, _>>().map(|all| all.concat())
             }
         })),
-    row("different.true-255", &[], "TRUE is 0xFF in write flags, 0xFFFF in descriptors",
+    row("different.true-255", &[],
+        "TRUE is 0xFF in write flags of elements and 0xFFFF in the write access of descriptors",
         |cnc, call| match function(call) {
             Some(Function::ReadElementWriteFlag) => cnc.answer(call).map(|bytes| {
                 bytes.into_iter().map(|byte| if byte == 0 { 0 } else { 0xFF }).collect()
@@ -175,7 +183,7 @@ const ROWS: &[CncDefect] = &[
             }),
         ))),
     unprinted(on("different.descriptor-remains", &[],
-        "descriptors carry remains of others: where nothing is assigned, and after the NULs of texts",
+        "descriptors have arbitrary bytes in the unassigned field and after the NULs of texts",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
             for record in records_mut(&mut bytes) {
                 record.iter_mut().skip(10).take(2).for_each(|byte| *byte = 0xAA);
@@ -187,35 +195,36 @@ const ROWS: &[CncDefect] = &[
             }
             bytes
         }))),
-    row("different.no-axis-lists", &[], "objects of platform axes are not described by lists of their own",
+    row("different.no-axis-lists", &[],
+        "the CNC has no object lists of platform axes (0x130200 + axis)",
         |cnc, call| match group(call) & 0xEF_FF00 {
             0x03_0200 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
     on("different.many-exactly", &[],
-        "more descriptors than there are left are rejected, and so is a length that is no multiple",
+        "the CNC rejects a read of descriptors whose read length is not that of the reply",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).and_then(|bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
             if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
         })),
     row("different.short-writes", &[],
-        "a content is written with fewer bytes than it has: those after become 0",
+        "the CNC pads the data of a shorter write to the size of the object",
         |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let old = cnc.read(call.port, group(call), offset(call))?;
-                let mut data = call.data.to_vec();
-                data.resize(old.len(), 0);
-                cnc.with(call, &data)
+                cnc.with(call, &padded(call.data.to_vec(), 0, old.len()))
             }
             (_, answer) => answer,
         }),
-    row("different.kind-with-nul", &[], "the empty kind takes its NUL",
+    row("different.kind-with-nul", &[],
+        "the CNC rejects the empty kind without a NUL, which is a request without data",
         |cnc, call| if is(call, &[Function::CountVariables]) && call.data.is_empty() {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("different.absent-refused", &[], "an instance that is not there is answered with an error",
+    row("different.absent-refused", &[],
+        "a request for the object address of an instance that does not exist returns an error",
         |cnc, call| match (is(call, &[Function::FindInstance]), cnc.answer(call)) {
             (true, Ok(bytes)) if bytes.iter().all(|byte| *byte == 0) => {
                 Err(AdsError::SYMBOL_NOT_FOUND)

@@ -9,9 +9,11 @@ use super::{Entry, Moment, Reason};
 /// The default AMS NetId of the simulated CNC.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
-/// The contents of a file of `--allow-write`: the target, the values that may be written, and the expiry.
+/// The contents of a file of `--allow-write`: the target, the values that may be written, and the
+/// expiry.
 ///
-/// Every table of the file may be repeated. Channels and axes have the numbers that the CNC uses:
+/// Every table of the file, such as `[[variable]]`, may be repeated. The file uses the channel
+/// numbers and axis indices of the CNC:
 ///
 /// ```
 /// let file = r#"
@@ -33,18 +35,18 @@ pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 /// group = 0x120101
 /// offset = 0x1
 ///
-/// [[object]]                   # or by its name: in the list of a channel (0 is the platform),
-/// channel = 1                  # of a rank or of a platform axis
+/// [[object]]                   # or by its name in the list of a channel (0: the platform);
+/// channel = 1                  # or rank = 1, or axis = 1: a platform axis
 /// name = "mc_command_single_block_w"
 ///
 /// [[element]]                  # the content of an element of a class
 /// group = 0x123301
 /// offset = 1
 ///
-/// [[stream]]                   # NC programs: this moves the machine
+/// [[stream]]                   # NC programs, which may move the machine
 /// channel = 1
 ///
-/// [[service]]                  # the responses of a host of the Service Interface
+/// [[service]]                  # the variables of the Service Interface that a service writes
 /// channel = 1
 /// "#;
 /// let allowed = ads_cnc_conformance::gate::Allowed::from_toml(file)?;
@@ -59,7 +61,7 @@ pub struct Allowed {
     pub address: Option<IpAddr>,
     /// Whether malformed requests may be sent to the target.
     pub malformed: bool,
-    /// The time after which no write is allowed.
+    /// The time from which on no write is allowed.
     pub expires: Moment,
     /// The allowed writes.
     pub entries: Vec<Entry>,
@@ -83,8 +85,8 @@ impl Allowed {
         if self.address.is_some() && self.address != address {
             return Err(Reason::OtherAddress { allowed: self.address, address });
         }
-        // Every AMS router uses this NetId for its own machine, so over a connection to another machine
-        // the NetId means that machine.
+        // Every AMS router uses this NetId for the machine on which it runs, so over a connection
+        // to another machine the NetId means that other machine.
         if target == NET_ID && !address.is_some_and(|address| address.is_loopback()) {
             return Err(Reason::LocalNetId(address));
         }

@@ -7,7 +7,8 @@ use ads_cnc::operation::{ObjectList, Operation as _, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString};
 
-/// A value that may be written. `Display` formats the entry as a TOML table of the file.
+/// A permission to write a value or to stream NC programs. `Display` formats the entry as a TOML
+/// table of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {
     /// A variable by its name, or by a handle that the device returned for this name.
@@ -39,7 +40,8 @@ pub enum AllowedList {
 }
 
 impl AllowedList {
-    /// The list of objects, addressed by number or by rank like the channel of the entry.
+    /// The list of objects for a request. A channel is addressed by number or by rank, as in the
+    /// entry.
     pub fn list(self) -> ObjectList {
         match self {
             Self::Platform => ObjectList::PLATFORM,
@@ -50,7 +52,8 @@ impl AllowedList {
 }
 
 impl Entry {
-    /// The entry that would allow a request; `None` if no entry can.
+    /// The entry that would allow a request; `None` if no entry can, or if the request is a write
+    /// by a handle, because the name of the variable is unknown.
     pub fn needed(request: &Request<'_>) -> Option<Self> {
         Some(match request {
             Request::WriteByName(op) if is_of_service(op.name) => Self::Service(op.channel),
@@ -98,7 +101,7 @@ fn is_of_service(name: CncStr<'_>) -> bool {
     SERVICE.iter().any(|variable| name == *variable.name())
 }
 
-/// Whether `asked` is `name`, optionally followed by indices.
+/// Whether `requested_name` is `name`, optionally followed by indices.
 fn is_or_is_in(requested_name: CncStr<'_>, name: &CncString) -> bool {
     let requested_name: Vec<u8> = requested_name.bytes().collect();
     let Some(rest) = requested_name.strip_prefix(name.as_bytes()) else { return false };

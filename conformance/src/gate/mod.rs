@@ -1,15 +1,17 @@
-//! Decides which frames may be sent to a target. A frame may move a machine, so the gate rejects every
-//! frame that is not explicitly allowed.
+//! Decides which frames may be sent to a target. A frame may move a machine, so the gate rejects
+//! every frame that is not explicitly allowed.
 //!
 //! [`Wire::send`](crate::net::Wire::send) sends a frame only with the [`Permit`] that
-//! [`Gate::check`] returns for the bytes of the frame. By default, the gate allows the queries of the
-//! function table at their documented port, ReadDeviceInfo and ReadState. A write needs a file that
-//! names the value, the target and an expiry: see [`Allowed`].
+//! [`Gate::check`] returns for the bytes of the frame. By default, the gate allows the queries of
+//! the function table at their documented ports, and ReadDeviceInfo and ReadState at the ports of
+//! GEO, SDA and COM. A write needs a file that names the value, the target and an expiry: see
+//! [`Allowed`].
 //!
-//! The file contains names, but a write may contain a handle or an address instead, and only the device
-//! knows the name that belongs to this handle or address. Therefore, the gate records the names in
-//! replies. It rejects a write by a handle or an address if any reply contained a name for the handle or
-//! the address that is not in the file: see [`Ambiguity`].
+//! The file contains names, but a write may contain a handle or an address instead, and only the
+//! device knows the name that belongs to this handle or address. Therefore, the gate records the
+//! names in replies. It rejects a write by a handle if any reply contained the handle for a name
+//! that is not in the file, and a write to the address of an object if replies contained two names
+//! for the address: see [`Ambiguity`].
 //!
 //! ```
 //! use ads_cnc::Encode;
@@ -51,7 +53,7 @@ use observed::Observed;
 /// Checks every frame before it is sent.
 #[derive(Clone, Debug, Default)]
 pub struct Gate {
-    /// Whether the user allows malformed frames; the file must permit them, too.
+    /// Whether the user allows malformed frames with `--malformed`; the file must permit them, too.
     malformed: bool,
     /// The address of a simulated CNC in this process, to which every write is allowed.
     simulated: Option<SocketAddr>,
@@ -82,25 +84,28 @@ impl<'f> Permit<'f> {
 /// Checks a frame without a file, see [`Gate::queries`].
 ///
 /// # Errors
-/// The reason why the frame must not be sent, and the entry that would allow it.
+/// The reason why the frame must not be sent, and the entry that would allow it, if any.
 pub fn check(frame: &[u8]) -> Result<Permit<'_>, GateRejection> {
     Gate::queries().check(frame, Moment::EPOCH)
 }
 
 impl Gate {
-    /// Creates a gate that allows only well-formed queries of the function table.
+    /// Creates a gate that allows only ReadDeviceInfo, ReadState and well-formed queries of the
+    /// function table.
     pub fn queries() -> Self {
         Self::default()
     }
 
-    /// Creates a gate that allows every request except those that this program never sends, such as
-    /// WriteControl, but only to this address of a [`Server`](crate::simulator::Server) of this process,
-    /// see [`Gate::of_server`].
+    /// Creates a gate that allows every request except WriteControl, notifications, sum commands,
+    /// undocumented access to a program stream, and writes at a port other than the documented one.
+    /// The gate is only for `simulated`, the address of a simulated CNC of this process; see
+    /// [`Gate::of_server`].
     pub(crate) fn of_address(simulated: SocketAddr) -> Self {
         Self { simulated: Some(simulated), ..Self::default() }
     }
 
-    /// The only address to which the gate allows requests; `None` if it does not restrict the address.
+    /// The only address to which a [`Client`](crate::client::Client) with this gate connects;
+    /// `None` if the gate does not restrict the address.
     pub const fn simulated(&self) -> Option<SocketAddr> {
         self.simulated
     }
@@ -134,7 +139,8 @@ impl Gate {
         Self { peer: Some(peer.to_canonical()), ..self }
     }
 
-    /// Whether the gate may allow malformed frames. A CNC may execute some malformed frames as writes.
+    /// Whether the gate may allow malformed frames. A CNC may execute some malformed frames as
+    /// writes.
     pub fn lets_malformed_pass(&self) -> bool {
         let permits = |allowed: &Allowed| allowed.malformed;
         self.simulated.is_some() || self.malformed && self.allowed.as_ref().is_some_and(permits)
@@ -149,7 +155,11 @@ impl Gate {
         allowed.check_target(target, self.peer, now).map_err(GateRejection::from)
     }
 
-    /// Checks whether the file permits malformed requests to this target now.
+    /// Checks whether the file permits malformed requests to this target now. No file is needed for
+    /// a simulated CNC of this process.
+    ///
+    /// # Errors
+    /// The reason why malformed requests are not permitted.
     pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), GateRejection> {
         match &self.allowed {
             _ if self.simulated.is_some() => Ok(()),
@@ -158,11 +168,11 @@ impl Gate {
         }
     }
 
-    /// Checks whether this frame may be sent at the time `now`. The result depends only on the gate and
-    /// the arguments.
+    /// Checks whether this frame may be sent at the time `now`. The result depends only on the gate
+    /// and the arguments.
     ///
     /// # Errors
-    /// The reason why the frame must not be sent, and the entry that would allow it.
+    /// The reason why the frame must not be sent, and the entry that would allow it, if any.
     pub fn check<'f>(&self, frame: &'f [u8], now: Moment) -> Result<Permit<'f>, GateRejection> {
         let permit = |repeatable| Ok(Permit { frame, repeatable });
         let whole = match whole(frame) {
@@ -180,8 +190,8 @@ impl Gate {
             }
         };
         let header = whole.header();
-        // The command is checked before the flags: otherwise a command that is never sent would pass
-        // as a malformed request if its flags are invalid.
+        // The command is checked before the flags: otherwise a command that is never sent would
+        // pass as a malformed request if its flags are invalid.
         let repeatable = match header.command {
             Command::WRITE_CONTROL
             | Command::ADD_NOTIFICATION
@@ -207,16 +217,17 @@ impl Gate {
         permit(repeatable)
     }
 
-    /// Records the handles and object addresses in a reply. With them, the gate checks whether a later
-    /// write by a handle or an address affects only names in the file.
+    /// Records the handles and object addresses in a reply, if the gate has a file. With these
+    /// records, the gate checks whether a later write by a handle or an address affects only names
+    /// in the file.
     pub fn observe(&mut self, call: &Call<'_>, reply: &[u8]) {
         if let Some(allowed) = &self.allowed {
             self.observed.observe(allowed, call, reply);
         }
     }
 
-    /// Whether a reply contained this handle. Also true if the gate has received more names than it can
-    /// store.
+    /// Whether a recorded reply of the channel interface contained this handle. Also true if the
+    /// gate has received more names than it can store.
     pub fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         self.observed.knows_handle(channel, handle)
     }
@@ -227,7 +238,7 @@ impl Gate {
         self.observed.forget();
     }
 
-    /// Checks a call; returns whether executing the call twice has the same effect as once.
+    /// Checks a call; returns whether the call is repeatable, see [`Permit::is_repeatable`].
     fn check_call(
         &self,
         call: &Call<'_>,
@@ -256,8 +267,8 @@ impl Gate {
         }
     }
 
-    /// Checks whether an entry of the file allows a write, and whether the file applies to the target
-    /// now.
+    /// Checks whether an entry of the file allows a write, and whether the file applies to the
+    /// target now.
     fn check_change(
         &self,
         request: &Request<'_>,
@@ -285,8 +296,9 @@ impl Gate {
     }
 }
 
-/// The queries of classes, which the manual documents for both SDA and GEO (section 2.2). The other
-/// functions of SDA are not sent to GEO, because the manual does not say that GEO serves them.
+/// The queries of classes, which section 2.2 of the manual documents for both SDA and GEO. The gate
+/// allows the other queries of SDA at GEO only as malformed requests, because the manual does not
+/// say that GEO serves them.
 const OF_CLASSES: [Function; 8] = [
     Function::FindInstance,
     Function::CountElements,
@@ -315,7 +327,7 @@ fn never(call: &Call<'_>) -> Result<(), GateRejection> {
     if stream && !documented { Err(Reason::Stream.into()) } else { Ok(()) }
 }
 
-/// The index groups of ADS sum commands.
+/// A range that contains the index groups of all ADS sum commands.
 const SUMS: RangeInclusive<u32> = 0xF080..=0xF08F;
 
 /// Decodes the bytes as exactly one frame.

@@ -9,18 +9,19 @@ use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 use super::rejection::OBSERVATIONS_MAX;
 use super::{Allowed, Ambiguity, Entry};
 
-/// What the replies say about handles and object addresses; it allows or forbids writes.
+/// The names that replies contained for handles and object addresses. They decide which writes the
+/// gate allows.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observed {
-    /// The names of each handle, by channel and handle. A channel by rank and the same channel by number
-    /// are different keys.
+    /// The names of each handle, by channel and handle. A channel by rank and the same channel by
+    /// number are different keys.
     handles: BTreeMap<(Channel, u32), HandleNames>,
     /// The handle of each variable in the file; `None` if replies contained several handles.
     variables: BTreeMap<(Channel, CncString), Option<u32>>,
     /// The lists of objects from which the file allows an object by its name.
     lists: BTreeMap<IndexGroup, ObservedObjects>,
-    /// For each object address: the first name that a list contained, and the first different name, if
-    /// any.
+    /// For each object address: the first name that a list contained, and the first different name,
+    /// if any.
     contents: BTreeMap<(IndexGroup, IndexOffset), (CncString, Option<CncString>)>,
     kept: usize,
     full: bool,
@@ -31,9 +32,9 @@ pub(super) struct Observed {
 struct HandleNames {
     /// The names that are in the file.
     allowed: BTreeMap<CncString, Sources>,
-    /// The axis and the name for which a reply of the axis interface contained the handle.
+    /// The first axis and name for which a reply of the axis interface contained the handle.
     of_axis: Option<(ChannelAxis, CncString)>,
-    /// The first name that is not in the file.
+    /// The first name that is not in the file, or the second name or axis of the axis interface.
     foreign: Option<CncString>,
 }
 
@@ -49,7 +50,7 @@ impl Sources {
     const DESCRIPTION: Self = Self { handle_by_name: false, description: true };
 }
 
-/// The part of a list of objects that was recorded so far.
+/// The part of a list of objects that has been recorded.
 #[derive(Clone, Debug, Default)]
 struct ObservedObjects {
     count: Option<u32>,
@@ -60,7 +61,7 @@ struct ObservedObjects {
 impl Observed {
     /// Discards the records that allow writes; keeps the names that are not in the file.
     pub(super) fn forget(&mut self) {
-        // `None` means that the variable has several handles: it remains forbidden.
+        // `None` means that the variable has several handles: writes by them remain forbidden.
         self.variables.retain(|_, handle| handle.is_none());
         self.lists.clear();
         self.handles.values_mut().for_each(|named| named.allowed.clear());
@@ -111,11 +112,11 @@ impl Observed {
         }
     }
 
-    /// Whether the only object with a name in a list has this address. False until the list was read
-    /// completely, because an unread object may have the same name.
+    /// Whether the only object with a name in a list has this address. False until the list was
+    /// read completely, because an unread object may have the same name.
     ///
     /// # Errors
-    /// The reason why another object may have this address.
+    /// The reason why the write may affect another object.
     pub(super) fn is_object(
         &self,
         list: ObjectList,
@@ -183,7 +184,8 @@ impl Observed {
                 if is_named(allowed, op.list) =>
             {
                 let objects = self.lists.entry(op.list.index_group()).or_default();
-                // If the length has changed, the list has changed, so the recorded objects are discarded.
+                // If the length has changed, the list has changed, so the recorded objects are
+                // discarded.
                 if objects.count != Some(count.0) {
                     *objects =
                         ObservedObjects { count: Some(count.0), ..ObservedObjects::default() };
@@ -196,14 +198,15 @@ impl Observed {
         }
     }
 
-    /// Counts a new record; returns whether it is within the limit.
+    /// Counts a new record; returns whether the number of records is within `OBSERVATIONS_MAX`.
     fn has_room(&mut self) -> bool {
         self.full |= self.kept >= OBSERVATIONS_MAX;
         self.kept = self.kept.saturating_add(1);
         !self.full
     }
 
-    /// The names of a handle, to which the caller adds a name; `None` if the limit is exceeded.
+    /// The names of a handle, to which the caller adds a name; `None` if the handle is new and the
+    /// limit is exceeded.
     fn named(&mut self, (channel, handle): (Channel, Handle)) -> Option<&mut HandleNames> {
         let key = (channel, handle.0);
         let is_new = !self.handles.contains_key(&key);
@@ -252,7 +255,8 @@ impl Observed {
         let asked = (axis, CncString::from(name));
         let Some(named) = self.named(key) else { return };
         let known = named.of_axis.get_or_insert_with(|| asked.clone());
-        // Writes by a handle that belongs to two axes are not allowed.
+        // Writes by a handle that belongs to two axes, or to two names of the axis interface, are
+        // not allowed.
         if *known != asked {
             named.foreign.get_or_insert(asked.1);
         }
@@ -266,7 +270,8 @@ impl Observed {
         all: &DescriptorsRef<'_>,
     ) {
         let is_of_list = |entry: &Entry, name: &CncString| matches!(entry, Entry::Object { list: of, name: one } if of.list() == list && one == name);
-        // The index is recorded, because some CNCs return descriptors for indices after the last one.
+        // The index is recorded, because a CNC may return descriptors for indices after the last
+        // one.
         for (object, index) in all.iter().zip(first..=u32::MAX) {
             let address = (object.index_group(), object.index_offset());
             let name = CncString::from(object.name());
@@ -310,8 +315,8 @@ fn is_named(allowed: &Allowed, asked: ObjectList) -> bool {
     entries.any(|entry| matches!(entry, Entry::Object { list, .. } if list.list() == asked))
 }
 
-/// Whether the address of a content may belong to an object of the list. The number of a channel that is
-/// addressed by rank is unknown, so every channel number matches.
+/// Whether the address of a content may belong to an object of the list. The number of a channel
+/// that is addressed by rank is unknown, so every channel number matches.
 fn is_of(list: ObjectList, group: IndexGroup) -> bool {
     let (list, Some(Group::Com(content))) = (list.parts(), group.parts()) else { return false };
     let same = list.instance == content.instance;
@@ -336,7 +341,8 @@ impl Entry {
             (Self::Object { list, name }, Request::WriteObject(op)) => {
                 observed.is_object(list.list(), name, (op.index_group(), op.index_offset()))
             }
-            // `is_variable` checks all names of the handle against the whole file, not only this entry.
+            // `is_variable` checks all names of the handle against the whole file, not only this
+            // entry.
             (Self::Variable { .. } | Self::Service(_), Request::WriteByHandle(op)) => {
                 observed.is_variable(op.channel, op.handle)
             }

@@ -11,16 +11,16 @@ use ads_cnc::{CncString, Error};
 
 use super::{Entry, Moment};
 
-/// Maximum number of handles, names and addresses that the gate stores. If replies contain more, the gate
-/// rejects every write by handle, and every write to an object that the file allows by name, also on
-/// later connections.
+/// Maximum number of records of handles, names, addresses and list indices that the gate stores. If
+/// replies contain more, the gate rejects every write by handle, and every write to an object that
+/// the file allows by name, also on later connections.
 pub(super) const OBSERVATIONS_MAX: usize = 65_536;
 
 /// The rejection of a frame.
 #[derive(Clone, Debug)]
 pub struct GateRejection {
     pub reason: Reason,
-    /// The entry that would allow the frame; `None` if no entry would.
+    /// The entry that would allow the frame; `None` if no entry would, or for a write by a handle.
     pub needed: Option<Entry>,
 }
 
@@ -33,25 +33,25 @@ pub enum Reason {
     Malformed(Error),
     /// The state flags are not those of a request.
     NoRequest(StateFlags),
-    /// The port is not that of GEO, SDA or COM.
+    /// ReadDeviceInfo or ReadState is for a port other than those of GEO, SDA and COM.
     NoTask(AmsPort),
-    /// The command has no data, but data follows.
+    /// The command must not have data, but the frame contains data.
     Data(Command),
     /// This program never sends the command.
     Never(Command),
     /// The request is an ADS sum command, which may contain writes.
     Sum(IndexGroup),
-    /// The request accesses a program stream in an undocumented way: the only documented access is a
-    /// write to the stream of a channel at the port of COM.
+    /// The request accesses a program stream in an undocumented way: the only documented access is
+    /// a write to the stream of a channel at the port of COM.
     Stream,
-    /// The request is not for a documented function, so its effect is unknown.
+    /// The request is not a well-formed request of a documented function, so its effect is unknown.
     Unknown(operation::DispatchError),
-    /// The function is documented for another port, or is a write to GEO, which no entry of a file can
-    /// allow.
+    /// The function is documented for another port; for the write of an element, no entry of a file
+    /// can allow the port of GEO.
     Port(AmsPort, Function),
     /// The function is a write, and the user gave no file of `--allow-write`.
     NoFile(Function, AmsNetId),
-    /// The function is a write to a name that is not in the file.
+    /// The function is a write that no entry of the file allows.
     NoEntry(Function),
     /// The file is for another target.
     OtherTarget { allowed: AmsNetId, target: AmsNetId },
@@ -61,14 +61,14 @@ pub enum Reason {
         /// The address of the connection, if known.
         address: Option<IpAddr>,
     },
-    /// The file is for 127.0.0.1.1.1, the local machine, but the connection is to another machine.
+    /// The file is for 127.0.0.1.1.1, the local machine, but the connection is to another machine,
+    /// or its address is unknown.
     LocalNetId(Option<IpAddr>),
     /// The file expires at this time, which has passed or is too near.
     Expired(Moment),
-    /// The name is in the file, but the handle or the address may also belong to another name, which is
-    /// not.
+    /// The name is in the file, but the handle or the address may also belong to another value.
     Ambiguous(Function, Ambiguity),
-    /// The file does not permit malformed requests.
+    /// No file permits malformed requests to this target.
     NoMalformed(AmsNetId),
 }
 
@@ -89,19 +89,19 @@ impl Reason {
     }
 }
 
-/// The reason why a handle or an address may belong to a name that is not in the file.
+/// The reason why a write by a handle or an address may affect a value other than the allowed one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ambiguity {
     /// The device also uses the handle or the address for this name.
     Shared(CncString),
-    /// The device has several handles for this name.
+    /// The device has several handles or addresses for this name.
     Several(CncString),
-    /// Only one of the two required replies, HandleByName and a description, contained the handle for
-    /// this name.
+    /// Only one of the two required replies, HandleByName and a description, contained the handle
+    /// for this name.
     Unconfirmed(CncString),
     /// The object with this name has an address of another channel or axis than that of the list.
     Elsewhere(CncString),
-    /// The device returned more names than can be stored.
+    /// The device returned more names than the gate can store.
     TooMuch,
 }
 
@@ -125,7 +125,7 @@ impl fmt::Display for Ambiguity {
     }
 }
 
-/// The expiry that advice suggests for a new file.
+/// The expiry that advice suggests for a new file: 24 hours from now.
 fn tomorrow() -> Moment {
     Moment::now().after(Duration::from_secs(24 * 3600))
 }
@@ -135,7 +135,7 @@ impl GateRejection {
         Self { reason, needed }
     }
 
-    /// Advice of one or more lines how to allow the frame; empty if no advice is known.
+    /// Advice on how to allow the frame, in one or more lines; empty if no advice is known.
     pub fn advice(&self) -> String {
         match (&self.reason, &self.needed) {
             (Reason::NoFile(_, target), Some(entry)) => format!(

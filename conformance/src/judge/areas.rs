@@ -14,7 +14,8 @@ const AREAS: [(&str, &str); 10] = [
     ("OBJ", "lists of objects"),
 ];
 
-/// The topic of an area of requirements. Any other ID belongs to the suite's own protocol.
+/// The topic of an area of requirements. Any other ID is that of a protocol of the suite: `TESTEE`
+/// or `CLIENT`.
 pub fn about(area: &str) -> &'static str {
     let found = AREAS.iter().find(|(name, _)| *name == area);
     found.map_or("the protocol with the suite", |(_, about)| about)

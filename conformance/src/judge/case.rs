@@ -10,12 +10,12 @@ use crate::text::{Pattern, named};
 /// A case of the suite.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// Its ID, whose meaning never changes.
+    /// The ID of the case, whose meaning never changes.
     pub id: String,
     /// The verified behaviour, as a sentence.
     pub title: String,
     pub subject: CaseSubject,
-    /// The requirements that it can judge.
+    /// The requirements that the case can judge.
     pub requirements: Vec<&'static str>,
     /// What the target must permit or support.
     pub needs: Needs,
@@ -23,7 +23,8 @@ pub struct Case {
 }
 
 impl Case {
-    /// The stream of its vector, or the kind of its NC text.
+    /// The stream of the vector, or the kind of the sequence, with which the case tests a codec;
+    /// `None` for other cases.
     pub fn stream(&self) -> Option<&'static str> {
         match self.body {
             Body::Vector(vector) => Some(&vector.stream),
@@ -32,8 +33,8 @@ impl Case {
         }
     }
 
-    /// Whether a word or pattern is the ID of the case, the ID of its vector, or the name of its
-    /// stream.
+    /// Whether a word is, or a pattern matches, the ID of the case, the ID of its vector or
+    /// sequence, or the name of its stream.
     pub(crate) fn is_called(&self, word: &str) -> bool {
         let vector = self.stream().and_then(|_| Some(self.id.split_once('-')?.1));
         let names = [Some(self.id.as_str()), vector, self.stream()];
@@ -41,13 +42,11 @@ impl Case {
     }
 }
 
-/// Whether a word is this name, or a pattern that matches it because it has a `*` or a `?`.
+/// Whether a word is this name. A word with a `*` or a `?` is a pattern, which must match the whole
+/// name. Case is ignored.
 pub(crate) fn matches(word: &str, name: &str) -> bool {
-    if word.contains(['*', '?']) {
-        Pattern::whole(word).matches(name)
-    } else {
-        word.eq_ignore_ascii_case(name)
-    }
+    let is_pattern = || word.bytes().any(|byte| matches!(byte, b'*' | b'?'));
+    word.eq_ignore_ascii_case(name) || is_pattern() && Pattern::whole(word).matches(name)
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -82,11 +81,11 @@ impl fmt::Display for CaseSubject {
 pub enum Needs {
     /// Well-formed queries.
     Queries,
-    /// Malformed requests, which are sent only to a target that cannot move.
+    /// Malformed requests, which are sent only to the simulated CNC or with `--malformed`.
     Malformed,
-    /// Writes of values that may be written; each is restored.
+    /// Writes of values that the file of `--allow-write` names; the suite restores each value.
     Writes,
-    /// Malformed writes, which are sent only to a target that cannot move.
+    /// Malformed writes, and other writes that are sent only to the simulated CNC.
     MalformedWrites,
     /// A target whose profile claims the manuals' printed examples.
     PrintedExamples,
@@ -101,7 +100,7 @@ pub enum Needs {
 pub enum Body {
     /// By the function of the suite for the case's ID.
     Probe,
-    /// By sending a printed request and comparing the reply with the printed one.
+    /// By sending a printed request and comparing the reply with the printed reply.
     Printed(&'static Vector),
     /// By decoding and encoding a vector.
     Vector(&'static Vector),
@@ -111,6 +110,7 @@ pub enum Body {
     Protocol,
     /// By checking a client's requests and actions.
     Client,
-    /// By checking captured traffic.
+    /// By the rules of [`rules`](crate::rules), for all replies of a run, or for the requests or
+    /// the replies in captured traffic.
     Traffic,
 }

@@ -1,10 +1,10 @@
 //! Attributes failed checks to their cause: the check of the violated clause fails, and a check that fails
 //! only as a consequence becomes inconclusive.
 //!
-//! For example, a wrong size in a description makes every comparison with that size fail. The first failing
-//! function of a chain shows which clause is violated. Therefore, while a check of an earlier function
-//! fails for a variable or object, a failed check of a later function for the same variable or object does
-//! not count against its own clause.
+//! For example, a wrong size in a description makes every comparison with that size fail. The first
+//! failing function of a chain (`chain.rs`) shows which clause is violated. Therefore, while a
+//! check of an earlier function fails for a variable or object, a failed check of a later function
+//! for the same variable or object does not count against its own clause.
 
 use std::collections::HashSet;
 
@@ -16,11 +16,12 @@ use super::chain::{before, can_explain, defines, follows, is_of_functions, origi
 use super::root::{FailedCheck, Root, checks, is_broken, is_deviation, is_of_device, roots};
 use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
 
-/// Clauses whose checks detect one specific error, such as reversed bytes. A violation of another clause
-/// does not cause this error, so a failed check of these clauses always counts as a failure.
+/// Clauses whose checks detect one specific error, such as reversed bytes. A violation of another
+/// clause does not cause this error, so [`cause`] returns `None` for a failed check of these
+/// clauses.
 const SPECIFIC: [ClauseId; 7] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, ADS_7];
 
-/// Clauses that apply to every function: an error of the function itself also makes a check of these
+/// Clauses that apply to many functions: an error of one function also makes a check of these
 /// clauses fail.
 const GENERAL: [ClauseId; 5] = [ADS_1, ADS_3, GEN_5, GEN_6, OBJ_1];
 
@@ -52,8 +53,8 @@ impl<'a> Causes<'a> {
 /// chains use each service.
 const CHAINS_OF_SERVICE: usize = 3;
 
-/// The clause of the service, if functions of `CHAINS_OF_SERVICE` chains fail, all failing functions use
-/// this service, and a check of the clause fails too.
+/// The clause of the service, if functions of at least `CHAINS_OF_SERVICE` chains fail, all failing
+/// functions use this service, and a check of the clause fails too. `None` for the service Write.
 fn service_of(roots: &[Root<'_>], failed_checks: &[FailedCheck<'_>]) -> Option<&'static str> {
     let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
     let service = roots.first()?.function.spec().service;
@@ -148,9 +149,11 @@ fn cause(
     found.map(|root| root.check.clause()).filter(|found| *found != clause)
 }
 
-/// Finds the violated clause if `check` judges several clauses at once: the one for which a check of
-/// a single clause, with the same functions and subject, fails too. `None` if a check of a single
-/// clause fails for the clause of `check` itself. `alone`: the failed checks of a single clause.
+/// Finds the violated clause if `check` judges several clauses at once: another of these clauses,
+/// if a check that judges only this clause fails too, for the same subject, and for the function of
+/// `check`, a function with which `check` compares, or an earlier function. `None` if a check that
+/// judges only the clause of `check` fails, or if that clause is in [`GENERAL`]. `alone` contains
+/// the failed checks that judge only one clause.
 fn single_out(check: FailedCheck<'_>, alone: &[FailedCheck<'_>]) -> Option<&'static str> {
     let clause = check.clause();
     if alone.iter().any(|one| one.clause() == clause) || is_one_of(clause, &GENERAL) {
@@ -198,9 +201,9 @@ fn settle(
     None
 }
 
-/// Makes a failed check inconclusive if it only follows from another failure: of an earlier function,
-/// of a service, of a shared request, or of another clause that the same check judges. A warning or a
-/// difference that follows from a failure keeps its verdict.
+/// Makes a failed check inconclusive if it only follows from another failure: of an earlier
+/// function, of a service, of a shared request, of a simpler comparison, or of another clause that
+/// the same check judges. A warning or a difference that follows from a failure keeps its verdict.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     let failed_checks: Vec<FailedCheck<'_>> = checks(outcomes, is_broken).collect();
     let causes = Causes::of(&failed_checks);
@@ -237,7 +240,8 @@ pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     }
 }
 
-/// Stores the cause in each check that has one, and changes the verdict of the check accordingly.
+/// Stores the cause in each check that has a cause, and changes the verdict of the check to
+/// [`Verdict::as_following`].
 fn follow(
     verdict: &mut RequirementVerdict,
     mut cause: impl FnMut(Verdict) -> Option<&'static str>,
@@ -294,7 +298,7 @@ mod tests {
         };
         let (verdict, judgements) = (Verdict::Fail, vec![judgement]);
         let verdicts = vec![RequirementVerdict { requirement, verdict, judgements }];
-        CaseOutcome { case, verdicts, checks: 1, note: None, refused: false, time: None }
+        CaseOutcome { case, verdicts, checks: 1, note: None, rejected: false, time: None }
     }
 
     /// Each verdict, and the clause that it follows from.
@@ -351,7 +355,8 @@ mod tests {
         assert_eq!(attribute_one(&mut outcomes), [None, Some("VAR-8"), None]);
     }
 
-    /// A warning or a difference can follow from a failure, but no other check follows from it.
+    /// A warning or a difference can follow from a failure, but no other check follows from a
+    /// warning or a difference.
     #[test]
     fn a_warning_follows_from_a_failure_and_causes_none() {
         let sized = ("size", VAR_8, Function::DescribeByIndex, "V.E.a");

@@ -6,8 +6,8 @@ use std::collections::HashSet;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 
-/// The functions whose replies determine the requests of `function`, or the expected values in its
-/// replies.
+/// The functions whose replies directly determine the requests of `function`, or the expected
+/// values in its replies.
 const fn sources(function: Function) -> &'static [Function] {
     use Function::*;
     match function {
@@ -73,8 +73,9 @@ pub(super) fn is_of_functions(clause: &str) -> bool {
     !matches!(area, "GEN" | "ADR" | "ADS" | "OBJ")
 }
 
-/// Whether a failure of the clause `cause` can be the cause of a failure of `clause`: not if both clauses
-/// define the same function, or if `clause` defines an earlier function than `cause`.
+/// Whether a failure of the clause `cause` can be the cause of a failure of `clause`. It cannot if
+/// both clauses define the same function, if `clause` defines an earlier function than `cause`, or
+/// if only `clause` defines a function.
 pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
     // All clauses of streaming are about one function.
     let is_of = |clause: &str, function| {
@@ -82,8 +83,8 @@ pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
             || clause.starts_with("STM") && function == Function::WriteProgramStream
     };
     let homes = |clause| Function::ALL.iter().filter(move |one| is_of(clause, **one));
-    // A clause that defines no function, such as one about addresses, is not the cause if a clause that
-    // defines a function fails.
+    // A clause that defines no function, such as a clause about addresses, is not the cause if a
+    // clause that defines a function fails.
     (homes(cause).next().is_some() || homes(clause).next().is_none())
         && homes(cause).all(|home| !homes(clause).any(|one| one == home || follows(*home, *one)))
 }

@@ -47,7 +47,7 @@ impl<E: Error> From<E> for Stop {
     }
 }
 
-/// Ends a case as not applicable if it had nothing to judge.
+/// Ends a case as not applicable for the reason `why`, unless `any` is true.
 pub(crate) fn applicable(any: bool, why: &str) -> Step {
     if any { Ok(()) } else { Err(Stop::not_applicable(why)) }
 }
@@ -76,8 +76,8 @@ pub(crate) trait IfPresent<T> {
     /// Returns the value, or `None` if the target does not have it.
     fn if_applicable(self) -> Step<Option<T>>;
 
-    /// Returns the value, or `None` if the target does not have it or it could not be read, which
-    /// other cases judge.
+    /// Returns the value, or `None` if the target does not have the value or the value could not be
+    /// read. Other cases judge whether the value can be read.
     fn if_known(self) -> Step<Option<T>>;
 }
 
@@ -101,7 +101,7 @@ impl<T> IfPresent<T> for Step<T> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
     pub id: &'static str,
-    /// The level; `None` if the ID is not in the catalogue.
+    /// The level; `None` if `Rule::of` does not find the ID in the catalogue.
     pub level: Option<Level>,
 }
 
@@ -166,25 +166,28 @@ impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
 #[derive(Clone, Debug)]
 pub struct Judgement {
     pub requirement: &'static str,
-    /// The level at which it was judged, which is lower for an assumed part.
+    /// The level at which the requirement was judged; for an assumed part, lower than the level in
+    /// the catalogue.
     pub level: Option<Level>,
     pub verdict: Verdict,
     /// The expected result; empty for a pass.
     pub expected: String,
     /// The actual result; empty for a pass.
     pub found: String,
-    /// The request and the reply.
+    /// The request and the reply; `None` for a pass.
     pub evidence: Option<Evidence>,
-    /// The number of further checks with the same verdict, which are not stored.
+    /// The number of further checks of the requirement with the same verdict and the same
+    /// `together`, which are not stored.
     pub more: usize,
-    /// The other clauses that the same check judges: its failure does not show which clause is violated.
+    /// The other clauses that the same failed check judges with the same verdict: the failure does
+    /// not show which of these clauses is violated.
     pub together: Vec<&'static str>,
     /// The clause whose failure caused this check to fail, if any.
     pub follows: Option<&'static str>,
 }
 
-/// Maximum number of failed checks that are stored for a requirement in a case; further ones are
-/// counted.
+/// Maximum number of failed checks that a case stores for a requirement and a verdict; further
+/// checks are counted. A check with a new value of `together` is stored in addition.
 const STORED_MAX: usize = 3;
 
 /// Maximum number of characters of the expected and of the actual result.
@@ -199,8 +202,8 @@ pub(crate) struct Record {
 
 /// Records the checks of a case or of captured traffic.
 pub(crate) trait Checks {
-    /// Records a check for each rule and returns `passed`. The texts are formatted only if the check
-    /// failed.
+    /// Records a check for each rule and returns `passed`. `expected` and `found` are formatted
+    /// only if the check failed.
     fn check(
         &mut self,
         rules: impl Rules,
@@ -214,7 +217,8 @@ impl Rule {
     /// The rule of the protocol between the suite and a client, which is not in the catalogue.
     pub(crate) const CLIENT: Self = Self { id: CLIENT, level: Some(Level::Must) };
 
-    /// The rule for an ID that is given as text, by the codec's tables or a vector.
+    /// The rule for an ID that is given as text, by the codec's tables or a vector. The ID of a
+    /// part of a requirement gives a rule with the ID of the requirement and the level of the part.
     pub(crate) fn of(id: &'static str) -> Self {
         let clause = clause(id);
         let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
@@ -251,8 +255,8 @@ impl Record {
         self.add_rules(&rules, passed, &words.unwrap_or_default(), &evidence);
     }
 
-    /// Adds a check. Of passed checks, and of failed checks with the same verdict, only the first
-    /// ones are stored.
+    /// Adds a check. For a requirement, only the first passed check is stored, and the first
+    /// [`STORED_MAX`] checks with each other verdict.
     pub(crate) fn add(
         &mut self,
         rule: Rule,
@@ -266,8 +270,8 @@ impl Record {
         self.add_one(rule, verdict, Vec::new(), &words.unwrap_or_default(), &evidence);
     }
 
-    // The functions above are compiled for each of their hundreds of callers, so they contain only what
-    // depends on the types of the arguments.
+    // The two functions above are compiled once for each combination of argument types, so they
+    // contain only code that depends on these types.
 
     fn add_rules(
         &mut self,
@@ -322,8 +326,8 @@ impl Record {
         });
     }
 
-    /// Records a check with this verdict that did not pass only as a consequence of the failed clause
-    /// `cause`.
+    /// Records a check that did not pass only because the clause `cause` failed. `verdict` is the
+    /// verdict of the check by itself.
     pub(crate) fn add_following(
         &mut self,
         rule: Rule,
@@ -347,7 +351,7 @@ impl Record {
         Self { checks, judgements }
     }
 
-    /// Appends the record of other requirements.
+    /// Appends the checks of another record.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.judgements.append(&mut other.judgements);
         self.checks += other.checks;

@@ -1,5 +1,5 @@
-//! The terms of a judgement: case, check, evidence, outcome, verdict, plan, waiver. These modules
-//! open no file and no socket.
+//! The terms of a judgement: case, check, outcome, verdict, plan, waiver. These modules open no
+//! file and no socket.
 
 mod areas;
 mod case;
@@ -33,7 +33,7 @@ pub(crate) use vectors::{case_of, codec_cases, typed};
 pub use verdict::Verdict;
 pub use waivers::{WaiverError, WaiverReport, WaiverState, Waivers};
 
-/// The note of a case that was not run because enough others had failed.
+/// The note of a case that was not run because `--max-fail` other cases had failed.
 pub const ENOUGH: &str = "enough cases had failed before";
 
 /// The ID of the rules of the testee protocol, which are not in the catalogue.
@@ -45,5 +45,6 @@ pub const CLIENT: &str = "CLIENT";
 /// The start of the note of a case whose streams the testee does not claim.
 pub(crate) const NOT_CLAIMED: &str = "the testee does not claim ";
 
-/// The first check of a testee or client; if it fails, nothing else is judged.
+/// The expected result of the first check of a testee or client. If this check fails, nothing else
+/// is judged.
 pub const HELLO: &str = "an answer to hello";

@@ -12,8 +12,8 @@ pub struct CaseOutcome {
     pub checks: usize,
     /// Why the case was not run, or not completed.
     pub note: Option<String>,
-    /// Whether the gate rejected one of its requests.
-    pub refused: bool,
+    /// Whether the case ended with [`Stop::NotPermitted`], because the gate rejected a request.
+    pub rejected: bool,
     /// The duration of the case, if it was measured.
     pub time: Option<Duration>,
 }
@@ -22,9 +22,11 @@ pub struct CaseOutcome {
 #[derive(Clone, Debug)]
 pub struct RequirementVerdict {
     pub requirement: &'static str,
-    /// The most severe verdict of its checks.
+    /// The most severe verdict of the checks. The reason why the case ended determines the verdict
+    /// if there are no checks, or if all checks passed and the case ended as inconclusive,
+    /// interrupted or with a harness error.
     pub verdict: Verdict,
-    /// The checks that did not pass.
+    /// The stored checks that did not pass.
     pub judgements: Vec<Judgement>,
 }
 
@@ -52,7 +54,7 @@ impl CaseOutcome {
             judgements: Vec::new(),
         });
         let verdicts = verdicts.collect();
-        Self { case, verdicts, checks: 0, note: Some(note.into()), refused: false, time: None }
+        Self { case, verdicts, checks: 0, note: Some(note.into()), rejected: false, time: None }
     }
 
     pub(crate) fn tried(
@@ -82,11 +84,11 @@ impl CaseOutcome {
             let verdict = Verdict::HarnessError;
             verdicts.push(RequirementVerdict { requirement, verdict, judgements: Vec::new() });
         }
-        let refused = matches!(stop, Some(Stop::NotPermitted(_)));
-        Self { case, verdicts, checks, note, refused, time: None }
+        let rejected = matches!(stop, Some(Stop::NotPermitted(_)));
+        Self { case, verdicts, checks, note, rejected, time: None }
     }
 
-    /// The most severe verdict of its requirements.
+    /// The most severe verdict on the requirements of the case; `NotObserved` without requirements.
     pub fn verdict(&self) -> Verdict {
         gravest(self.verdicts.iter().map(|judged| judged.verdict)).unwrap_or(Verdict::NotObserved)
     }
@@ -99,7 +101,8 @@ fn of_requirement(
 ) -> RequirementVerdict {
     let mine = || judgements.iter().filter(|judgement| judgement.requirement == requirement);
     let judged = gravest(mine().map(|judgement| judgement.verdict));
-    // A case that ended early does not pass, even if its first checks passed.
+    // A case that ended as inconclusive, interrupted or with a harness error does not pass, even if
+    // its first checks passed.
     let verdict = match judged {
         Some(Verdict::Pass) if unjudged.gravity() > Verdict::Pass.gravity() => unjudged,
         Some(judged) => judged,
@@ -114,7 +117,8 @@ pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
     verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
 }
 
-/// Calls a function. The error is the message of a panic, which ends only the current case.
+/// Calls a function. If the function panics, returns the message of the panic as the error, so that
+/// the panic ends only the current case.
 pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         let text = payload.downcast_ref::<&str>().copied();

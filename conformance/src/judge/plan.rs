@@ -9,6 +9,7 @@ use super::case::matches;
 use super::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
 use crate::number::to_u32;
+use crate::simulator::program::digest;
 use crate::text::did_you_mean;
 
 /// The selection of cases.
@@ -57,17 +58,18 @@ pub struct Plan {
     pub foreign: Vec<(Case, String)>,
     /// The cases that were not selected.
     left_out: Vec<Case>,
-    /// The selected requirements of cases of which only some requirements are selected.
+    /// By case ID: the selected requirements of each case of which not all requirements are
+    /// selected.
     judged: HashMap<String, Vec<&'static str>>,
 }
 
-/// The number of cases of a subject that were not selected, and their requirements.
+/// A case of which all or some requirements were not selected.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SkippedCase {
     pub id: String,
-    /// The subject of the cases.
+    /// The subject of the case.
     pub subject: CaseSubject,
-    /// The requirements of the cases.
+    /// The requirements of the case that were not selected.
     pub requirements: Vec<&'static str>,
 }
 
@@ -81,11 +83,11 @@ pub fn any_seed() -> u32 {
 }
 
 impl Selection {
-    /// Selects cases and orders them by the seed. Two cases have the same order in every selection;
-    /// cases that judge the frames of the other cases come last.
+    /// Selects cases and orders them by the seed. With the same seed, two cases have the same order
+    /// in every selection. Cases that judge the frames of the other cases come last.
     ///
     /// # Errors
-    /// If no case or requirement matches a word of the selection.
+    /// If a word of the selection matches no case and no requirement of the cases.
     pub fn plan(&self, mut cases: Vec<Case>, seed: u32) -> Result<Plan, Unmatched> {
         let ids: HashSet<&str> =
             cases.iter().flat_map(|case| case.requirements.iter().copied()).collect();
@@ -139,8 +141,8 @@ impl Selection {
             requirement(id).is_none_or(|requirement| has(edition, &requirement.sources))
         };
         match all.iter().copied().filter(has).collect::<Vec<_>>() {
-            // The edition has no selected requirement of the case. All are returned, so that the plan
-            // lists the case with the reason.
+            // The edition has no selected requirement of the case. All selected requirements are
+            // returned, so that `plan` adds the case to `foreign` with the reason.
             none if none.is_empty() => all,
             some => some,
         }
@@ -148,7 +150,8 @@ impl Selection {
 }
 
 impl Plan {
-    /// Adds query cases if only cases about frames are selected, because those need frames to judge.
+    /// Adds all query cases if the only selected cases of the target judge frames, because these
+    /// cases need the frames of other cases. The outcomes of the added cases are not reported.
     fn carry_frames(&mut self) {
         let of_target = |case: &&Case| case.subject == CaseSubject::Target;
         let frames = |case: &Case| case.needs == Needs::Frames;
@@ -164,13 +167,15 @@ impl Plan {
         self.cases.splice(0..0, carriers);
     }
 
+    /// The selected cases, without the cases that only provide frames for the selected cases.
     pub fn selected(&self) -> impl Iterator<Item = &Case> {
         self.cases
             .iter()
             .filter(|case| self.judged.get(&case.id).is_none_or(|judged| !judged.is_empty()))
     }
 
-    /// Limits the outcomes to the selected requirements, and adds the cases that were not run.
+    /// Limits the outcomes to the selected requirements, and adds the cases in `foreign` as not
+    /// run. Also returns the cases of which all or some requirements were not selected.
     pub fn finish(self, outcomes: Vec<CaseOutcome>) -> (Vec<CaseOutcome>, Vec<SkippedCase>) {
         let Self { foreign, left_out, judged, .. } = self;
         let mut left_out: Vec<SkippedCase> = left_out.iter().map(|case| left(case, &[])).collect();
@@ -204,7 +209,8 @@ fn left(case: &Case, judged: &[&str]) -> SkippedCase {
 }
 
 /// Whether a word or pattern names a requirement: by its ID, its area, the ID of one of its parts
-/// (VAR-4.1), or a section that it is in, or a section above that (ads:4.3).
+/// (VAR-4.1), a section that is a source of the requirement (ads:4.3.2), or a section above such a
+/// section (ads:4.3).
 pub(crate) fn names(word: &str, id: &str) -> bool {
     let area = id.split('-').next().unwrap_or(id);
     let is_in =
@@ -224,7 +230,7 @@ fn section(source: &Source) -> String {
     format!("{manual}:{}", source.section)
 }
 
-/// The words that select a section.
+/// The words that select the sections of all requirements; a word may occur several times.
 pub(crate) fn sections() -> Vec<String> {
     requirements().iter().flat_map(|one| &one.sources).map(section).collect()
 }
@@ -257,13 +263,10 @@ fn foreign(case: &Case, edition: Edition) -> Option<String> {
     Some(format!("{edition} {why}"))
 }
 
-/// The sort key of a case: FNV-1a over seed and ID, mixed as in splitmix64. Implemented here
-/// because a seed in a report must mean the same order in every version.
+/// The sort key of a case: FNV-1a over seed and ID, mixed as in splitmix64. The standard library has
+/// no such hash, and a seed in a report must mean the same order in every version.
 pub(crate) fn order(seed: u32, id: &str) -> u64 {
-    let bytes = seed.to_le_bytes().into_iter().chain(id.bytes());
-    let hash = bytes.fold(0xCBF2_9CE4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
-    });
+    let hash = digest(&[&seed.to_le_bytes()[..], id.as_bytes()].concat());
     let hash = (hash ^ (hash >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let hash = (hash ^ (hash >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     hash ^ (hash >> 31)
@@ -290,12 +293,12 @@ mod tests {
         assert_ne!(ids(&one), ids(&two));
         assert_eq!(one.cases.len(), cases().len());
         assert_eq!(ids(&one).last(), Some(&"ads-every-frame"));
-        // The cases of a selection have the same order as in the whole.
+        // The cases of a selection have the same order as in a run of all cases.
         let part = plan(None, &["var"], 1);
         let mut whole = ids(&one);
         whole.retain(|id| ids(&part).contains(id));
         assert_eq!(whole, ids(&part));
-        // Fixed values, because the seed of an old report must give the same order.
+        // The value is fixed, because the seed of an old report must give the same order.
         assert_eq!(order(0, ""), 0xACA6_D6B5_4BE3_ED05);
     }
 
@@ -324,7 +327,7 @@ mod tests {
     fn patterns_select_all_matching_names() {
         let writes = plan(None, &["WRITE-*"], 1);
         assert!(writes.cases.len() > 5);
-        // A name may also be that of a vector, without the prefix of its ID.
+        // The pattern also matches the ID of a vector, to which the ID of the case adds a prefix.
         assert!(writes.cases.iter().all(|case| case.id.contains("write-")));
         let pattern = plan(None, &["var-1?"], 1);
         let all: Vec<String> = (10..20).map(|number| format!("VAR-{number}")).collect();
@@ -341,7 +344,7 @@ mod tests {
         assert!(
             !names("ads:4.3.1", "VAR-8") && !names("ads:4.", "VAR-8") && !names("ads:", "VAR-8")
         );
-        // Section 4.3.1 is not above section 4.3.10, nor one of another manual.
+        // The word for section 4.3.1 does not select section 4.3.10 or a section of another manual.
         let section = |word| requirements().iter().filter(|one| names(word, &one.id)).count();
         assert_eq!([section("ads:4.3.1"), section("ads:4.3.10"), section("stream:3.1")], [3, 1, 6]);
         assert!(plan(None, &["stream:3"], 1).cases.len() > 5);

@@ -17,12 +17,13 @@ pub(super) const fn is_deviation(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Warning | Verdict::Differs)
 }
 
-/// Whether a case judges replies of a device.
+/// Whether a case judges the replies of a target or of a CNC in captured traffic.
 pub(super) fn is_of_device(case: &Case) -> bool {
     matches!(case.subject, CaseSubject::Target | CaseSubject::CapturedCnc)
 }
 
-/// The checks in the cases of a device for whose verdict `wanted` returns true.
+/// The checks in the cases for which [`is_of_device`] returns true, if `wanted` returns true for
+/// the verdict of the check.
 pub(super) fn checks(
     outcomes: &[CaseOutcome],
     wanted: fn(Verdict) -> bool,
@@ -50,14 +51,14 @@ impl<'a> FailedCheck<'a> {
         self.judgement.evidence.as_ref().and_then(|evidence| evidence.function)
     }
 
-    /// The variable or object of the first failure.
+    /// The variable or object of the failure whose evidence is stored.
     fn first_subject(self) -> Option<&'a str> {
         self.judgement.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref())
     }
 
-    /// The variable or object that all failures of the check are about; `None` if they are about
-    /// several or about no particular one. Failures that were counted but not stored may be about
-    /// other ones.
+    /// The variable or object that all failures of the check are about; `None` if the check is not
+    /// about a particular variable or object, or if further failures were counted but not stored,
+    /// because these may be about other variables or objects.
     fn subject(self) -> Option<&'a str> {
         self.first_subject().filter(|_| self.judgement.more == 0)
     }
@@ -67,8 +68,10 @@ impl<'a> FailedCheck<'a> {
         self.judgement.evidence.as_ref().map_or(&[], |evidence| &evidence.compared)
     }
 
-    /// Whether the subject of this check permits that it explains all failures of `other`: both
-    /// checks have the same subject, or one of the checks is not about a particular subject.
+    /// Whether the subject of this check permits that the check explains all failures of `other`:
+    /// both checks have the same subject, or one of the checks is not about a particular subject. A
+    /// check about a particular subject does not explain a check with failures that were not
+    /// stored.
     pub(super) fn is_about_all_of(self, other: Self) -> bool {
         match (self.subject(), other.first_subject()) {
             (Some(_), _) if other.judgement.more > 0 => false,
@@ -90,8 +93,8 @@ impl<'a> FailedCheck<'a> {
     }
 }
 
-/// A failed check of a function, for a clause that defines this function. It is a possible cause of the
-/// failures of later functions.
+/// A failed check of a function, for a clause that defines this function. Such a check is a
+/// possible cause of the failures of later functions.
 #[derive(Clone, Copy)]
 pub(super) struct Root<'a> {
     pub(super) function: Function,

@@ -10,8 +10,8 @@ pub struct VerdictTally {
     failed: bool,
     is_undecided: bool,
     has_harness_error: bool,
-    /// Whether the gate rejected a request.
-    pub refused: bool,
+    /// Whether a case is incomplete, because the gate rejected a request.
+    pub rejected: bool,
     /// Whether a waiver is stale: expired, without a case, or for another verdict.
     pub stale: bool,
     /// Whether a value was changed and could not be restored.
@@ -44,9 +44,9 @@ impl VerdictTally {
 
     /// The exit code with the highest precedence.
     pub const fn exit(self) -> Exit {
-        let Self { judged, failed, is_undecided, has_harness_error, refused, stale, left_changed } =
+        let Self { judged, failed, is_undecided, has_harness_error, rejected, stale, left_changed } =
             self;
-        match (has_harness_error, left_changed, refused, failed, stale) {
+        match (has_harness_error, left_changed, rejected, failed, stale) {
             (true, ..) => Exit::Internal,
             (_, true, ..) => Exit::UnrestoredValue,
             (_, _, true, ..) => Exit::NotPermitted,
@@ -62,7 +62,7 @@ impl VerdictTally {
 mod tests {
     use super::*;
 
-    /// The precedence of the exit codes; a run without judgements is not a success.
+    /// The exit codes have a precedence, and a run without judgements is not a success.
     #[test]
     fn exit_codes_have_a_precedence() {
         use Verdict::*;
@@ -88,12 +88,13 @@ mod tests {
         }
     }
 
-    /// A waived failure is a success; a stale waiver is not, but a failure takes precedence over it.
+    /// A waived failure is a success. A stale waiver is not a success, but a failure takes
+    /// precedence over a stale waiver.
     #[test]
     fn stale_waivers_rank_after_failures() {
         use Verdict::*;
-        let exit = |verdicts: &[(Verdict, bool)], stale, refused| {
-            let mut tally = VerdictTally { stale, refused, ..VerdictTally::default() };
+        let exit = |verdicts: &[(Verdict, bool)], stale, rejected| {
+            let mut tally = VerdictTally { stale, rejected, ..VerdictTally::default() };
             verdicts.iter().for_each(|&(verdict, waived)| tally.add(verdict, waived));
             tally.exit().code()
         };
@@ -105,7 +106,7 @@ mod tests {
         assert_eq!(exit(&[(HarnessError, false)], true, true), 70);
         let left = |verdict| {
             let mut tally =
-                VerdictTally { left_changed: true, refused: true, ..VerdictTally::default() };
+                VerdictTally { left_changed: true, rejected: true, ..VerdictTally::default() };
             tally.add(verdict, false);
             tally.exit().code()
         };

@@ -10,23 +10,24 @@ use serde::{Deserialize, Serialize};
 pub struct UnrestoredValue {
     /// The name of the value.
     pub name: String,
-    /// The original value in hex.
+    /// The original value in hex, with a space between two bytes.
     pub was: String,
-    /// The last value read or written, in hex; `None` if unknown.
+    /// The value after the last access, in the same format; `None` if the value could not be read.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub is: Option<String>,
-    /// Why no write was sent to restore the value.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub refused: Option<String>,
+    /// Why the gate rejected the last write that should restore the value; `None` if the gate did
+    /// not reject it.
+    #[serde(rename = "refused", default, skip_serializing_if = "Option::is_none")]
+    pub rejected: Option<String>,
 }
 
 /// The text in every format of the report.
 impl fmt::Display for UnrestoredValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, was, is, refused } = self;
+        let Self { name, was, is, rejected } = self;
         let is = is.as_deref().unwrap_or("not known");
         write!(f, "LEFT CHANGED: {name}, was {was}, is {is}")?;
-        match refused {
+        match rejected {
             Some(why) => write!(f, " (not restored: {why})"),
             None => Ok(()),
         }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::text::named;
 
-/// The judgement of one requirement in one case.
+/// The judgement of one requirement in one case, or the most severe judgement of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -21,15 +21,15 @@ pub enum Verdict {
     Differs,
     /// The request or input was rejected as required, but the valid one was rejected too.
     Vacuous,
-    /// The replies do not decide the requirement.
+    /// The replies do not decide the requirement, or the failure only follows from another failure.
     Inconclusive,
-    /// The profile does not claim what the requirement is about.
+    /// The product under test does not claim, or does not have, the subject of the requirement.
     NotApplicable,
-    /// No request or reply concerned the requirement.
+    /// No check concerned the requirement.
     NotObserved,
-    /// The case was not selected, or not permitted.
+    /// The case was not run, for example because the gate does not permit its requests.
     NotRun,
-    /// The run was interrupted before the case.
+    /// The run was interrupted before or during the case.
     Interrupted,
     /// An error of the suite itself.
     HarnessError,
@@ -51,7 +51,7 @@ impl Verdict {
         }
     }
 
-    /// The verdict of a check with this verdict that only follows from another failure.
+    /// The verdict that a check with this verdict gets if it only follows from another failure.
     pub const fn as_following(self) -> Self {
         match self {
             Self::Warning | Self::Differs => self,
@@ -59,17 +59,17 @@ impl Verdict {
         }
     }
 
-    /// Whether the verdict is a judgement of the target.
+    /// Whether the verdict is a judgement of the product under test.
     pub const fn is_judged(self) -> bool {
         matches!(self, Self::Pass | Self::Fail | Self::Warning | Self::Differs | Self::Vacuous)
     }
 
-    /// Whether a run with this verdict fails.
+    /// Whether a run with this verdict does not pass, unless the verdict is waived.
     pub const fn fails_run(self) -> bool {
         self.is_failure() || matches!(self, Self::Inconclusive | Self::Interrupted)
     }
 
-    /// Whether it is a failure of what is judged, or of the suite.
+    /// Whether the verdict is a failure of the product under test or of the suite.
     pub const fn is_failure(self) -> bool {
         matches!(self, Self::Fail | Self::Vacuous | Self::HarnessError)
     }
@@ -80,7 +80,7 @@ impl Verdict {
         known || matches!(self, Self::Warning | Self::Differs)
     }
 
-    /// The severity; the verdict of a group is its most severe one.
+    /// The severity: the verdict of a group is the verdict with the greatest severity in the group.
     pub const fn gravity(self) -> u8 {
         match self {
             Self::HarnessError => 10,

@@ -16,8 +16,8 @@
 //! ```
 //!
 //! A waiver is stale if it has expired, if no case has its ID and requirement, or if the verdict
-//! differs. A stale waiver makes the run end with exit code 5. A waiver is not stale if its case exists
-//! but was not run.
+//! differs. A stale waiver makes the run end with exit code 5, unless another exit code takes
+//! precedence. A waiver whose case exists but was not run is stale only if it has expired.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -35,7 +35,8 @@ use crate::text::{Moment, found, toml_error};
 #[derive(Clone, Debug, Default)]
 pub struct Waivers(Vec<Waiver>);
 
-/// An error in the file, with the line number.
+/// An error in the file, with the line number and, after [`in_file`](Self::in_file), the name of
+/// the file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{why}", file.as_deref().map(|file| format!("{file}: ")).unwrap_or_default())]
 pub struct WaiverError {
@@ -55,7 +56,8 @@ pub struct WaiverReport {
     /// The first day on which the waiver is no longer valid.
     pub expires: String,
     pub state: WaiverState,
-    /// The verdict in this run, if the case was run.
+    /// The verdict on the requirement in this run; `None` if the case has no outcome for the
+    /// requirement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub found: Option<Verdict>,
 }
@@ -64,15 +66,15 @@ pub struct WaiverReport {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WaiverState {
-    /// The verdict is the waived one.
+    /// The verdict is the waived verdict.
     Used,
-    /// Its case was not run.
+    /// The case was not run or was interrupted, or the requirement was not selected.
     NotRun,
     /// The waiver has expired. Stale.
     Expired,
     /// No case has this ID and requirement, not even a case that was not run. Stale.
     Unmatched,
-    /// The verdict differs from the waived one. Stale.
+    /// The verdict differs from the waived verdict. Stale.
     Otherwise,
 }
 
@@ -127,8 +129,9 @@ impl Waivers {
     /// Parses the text of a file.
     ///
     /// # Errors
-    /// The line and what is wrong in it: an unknown or missing key, a requirement that does not
-    /// exist, a verdict that cannot be waived, no reason, no date, or a duplicate waiver.
+    /// The line and its fault: an unknown or missing key, an empty ID or reason, a requirement that
+    /// does not exist, a verdict that cannot be waived, a date that is not a day, or a duplicate
+    /// waiver.
     pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
         let failed = |why: String| WaiverError { file: None, why };
         let file: WaiverFile = toml::from_str(text).map_err(|error| failed(toml_error(&error)))?;

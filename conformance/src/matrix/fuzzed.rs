@@ -1,5 +1,5 @@
-//! The fuzz targets that reach a requirement. The crate of the fuzz targets depends on this crate and
-//! checks that these names exist.
+//! The fuzz targets for each stream and sequence. The crate of the fuzz targets depends on this
+//! crate, and a test in that crate verifies that these targets exist.
 
 use std::collections::BTreeSet;
 

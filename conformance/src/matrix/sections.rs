@@ -14,7 +14,8 @@ use crate::judge::about;
 const HEAD: &str = "| section | requirements | functions | types | vectors | cases | fuzz targets |\n\
                     |---|---|---|---|---|---|---|\n";
 
-/// Formats a table of the areas, and one for the sections of each manual.
+/// Formats a table of the areas, a table of the sections of each manual, and a table of the
+/// requirements that no document states.
 ///
 /// Both editions of the manual on ADS access share one table, because their sections have the same
 /// numbers.
@@ -76,12 +77,12 @@ fn titled(document: &Document) -> String {
     format!("{} {}", document.document, document.edition).trim_end().to_owned()
 }
 
-/// The name of a manual without its language.
+/// The name of a document; for the manual on ADS access, without its language.
 fn manual(document: &str) -> &str {
     document.strip_prefix("ads-").map_or(document, |_| "ads")
 }
 
-/// What covers a set of requirements, each entry once.
+/// A set of requirements, and the vectors, cases and fuzz targets that cover them, each once.
 #[derive(Default)]
 struct SectionCoverage<'r> {
     ids: Vec<&'r str>,
@@ -157,8 +158,8 @@ fn is_in(function: &Function, document: &str, section: &str) -> bool {
     }
 }
 
-/// The Rust types of the streams with fields of these requirements; if there are none, the modules of
-/// their areas.
+/// The Rust types of the streams with fields of these requirements; if no stream has such a field,
+/// the modules of the requirements' areas.
 fn types_of(ids: &[&str]) -> String {
     let is_about = |stream: &Stream| {
         let layout = stream.layout();

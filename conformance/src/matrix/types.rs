@@ -1,4 +1,4 @@
-//! The Rust types and modules of a requirement.
+//! The Rust types of each stream, and the modules of each area of requirements.
 
 use ads_cnc::layout::Stream;
 
@@ -60,7 +60,7 @@ mod tests {
         }
     }
 
-    /// Each area of the catalogue is listed once, and its requirements cite its chapters.
+    /// Each area of the catalogue is listed once, and its requirements cite each of its chapters.
     #[test]
     fn areas_are_those_of_the_catalogue() {
         for one in requirements() {

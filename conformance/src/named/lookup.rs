@@ -18,11 +18,13 @@ pub struct Lookup {
     pub channel: Channel,
     /// The axis, for access through the axis interface; only for V.A.
     pub axis: Option<ChannelAxis>,
-    /// The lists of objects to search, if several have the name.
+    /// A pattern of the names of the lists to search; `None` to search all lists of the channel, of
+    /// the platform, its axes and spindles.
     pub lists: Option<Pattern>,
-    /// The index offset of the wanted object, if a list has several objects with the name.
+    /// The index offset that the object must have; `None` for any.
     pub offset: Option<u32>,
-    /// The type to use instead of the type in the CNC's description.
+    /// The type to use instead of the type in the CNC's description. For a dynamic parameter, any
+    /// type other than REAL64 is an error.
     pub ty: Option<DataType>,
 }
 

@@ -9,7 +9,7 @@ pub use lookup::Lookup;
 use crate::objects::ListedValue;
 use crate::session::{Session, ToolError};
 
-/// Finds an object by its name.
+/// Finds a variable, an element, a parameter or an object by its name.
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -35,7 +35,8 @@ use crate::session::{Session, ToolError};
 /// ```
 ///
 /// # Errors
-/// If no object, or more than one object, has this name; the error contains advice.
+/// If no value, or more than one, has this name, or the CNC sends no valid reply; the error
+/// contains advice.
 pub fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)
@@ -44,11 +45,13 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolE
     }
 }
 
-/// Returns the object without sending a request, if its name determines its address, and `None`
-/// otherwise. The type is that of `lookup`.
+/// Returns a variable or a parameter without sending a request, because its name determines its
+/// address; `None` for an object or an element. The type of a variable is that of `lookup`, the
+/// type of a parameter is REAL64.
 ///
 /// # Errors
-/// If the name cannot be encoded.
+/// If the name is not the name of a variable, or cannot be encoded, or the type of `lookup` is not
+/// that of a parameter.
 pub fn by_name_alone(lookup: &Lookup) -> Result<Option<ListedValue>, ToolError> {
     let is_variable = variable::is_named(&lookup.name) || lookup.axis.is_some();
     is_variable.then(|| variable::unasked(lookup)).transpose()

@@ -7,10 +7,10 @@ use crate::objects::{ListedValue, Options, Pattern, walk};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
 
-/// Maximum number of candidates in an error.
+/// Maximum number of objects that an error about an ambiguous name lists.
 const SHOWN: usize = 12;
 
-/// Searches all lists that may contain the name; more than one match is an error.
+/// Searches all lists that `lookup` selects. No match, and more than one match, are errors.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let Lookup { name, channel, lists, offset, ty, .. } = lookup;
     let wanted: CncString = name.parse().map_err(ToolError::Unsendable)?;

@@ -12,7 +12,7 @@ use crate::objects::{ListedValue, ReportedAccess, ValueAddress, ValueList};
 use crate::session::{Session, ToolError};
 use crate::values::Type;
 
-/// The kinds of variables that have lists.
+/// The kinds that the list of a found variable can name; any other kind is named `V`.
 const KINDS: [&str; 4] = ["V.E", "V.G", "V.A", "V.CYC"];
 
 /// Whether the name is that of a variable or a parameter.
@@ -40,7 +40,7 @@ fn reason(name: &str, error: &ads_cnc::Error) -> String {
         ads_cnc::ErrorKind::Truncated => "incomplete",
         _ => error_text.rsplit(": ").next().unwrap_or_default(),
     };
-    // Each character of CP1252 is one byte.
+    // Each character is one byte in CP1252, so the offset of the error counts characters.
     let offset = to_usize(error.offset());
     let front: String = name.chars().take(offset).collect();
     if front.is_empty() {
@@ -56,7 +56,12 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let text: CncString = name.parse().map_err(ToolError::Unsendable)?;
     let hint = |ty: &Option<DataType>| ty.map_or(Type::UNKNOWN, Type::hinted);
     match (kind_of_parameter(name), axis) {
-        (Some(kind), None) => Ok(ListedValue::of_parameter(*channel, kind, text)),
+        (Some(kind), None) => match ty {
+            Some(other) if *other != DataType::Real64 => Err(ToolError::Usage(format!(
+                "{name} is a parameter, which is always a REAL64, not a {other}; omit --type"
+            ))),
+            _ => Ok(ListedValue::of_parameter(*channel, kind, text)),
+        },
         _ => {
             let path = VariablePath::new(name).map_err(|error| {
                 let indices = name.replace(',', "][");
@@ -97,8 +102,9 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<ListedValue, ToolError> {
     }
 }
 
-/// The variable with its type, from the description by name, or from the descriptions by index if
-/// the CNC does not have that function.
+/// The variable with its type, from the description by name, or from the descriptions by index for
+/// an axis or if the CNC returns no description by name. The type is unknown if no description is
+/// found.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let object = unasked(lookup)?;
     if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {
@@ -136,8 +142,8 @@ struct DescribedVariable {
     handle: Option<Handle>,
 }
 
-/// Reads the description by name; `None` if the CNC does not have the function (0x4C is documented
-/// online only).
+/// Reads the description by name; `None` if the CNC returns an error or an invalid reply: a CNC
+/// need not have this function, which is documented online only.
 fn described(
     session: &mut Session,
     channel: Channel,
@@ -156,9 +162,9 @@ fn described(
     }
 }
 
-/// Searches the descriptions by index of the variable's kind; `None` for a kind without indices.
-/// The axis interface has the same variables as the channel interface, without the axis in their
-/// names (assumed).
+/// Searches the descriptions by index of the variable's kind; `None` for a kind without indices,
+/// and if no description has the name. The axis interface has the same variables as the channel
+/// interface, without the axis in their names (assumed).
 fn listed(
     session: &mut Session,
     channel: Channel,
@@ -181,7 +187,8 @@ fn listed(
                 return Ok(Some(DescribedVariable {
                     ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
                     access: ReportedAccess::of_variable(variable.access),
-                    // The search ignores the axis in the name, so the handle may belong to another axis.
+                    // For an axis, the search ignores the axis in the name, so the handle may belong
+                    // to another axis.
                     handle: Some(variable.handle).filter(|_| !of_axis),
                 }));
             }

@@ -1,4 +1,4 @@
-//! Lists of objects, elements and variables.
+//! Lists of objects, elements, variables and parameters.
 
 use std::fmt;
 
@@ -6,7 +6,8 @@ use ads_cnc::address::{Class, ComTable};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::ObjectList;
 
-/// A list of objects, elements or variables; displayed by its name in the tools.
+/// A list of objects, elements, variables or parameters. `Display` formats the list's name in the
+/// tools.
 ///
 /// ```
 /// use ads_cnc::address::Class;
@@ -17,28 +18,30 @@ use ads_cnc::operation::ObjectList;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ValueList {
-    /// COM: the platform.
+    /// The objects of the platform (COM task).
     Platform,
-    /// COM: a channel.
+    /// The objects of the channel with this number (COM task).
     Channel(u8),
-    /// COM: a platform axis.
+    /// The objects of the platform axis with this index (COM task).
     Axis(u8),
-    /// An instance of a class of SDA and GEO.
+    /// The elements of an instance of a class of SDA and GEO.
     Class {
         class: Class,
         /// The channel number, or the index of a spindle; `None` for the platform.
         channel: Option<u8>,
-        /// The index of the axis on the platform or in the channel; `None` for the channel itself.
+        /// The index of the axis on the platform or in the channel; `None` for the channel itself,
+        /// and for a spindle.
         axis: Option<u8>,
     },
     /// Variables of a kind such as `V.E`.
     Variables {
         kind: &'static str,
         channel: u8,
-        /// The index of the axis in the channel, on the axis interface.
+        /// The index of the axis in the channel, for the axis interface; `None` for the channel
+        /// interface.
         axis: Option<u16>,
     },
-    /// Dynamic parameters.
+    /// Dynamic parameters of a kind.
     Parameters { kind: DynamicKind, channel: u8 },
 }
 
@@ -55,8 +58,8 @@ impl ValueList {
         }
     }
 
-    /// The list of the elements of an instance; `channel` and `axis` are those of the request for the
-    /// instance.
+    /// The list of the elements of an instance; `channel` and `axis` are those of the request for
+    /// the instance.
     pub(crate) fn of_instance(class: Class, channel: u32, axis: u32) -> Self {
         let is_of_channel = class == Class::Spindle || channel > 0;
         let channel = u8::try_from(channel).ok().filter(|_| is_of_channel);

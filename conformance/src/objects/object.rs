@@ -21,7 +21,7 @@ pub struct ListedValue {
     /// The unit, if any.
     pub unit: Option<CncString>,
     pub access: ReportedAccess,
-    /// The handle, for a variable.
+    /// The handle of a variable, if known; `None` for any other value.
     pub handle: Option<Handle>,
 }
 
@@ -55,8 +55,9 @@ impl ListedValue {
         }
     }
 
-    /// A dynamic parameter, which is a single number. Parameters have no function that writes them,
-    /// but on some CNCs V.L, V.P and V.S are also variables (VAR-18).
+    /// A dynamic parameter, which is a single number. No function writes a parameter, so a P
+    /// parameter is read-only. On some CNCs, V.L, V.P and V.S are also variables, so their access
+    /// is unknown (VAR-18, VAR-19).
     pub(crate) fn of_parameter(channel: Channel, kind: DynamicKind, name: CncString) -> Self {
         Self {
             list: ValueList::Parameters { kind, channel: channel.number() },
@@ -78,7 +79,7 @@ impl ListedValue {
         self.ty.size.unwrap_or(0)
     }
 
-    /// Whether the CNC describes it as writable.
+    /// Whether the CNC describes the value as writable.
     pub fn is_writable(&self) -> bool {
         self.access == ReportedAccess::ReadWrite
     }
@@ -87,8 +88,9 @@ impl ListedValue {
         self.ty.name == "STRING"
     }
 
-    /// Whether the object belongs to the axis with this index. The manuals contradict each other about
-    /// the stride between the index offsets of two axes, so both strides are tried (ADR-8, E-01).
+    /// Whether the index offset of the content may belong to the axis with this index. The manuals
+    /// contradict each other about the stride between the index offsets of two axes, so both
+    /// strides are tried (ADR-8, E-01).
     pub(crate) fn is_of_axis(&self, index: u32) -> bool {
         let Some((_, offset)) = self.address.content() else { return false };
         let strides = [AxisStride::X1000, AxisStride::X10000];
@@ -96,7 +98,7 @@ impl ListedValue {
         split.any(|(axis, element)| axis == index && element > 0)
     }
 
-    /// The entry for exactly this object in a file of `--allow-write`.
+    /// The entry in a file of `--allow-write` that allows writes to this value.
     pub fn entry(&self) -> Entry {
         let of_variable = |channel: Channel, axis| {
             let name = self.name.clone();
@@ -116,7 +118,7 @@ impl ListedValue {
     }
 }
 
-/// The access to a value, as stated in its description or write flag.
+/// The access to a value, as stated in its descriptor, description or write flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportedAccess {
     /// The value may be read.
@@ -130,12 +132,12 @@ pub enum ReportedAccess {
 }
 
 impl ReportedAccess {
-    /// The access for a write flag.
+    /// The access that a write flag states.
     pub const fn of_flag(writable: bool) -> Self {
         if writable { Self::ReadWrite } else { Self::Read }
     }
 
-    /// The access in a description.
+    /// The access that a variable's description states.
     pub const fn of_variable(access: VariableAccess) -> Self {
         match access {
             VariableAccess::READ_ONLY => Self::Read,

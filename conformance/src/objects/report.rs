@@ -20,7 +20,7 @@ pub struct ObjectsReport {
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub simulated: bool,
     pub objects: Vec<ObjectReport>,
-    /// Notes about objects that could not be read.
+    /// Notes, for example about objects that could not be read.
     pub notes: Vec<String>,
 }
 
@@ -44,23 +44,24 @@ pub struct ObjectReport {
     /// Size of the value in bytes.
     pub size: Option<u32>,
     pub unit: Option<String>,
-    /// `R`, `RW`, or another code.
+    /// `R`, `RW`, or the code in the description of a variable if no manual documents the code;
+    /// `None` if unknown.
     pub access: Option<String>,
-    /// AMS port of the task that serves the content.
+    /// AMS port of the task that serves the content; `None` for a variable or a parameter.
     pub port: Option<u16>,
-    /// Index group of the content.
+    /// Index group of the content; `None` for a variable or a parameter.
     pub group: Option<u32>,
-    /// Index offset of the content.
+    /// Index offset of the content; `None` for a variable or a parameter.
     pub offset: Option<u32>,
     /// Handle of a variable.
     pub handle: Option<u32>,
-    /// The bytes of the value, if they were read.
+    /// The bytes of the value in hex, if they were read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hex: Option<String>,
-    /// The value, if its type is known.
+    /// The value, if it was read and its bytes match its type.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
-    /// Why the value was not read.
+    /// The reason why the value could not be read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
 }
@@ -89,7 +90,8 @@ impl From<&ListedValue> for ObjectReport {
 }
 
 impl ObjectReport {
-    /// The entry of an object with its value, or the reason why it could not be read.
+    /// Creates the entry of an object with the bytes of its value, or with the reason why the value
+    /// could not be read.
     pub fn read(object: &ListedValue, content: &Result<Vec<u8>, String>) -> Self {
         let report = Self::from(object);
         match content {

@@ -6,7 +6,7 @@ use super::ListedValue;
 use crate::text::shorten;
 use crate::values::printable;
 
-/// A column: its heading, and the cell for an object.
+/// A column: its heading, and a function that returns the cell for an object.
 #[derive(Clone, Copy, Debug)]
 pub struct Column {
     /// The heading of the column.
@@ -22,7 +22,7 @@ pub const fn columns(variables: bool) -> &'static [Column] {
 const LIST: Column = Column { head: "list", cell: |object| object.list.to_string() };
 const NAME: Column = Column { head: "name", cell: |object| printable(&object.name.to_string()) };
 const TYPE: Column = Column { head: "type", cell: |object| object.ty.to_string() };
-/// The heading of the values.
+/// The heading of the column of values.
 pub const VALUE: &str = "value";
 const SIZE: Column = Column {
     head: "size",
@@ -68,10 +68,11 @@ const VARIABLE: &[Column] = &[
     },
 ];
 
-/// Maximum width of a column; a longer cell shifts only the rest of its own row.
+/// Maximum width of a column in characters if the output is not a terminal; a longer cell shifts
+/// only the rest of its row.
 const WIDTH_MAX: usize = 40;
 
-/// Minimum width of the values.
+/// Minimum width in characters to which the column of values is narrowed.
 const WIDTH_MIN: usize = 8;
 
 /// A column that the table shows: its index in the row, its heading and its width in characters.
@@ -94,9 +95,10 @@ fn total(columns: &[Shown<'_>], width: impl Fn(&Shown<'_>) -> usize) -> usize {
     columns.iter().map(width).fold(gaps, usize::saturating_add)
 }
 
-/// Writes rows with headings, each column as wide as its longest cell, up to `WIDTH_MAX`. On a
-/// terminal of this width, values are truncated so that a row fits on a line. If that is not enough, the
-/// last columns are omitted, except names and values. Returns the headings of the omitted columns.
+/// Writes rows with headings. Each column is as wide as its longest cell or, without a terminal, at
+/// most as wide as `WIDTH_MAX` and its heading. On a terminal of this width, values are truncated
+/// so that a row fits on a line. If that is not enough, the last columns are omitted, except names
+/// and values. Returns the headings of the omitted columns.
 pub fn table<'h>(
     heads: &[&'h str],
     rows: impl Iterator<Item = Vec<String>> + Clone,
@@ -139,7 +141,7 @@ pub fn table<'h>(
     Ok(omitted)
 }
 
-/// Writes rows as comma-separated values with CR LF, as in RFC 4180. A cell that a spreadsheet would
+/// Writes rows as comma-separated values with CR LF, as in RFC 4180. A cell that a spreadsheet may
 /// treat as a formula gets a leading apostrophe.
 pub fn csv(
     heads: &[&str],
@@ -163,8 +165,8 @@ fn quoted(cell: &str) -> String {
     }
 }
 
-/// Whether a spreadsheet may treat a cell as a formula. Numbers, lists of numbers and a single sign
-/// are not formulas.
+/// Whether a spreadsheet may treat a cell as a formula. Numbers, lists of numbers and a single
+/// character are not formulas.
 fn is_formula(cell: &str) -> bool {
     let begins = cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
     let is_number = |part: &str| part.parse::<f64>().is_ok();

@@ -17,16 +17,16 @@ use ads_cnc::{CncString, Error, ErrorKind, Handle};
 
 use crate::session::{Session, ToolError};
 
-/// The address of a value. A variable has several addresses.
+/// The address of a value. A variable has several addresses: its handle and its name, for example.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ValueAddress {
     /// A variable, addressed by its handle; if there are indices, the element with these indices.
     Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
     /// A variable, addressed by its name; the name of an element ends with its indices.
     Name { channel: Channel, name: CncString },
-    /// A variable of an axis, on the axis interface.
+    /// A variable of an axis, addressed by its name on the axis interface.
     Axis { channel: Channel, axis: ChannelAxis, name: CncString },
-    /// A dynamic parameter.
+    /// A dynamic parameter, addressed by its name.
     Parameter { channel: Channel, kind: DynamicKind, name: CncString },
     /// The content of a COM object.
     Object { group: IndexGroup, offset: IndexOffset, size: u32 },
@@ -40,7 +40,7 @@ impl ValueAddress {
         Self::Handle { channel, handle, indices: Vec::new() }
     }
 
-    /// The address of the content of an element of SDA.
+    /// The address of the content of an element at the task SDA.
     pub const fn of_element(element: ElementAddress, length: u32) -> Self {
         Self::Element { element, length, task: Task::Sda }
     }
@@ -79,7 +79,7 @@ impl ValueAddress {
             Self::Handle { channel, handle, indices } => {
                 WriteByHandle::new(*channel, *handle, indices, value).into()
             }
-            // No function writes a parameter.
+            // No function writes a parameter, but V.L, V.P and V.S may also be variables.
             Self::Name { channel, name } | Self::Parameter { channel, name, .. } => {
                 WriteByName { channel: *channel, name: name.as_cnc_str(), value: value.into() }
                     .into()
@@ -133,7 +133,8 @@ impl Session {
     /// Reads the bytes of a value.
     ///
     /// # Errors
-    /// Those of [`request`](Self::request), and [`ToolError`] if the reply does not decode to a
+    /// [`ToolError::Unable`] or [`ToolError::Unsendable`] if no request can read the address, those
+    /// of [`request`](Self::request), and [`ToolError::Reply`] if the reply does not decode to a
     /// value.
     pub fn read(&mut self, address: &ValueAddress) -> Result<Vec<u8>, ToolError> {
         let read = address.read().map_err(|error| address.no_request(error))?;
@@ -145,7 +146,9 @@ impl Session {
     /// Writes the bytes of a value.
     ///
     /// # Errors
-    /// If the gate rejects the write, and those of [`request`](Self::request).
+    /// [`ToolError::Unable`] or [`ToolError::Unsendable`] if no request can write the address,
+    /// those of [`request`](Self::request), and [`ToolError::Reply`] if the reply cannot be
+    /// decoded.
     pub fn write(&mut self, address: &ValueAddress, value: &[u8]) -> Result<(), ToolError> {
         let write = address.write(value).map_err(|error| address.no_request(error))?;
         let data = self.request(address.task(), write)?;
@@ -155,7 +158,7 @@ impl Session {
     /// Checks whether the gate allows a write of the value. Nothing is sent.
     ///
     /// # Errors
-    /// If the gate does not allow it.
+    /// If the gate rejects the write, or no request can write the address.
     pub fn check_write(&self, address: &ValueAddress) -> Result<(), ToolError> {
         let write = address.write(&[]).map_err(|error| address.no_request(error))?;
         self.check(address.task(), write)

@@ -1,4 +1,5 @@
-//! Catches signals that would end this process (on Windows, console events), so that it can clean up.
+//! Catches signals that would end this process (on Windows, console events), so that the process
+//! can clean up.
 
 use std::io;
 use std::process;
@@ -25,7 +26,8 @@ pub(crate) fn is_requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
 }
 
-/// Numbers of further signals that end a process on Linux: SIGSTKFLT, SIGPWR and the real-time signals.
+/// Numbers of further signals that end a process on Linux (x86, Arm): SIGSTKFLT, SIGPWR and the
+/// real-time signals; empty on other systems.
 #[cfg(unix)]
 fn numbered() -> impl Iterator<Item = i32> {
     let is_linux = cfg!(all(
@@ -40,7 +42,8 @@ fn numbered() -> impl Iterator<Item = i32> {
     [16, 30].into_iter().chain(34..=64).filter(move |_| is_linux)
 }
 
-/// Registers a handler for all catchable signals that end a process.
+/// Registers a handler for the signals that end a process, except SIGPIPE and the signals of faults
+/// in the program, such as SIGSEGV.
 #[cfg(unix)]
 fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::signal::{
@@ -68,8 +71,9 @@ fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     ctrlc::set_handler(handler).map_err(io::Error::other)
 }
 
-/// The caught signals. After the first signal, the tool cleans up and ends by itself. A second signal
-/// ends the process at once, with all commands that the process has started.
+/// The caught signals. After the first signal, the tool cleans up and ends by itself. A second
+/// signal that does not count as [`REPEATED`] ends the process at once, with all commands that the
+/// process has started.
 #[derive(Debug)]
 pub(crate) struct Interrupt(Receiver<()>);
 
@@ -91,8 +95,8 @@ impl Interrupt {
         let handler = move || {
             let begun: &Instant = begun.get_or_init(Instant::now);
             if REQUESTED.swap(true, Ordering::SeqCst) {
-                // The command `timeout` sends the signal to the process, and then again to its whole
-                // group.
+                // The command `timeout` sends the signal to the process, and then again to its
+                // whole group.
                 if begun.elapsed() < REPEATED {
                     return;
                 }
@@ -100,7 +104,7 @@ impl Interrupt {
                 super::end_all();
                 process::exit(code);
             }
-            // Fails if nothing waits for the channel: some waits poll `is_requested` instead.
+            // Fails if the `Interrupt` was dropped; `is_requested` still returns true.
             let _waiting = sender.send(());
             on_first();
         };
@@ -121,7 +125,8 @@ impl Interrupt {
 
     /// Waits for this time or until a signal; returns whether a signal has been received.
     pub(crate) fn sleep(&self, time: Duration) -> bool {
-        // The flag is checked too, because another wait may have received the message of the signal.
+        // The flag is checked too, because another wait may have received the message of the
+        // signal.
         self.is_requested() || self.0.recv_timeout(time).is_ok()
     }
 }

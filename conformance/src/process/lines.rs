@@ -12,11 +12,12 @@ use super::{RunningCommand, interrupt};
 use crate::mutex::lock;
 use crate::text::{escape_lines, json_error, plural};
 
-/// Maximum length of a line in bytes. The longest valid answer has a few thousand bytes.
+/// Maximum length of a line in bytes. The longest answer that a golden vector requires has about
+/// 17,000 bytes.
 pub const LINE_MAX: usize = 1 << 18;
 
 /// Maximum number of commas, `[` and `{` in a line. Each of these characters may begin a JSON value,
-/// which occupies up to 7 kB of memory when parsed.
+/// which occupies much more memory than its text when it is parsed.
 const VALUES_MAX: usize = 1 << 13;
 
 /// Maximum number of bytes of stderr that are stored; only the last bytes are stored.
@@ -59,7 +60,8 @@ pub enum RecvError {
     NoText(String),
 }
 
-/// A running command. Dropping it ends the command and all processes that the command started.
+/// A running command that exchanges lines. Dropping it ends the command and the processes that the
+/// command started, see [`RunningCommand`].
 #[derive(Debug)]
 pub struct LineProcess {
     child: RunningCommand,
@@ -110,6 +112,9 @@ impl LineProcess {
     }
 
     /// Waits for a line.
+    ///
+    /// # Errors
+    /// The reason why no line of text was received.
     pub fn recv(&self, timeout: Duration) -> Result<String, RecvError> {
         let begun = Instant::now();
         loop {
@@ -133,7 +138,7 @@ impl LineProcess {
     }
 
     /// Closes stdin and waits for the command to end; kills the command and returns `None` if it
-    /// does not end in time.
+    /// does not end in time, or a signal interrupts the wait.
     pub fn ended(self, limit: Duration) -> Option<ExitStatus> {
         self.finish(limit).0
     }
@@ -197,7 +202,8 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
     }
 }
 
-/// Reads the next line without its line end; returns `None` at the end of the stream.
+/// Reads the next line without its line end; returns `None` at the end of the stream or after an
+/// error of the system.
 ///
 /// ```
 /// use ads_cnc_conformance::process::read_line;

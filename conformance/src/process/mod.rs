@@ -1,5 +1,5 @@
-//! Runs the user's commands in their own process group, and ends them with all processes that they
-//! started.
+//! Runs the user's commands, each in its own process group, and ends them together with the
+//! processes that they started.
 
 pub(crate) mod interrupt;
 mod lines;
@@ -23,7 +23,7 @@ pub(crate) use lines::not_json;
 pub use lines::{LINE_MAX, LineProcess, RecvError, Stderr, cut, read_line, text};
 pub use subprocess::{GRACE, Reaction, Subprocess};
 
-/// Minimum time limit for the first line of a command: some languages start slowly.
+/// Minimum time limit for the first line of a testee or client: some languages start slowly.
 pub const START: Duration = Duration::from_secs(20);
 
 /// The command that runs a command line in a shell: `sh`, or `cmd` on Windows.
@@ -32,8 +32,8 @@ pub fn shell(line: &str) -> Command {
     {
         use std::os::windows::process::CommandExt as _;
 
-        // cmd does not understand the escapes that `arg` writes. With /S, cmd only removes the outer
-        // quotes.
+        // cmd does not understand the escapes that `arg` writes. With /S, cmd only removes the
+        // outer quotes.
         let mut command = Command::new("cmd");
         command.raw_arg(format!("/S /C \"{line}\""));
         command
@@ -55,8 +55,8 @@ static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 /// command has already ended: on Unix its process group (a process that created its own group or
 /// session continues), on Windows its job.
 ///
-/// Because the command has its own process group, Ctrl-C in a terminal reaches only this tool, which
-/// then ends the command.
+/// Because the command has its own process group, Ctrl-C in a terminal reaches only this tool,
+/// which then ends the command.
 #[derive(Debug)]
 pub struct RunningCommand(Arc<SharedChild>);
 
@@ -108,7 +108,8 @@ impl Drop for RunningCommand {
     }
 }
 
-/// Ends all running commands, and prevents the start of others by never releasing the lock.
+/// Ends all running commands, and prevents the start of further commands by never releasing the
+/// lock of `RUNNING`.
 pub(crate) fn end_all() {
     let running = lock(&RUNNING);
     for child in running.iter().filter_map(Weak::upgrade) {

@@ -1,4 +1,4 @@
-//! Counts the steps of a long run, for the progress line in the terminal.
+//! Counts the steps of a long run, for the progress on stderr.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -7,7 +7,7 @@ static DONE: AtomicUsize = AtomicUsize::new(0);
 static FAILED: AtomicUsize = AtomicUsize::new(0);
 static REQUESTS: AtomicUsize = AtomicUsize::new(0);
 
-/// The counts at one moment: all steps, finished steps, failures and requests.
+/// The counts of the current part of a run: all steps, finished steps, failed steps and requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Counts {
     pub(crate) all: usize,
@@ -16,7 +16,7 @@ pub(crate) struct Counts {
     pub(crate) requests: usize,
 }
 
-/// Begins a part of the run that has `all` steps.
+/// Begins a part of the run that has `all` steps, and sets all other counts to 0.
 pub(crate) fn begin(all: usize) {
     ALL.store(all, Ordering::Relaxed);
     for count in [&DONE, &FAILED, &REQUESTS] {
@@ -24,13 +24,13 @@ pub(crate) fn begin(all: usize) {
     }
 }
 
-/// Counts a step.
+/// Counts a finished step, which may have failed.
 pub(crate) fn step(failed: bool) {
     DONE.fetch_add(1, Ordering::Relaxed);
     FAILED.fetch_add(usize::from(failed), Ordering::Relaxed);
 }
 
-/// Counts steps.
+/// Counts finished steps.
 pub(crate) fn steps(number: usize) {
     DONE.fetch_add(number, Ordering::Relaxed);
 }

@@ -41,7 +41,8 @@ impl Subprocess {
         Self { line, timeout, stderr, deadline: None, running: None }
     }
 
-    /// Sets a deadline after which no more lines are sent.
+    /// Sets a deadline, which also limits each wait for an answer. After the deadline, the caller
+    /// must send no more lines, see [`over`](Self::over).
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
@@ -60,7 +61,7 @@ impl Subprocess {
     /// Starts or restarts the program with these environment variables.
     ///
     /// # Errors
-    /// [`Reaction::Broken`], if the program cannot be started.
+    /// [`Reaction::Broken`], if the program cannot be started, or a signal was received.
     pub fn start<A>(
         &mut self,
         variables: impl IntoIterator<Item = (&'static str, String)>,
@@ -84,8 +85,8 @@ impl Subprocess {
         }
     }
 
-    /// Receives the line of an answer. If no line arrives in time, or the line is too long, the program is
-    /// killed. After a line that is not text, it continues to run.
+    /// Receives the line of an answer. After a line that is not UTF-8 or has too many values, the
+    /// program continues to run; after any other error, it is killed.
     ///
     /// # Errors
     /// The reaction of the program, if it is not a line of text.
@@ -119,14 +120,14 @@ impl Subprocess {
         }
     }
 
-    /// Closes the program's stdin and waits for its end. Returns the exit status if the program ended in
-    /// time, and the first line that the program sent before.
+    /// Closes the program's stdin and waits for its end. Returns the exit status if the program
+    /// ended in time, and the first line that the program sent before.
     pub fn finish(&mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.running.take().map_or((None, None), |running| running.finish(limit))
     }
 
-    /// Sends the line that tells a running program to end. Returns whether it ended with exit code 0, and
-    /// the first line that it sent before.
+    /// Sends the line that tells a running program to end. Returns whether it ended with exit code
+    /// 0, and the first line that it sent before.
     pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
         if self.running.is_none() {
             return (Ok(()), None);

@@ -22,7 +22,7 @@ use crate::text::{did_you_mean, toml_error, utf8};
 /// A profile with a comment on each key. Its values are the defaults for a device.
 pub const EXAMPLE: &str = include_str!("device.toml");
 
-/// An error in the file of `--profile`.
+/// An error while reading or parsing the file of `--profile`.
 #[derive(Clone, Debug)]
 pub struct ProfileFileError {
     file: Option<PathBuf>,
@@ -65,7 +65,7 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// An unknown key or an invalid value, with its line.
+    /// Invalid TOML, an unknown key, or an invalid value, each with its line.
     pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
         let file: ProfileFile = toml::from_str(text)
             .map_err(|error| ProfileFileError { file: None, why: toml_error(&error) })?;
@@ -84,7 +84,8 @@ impl Profile {
 }
 
 impl Profile {
-    /// Returns [`EXAMPLE`], with the ports, channels, axes and spindles that this profile claims.
+    /// Returns [`EXAMPLE`] with the ports, channels, absent channel, number of axes, number of
+    /// spindles and empty axis indices of this profile.
     pub fn filled(&self) -> String {
         let places: Vec<[u32; 2]> =
             self.empty_places.iter().map(|&(channel, place)| [channel, place]).collect();
@@ -181,8 +182,8 @@ where
     check(T::deserialize(value)?).map(Some).map_err(D::Error::custom)
 }
 
-/// Like [`checked`], for a list that must not be empty. `shape` is the error for a value of another
-/// type.
+/// Like [`checked`], for a list with at least one item and without duplicates. `shape` is the error
+/// for a value of another type.
 fn checked_list<'de, D, T>(
     value: D,
     noun: &str,
@@ -255,7 +256,7 @@ fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>
         each(places, "place", |&(channel, place)| {
             is_channel(channel)?;
             let invalid =
-                |_| format!("{place} is not an axis place; axis places are counted from 1");
+                |_| format!("{place} is not an axis index; axis indices are counted from 1");
             ChannelAxis::new(place).map(drop).map_err(invalid)
         })
     })
@@ -334,7 +335,7 @@ fn each<T: PartialEq + fmt::Debug>(
 mod tests {
     use super::*;
 
-    /// The example has the default values.
+    /// [`EXAMPLE`] has the values of [`Profile::DEVICE`].
     #[test]
     fn the_example_is_the_device() {
         let profile = Profile::from_toml(EXAMPLE).unwrap();

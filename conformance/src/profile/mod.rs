@@ -1,5 +1,5 @@
 //! The profile of a target, which lists the claims of the target. A claimed feature must work; a
-//! feature that is not claimed is not tested (not applicable).
+//! feature that is not claimed is not tested (not applicable); [`Claim::Open`] is between both.
 
 mod file;
 
@@ -36,21 +36,24 @@ pub struct Profile {
     pub platform_axes: u32,
     /// Number of spindles; `None` if unknown.
     pub spindles: Option<u32>,
-    /// Axis places without an axis: channel and place.
+    /// The axis indices of a channel that have no axis: channel number and axis index, both from 1.
     pub empty_places: Cow<'static, [(u32, u32)]>,
     /// The kinds of variables that can be listed.
     pub kinds: Cow<'static, [Cow<'static, str>]>,
     /// Variables of the first channel that are accessible by name only.
     pub by_name_only: Cow<'static, [Cow<'static, str>]>,
-    /// Names of objects, elements and variables that are never written, even if a file allows it.
+    /// Names of objects, elements and variables that are never written, even if the file of
+    /// `--allow-write` allows it.
     pub unwritten: Cow<'static, [Cow<'static, str>]>,
     /// The sections of the manuals that the target claims.
     pub sections: Cow<'static, [Section]>,
-    /// The claimed functions of these sections, by their names in the function table; `None` for all.
+    /// The claimed functions of these sections, by their names in the function table; `None` for
+    /// all.
     pub functions: Option<Cow<'static, [Cow<'static, str>]>>,
     /// Whether the target answers the printed examples with the printed values.
     pub printed_examples: bool,
-    /// How long to wait for a reply; in milliseconds in a report.
+    /// The maximum time to wait for a reply; `None` if the profile does not set it. A report states
+    /// it in milliseconds.
     #[serde(serialize_with = "milliseconds", skip_serializing_if = "Option::is_none")]
     pub timeout: Option<Duration>,
 }
@@ -92,7 +95,8 @@ impl Section {
             Some("2.2") => Self::Elements,
             Some("str") => Self::Streaming,
             Some(section) if section.starts_with('3') => Self::Parameters,
-            // Functions that are documented online only concern variables.
+            // Section 4, and the functions that only the vendors' help pages describe, concern
+            // variables.
             _ => Self::Variables,
         }
     }
@@ -115,7 +119,8 @@ const LISTED: &[Cow<'static, str>] =
 const PORTS: &[u16] = &[AmsPort::GEO.0, AmsPort::SDA.0, AmsPort::COM.0];
 
 impl Profile {
-    /// The profile of an unknown device before it is queried. It claims the first channel only.
+    /// The profile of an unknown device before the run queries the device. It claims only channel
+    /// 1.
     pub const DEVICE: Self = Self {
         name: Cow::Borrowed("device"),
         edition: Edition::English,
@@ -159,7 +164,7 @@ impl Profile {
         }
     }
 
-    /// Whether the profile claims a function by name.
+    /// Whether the list `functions` of the profile contains the name of a function.
     pub fn names(&self, function: Function) -> bool {
         let functions = self.functions.as_deref().unwrap_or_default();
         functions.iter().any(|name| name == function.spec().name)
@@ -200,7 +205,7 @@ impl Profile {
     }
 }
 
-/// Serializes an edition like the value of `--edition`.
+/// Serializes an edition in the form of the value of `--edition`, such as `en-1.05`.
 fn edition<S: Serializer>(edition: &Edition, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&edition.name())
 }

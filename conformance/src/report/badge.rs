@@ -9,7 +9,7 @@ use crate::exit::Exit;
 use crate::judge::{UnrestoredValue, Verdict};
 use crate::text::{json, plural, shorten};
 
-/// The JSON that shields.io reads from an endpoint; it rejects other keys.
+/// The JSON that shields.io reads from an endpoint. Shields.io rejects other keys.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Badge {
@@ -20,8 +20,9 @@ struct Badge {
     is_error: bool,
 }
 
-/// Writes a badge for shields.io: version of the suite, result, editions and, if any, the number of
-/// waivers. Of the values that were not restored, the badge names the first and counts the others.
+/// Writes a badge for shields.io: the version of the suite, the result, the editions and, if
+/// greater than 0, the numbers of failed requirements, of warnings and of waived requirements. Of
+/// the values that were not restored, the badge names the first and counts the others.
 pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let (word, color) = match report.exit() {
         Exit::Success if report.only.is_empty() => ("passed", "brightgreen"),
@@ -60,7 +61,7 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     json::write(&badge, out)
 }
 
-/// Name and values, truncated to fit a badge.
+/// The name of a value, its original value and its present value, each truncated to fit a badge.
 fn describe(left: &UnrestoredValue) -> String {
     let cut = |text: &str| shorten(text, 40);
     let is = left.is.as_deref().map_or_else(|| "unknown".to_owned(), cut);

@@ -24,14 +24,14 @@ use crate::judge::{
 use crate::profile::Profile;
 use crate::text::{Moment, hex};
 
-/// The parameters of a run.
+/// The parameters of a run, and its results except the outcomes of the cases.
 #[derive(Clone, Debug)]
 pub struct RunInfo {
     /// The time at which the run began.
     pub time: Moment,
-    /// The edition to judge by; `None` for both.
+    /// The edition by which the run judges; `None` for both.
     pub edition: Option<Edition>,
-    /// The seed of the order of cases.
+    /// The seed of the order of the cases and of the samples of long lists; 0 for a capture.
     pub seed: u32,
     /// The selection (--only); empty if all cases were selected.
     pub only: Vec<String>,
@@ -46,7 +46,8 @@ pub struct RunInfo {
     /// Known failures.
     pub waivers: Waivers,
     pub frames: usize,
-    /// The command that repeats the run.
+    /// The command that repeats the run, without a selection and without reports; `None` for a
+    /// capture.
     pub again: Option<String>,
     /// The duration of the cases of each subject.
     pub times: Vec<(CaseSubject, Duration)>,
@@ -88,7 +89,7 @@ impl Report {
             }
         }
         // A device was not judged completely if the gate rejected requests.
-        tally.refused = outcomes.iter().any(|outcome| outcome.refused);
+        tally.rejected = outcomes.iter().any(|outcome| outcome.rejected);
         if ended.is_some() {
             // The cases after the end are not judged.
             tally.add(Verdict::Interrupted, false);
@@ -150,10 +151,11 @@ impl Report {
     }
 }
 
-/// The reasons why the gate rejected requests, each once, with its cases.
+/// The reasons why the gate rejected requests, each once, after the IDs of the cases of these
+/// requests.
 fn rejected(outcomes: &[CaseOutcome]) -> Vec<String> {
     let mut cases: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for outcome in outcomes.iter().filter(|outcome| outcome.refused) {
+    for outcome in outcomes.iter().filter(|outcome| outcome.rejected) {
         let why = outcome.note.as_deref().unwrap_or_default();
         cases.entry(why).or_default().push(&outcome.case.id);
     }
@@ -212,8 +214,8 @@ fn totals(requirements: &[RequirementReport]) -> Totals {
     totals
 }
 
-/// The verdict on a requirement over all cases. If no case judges the requirement, the verdict is
-/// "not observed", or "not run" if the requirement was not selected.
+/// The verdict on a requirement over all cases. If no case has the requirement, the verdict is "not
+/// observed", or "not run" if the requirement was not selected.
 fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> RequirementReport {
     let all = cases.iter().flat_map(|case| &case.requirements);
     let mine: Vec<_> = all.filter(|one| one.requirement == id).collect();
@@ -223,8 +225,9 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The gravest verdict, and whether it is waived. A waived verdict does not hide a verdict that is
-/// not waived and fails the run.
+/// The verdict of a group, and whether this verdict is waived: the gravest verdict that is not
+/// waived and fails the run; without such a verdict, the gravest waived verdict; without a waived
+/// verdict, the gravest verdict.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(_, waived)| !waived).map(|(verdict, _)| verdict);
     let open = gravest(open).filter(|verdict| verdict.fails_run());
@@ -306,7 +309,7 @@ fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
     }
 }
 
-/// Marks the field of a failed check, if there are no expected bytes to compare with.
+/// Marks the bytes of the field that made a check fail, if the expected bytes are unknown.
 fn marked(mut evidence: EvidenceReport, judgement: &Judgement) -> EvidenceReport {
     let EvidenceReport { sent, received, expected, .. } = &mut evidence;
     if expected.is_some() || judgement.verdict != Verdict::Fail {
@@ -344,7 +347,7 @@ impl From<&Evidence> for EvidenceReport {
 }
 
 /// The texts of the parts of a requirement with this level, after the text of the requirement
-/// itself if it has this level or no such part.
+/// itself if the requirement has this level or no part has it.
 fn text(requirement: &Requirement, level: Option<Level>) -> String {
     let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
     let parts = parts.map(|part| part.text.as_str());
@@ -353,7 +356,7 @@ fn text(requirement: &Requirement, level: Option<Level>) -> String {
     is_whole.then_some(whole).into_iter().chain(parts).collect::<Vec<_>>().join(" ")
 }
 
-/// The sources of a requirement; none for an assumed part.
+/// The sources of a requirement; empty for the level *info*, because such a part is assumed.
 fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
     if level == Some(Level::Info) { Vec::new() } else { explain::sources(&requirement.id) }
 }
@@ -374,7 +377,7 @@ mod tests {
                 verdicts: vec![judged],
                 checks: 1,
                 note: None,
-                refused: false,
+                rejected: false,
                 time: None,
             }
         };

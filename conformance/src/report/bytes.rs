@@ -1,4 +1,4 @@
-//! Bytes field by field; bytes that differ from the expected ones are marked.
+//! Bytes field by field, with marks on the bytes that differ from the expected bytes.
 
 use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
 use ads_cnc::layout::Stream;
@@ -29,6 +29,7 @@ pub struct BytesReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldReport {
+    /// The offset in bytes in the data or, for the parts of a frame, in the frame.
     pub offset: usize,
     /// The bytes of the field in hex.
     pub hex: String,
@@ -39,7 +40,8 @@ pub struct FieldReport {
     /// The meaning of the field.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub meaning: String,
-    /// Offsets within the field of bytes that differ from the expected ones.
+    /// Offsets within the field of the marked bytes: those that differ from the expected bytes, or
+    /// all bytes of a field that is known to be wrong.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub differs: Vec<usize>,
 }
@@ -125,7 +127,8 @@ impl BytesReport {
         }
     }
 
-    /// Marks the fields that a clause defines, unless it defines all fields.
+    /// Marks the fields that a clause defines, unless the clause defines the whole stream or all
+    /// fields.
     pub(super) fn mark_clause(&mut self, clause: &str) {
         let Some(stream) = self.stream.as_deref().and_then(Stream::by_name) else { return };
         let layout = stream.layout();
@@ -183,7 +186,7 @@ pub(super) enum ShownField<'r> {
     More(usize),
 }
 
-/// Maximum number of shown items of a field.
+/// Number of items at the start of a long field that are always shown.
 const ITEMS: usize = 6;
 
 impl BytesReport {
@@ -191,7 +194,7 @@ impl BytesReport {
         self.fields.iter().flat_map(FieldReport::bytes).collect()
     }
 
-    /// The fields to show: of a long list only the first items and those that differ.
+    /// The fields to show: of a long list only the first items, the last item and the marked items.
     pub(super) fn visible_fields(&self) -> Vec<ShownField<'_>> {
         let (mut shown, mut more) = (Vec::new(), 0_usize);
         for list in self.fields.chunk_by(|one, next| one.field == next.field) {
@@ -305,7 +308,7 @@ mod tests {
         assert_eq!(BytesReport::of_frame(&[], Some(&request)), []);
     }
 
-    /// A missing byte is marked on the side that contains it.
+    /// A byte that only one of the two sides contains is marked on this side.
     #[test]
     fn an_additional_byte_is_marked() {
         let values = ValueFormat::default();

@@ -1,4 +1,4 @@
-//! Compares a report with an earlier one.
+//! Compares a report with an earlier report.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -71,8 +71,8 @@ fn judged(report: &Report) -> Judged<'_> {
     of_case.collect()
 }
 
-/// The differences that make two reports hard to compare: suite, vectors, editions, target, profile
-/// and selection.
+/// The differences that make two reports hard to compare: in suite, vectors, editions, target,
+/// profile, claims of the profile, and selection.
 fn differences(now: &Report, before: &Report) -> Vec<String> {
     let differ = |what: &str, before: String, now: String| {
         (before != now).then(|| format!("different {what}: {before} before, {now} now"))
@@ -111,9 +111,10 @@ fn differences(now: &Report, before: &Report) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Writes the changes since an earlier report, new failures last; if quiet, only their numbers. Returns
-/// the exit code: [`Exit::Failure`] if a requirement newly fails; otherwise [`Exit::Nothing`] if a requirement is
-/// no longer judged; otherwise [`Exit::Success`].
+/// Writes the changes since an earlier report, new failures last, and then the number of changes of
+/// each kind; with [`Detail::Quiet`], only the numbers. Returns the exit code: [`Exit::Failure`] if
+/// a requirement newly fails in a case; otherwise [`Exit::Nothing`] if a requirement is no longer
+/// judged in a case; otherwise [`Exit::Success`].
 pub fn compare(
     now: &Report,
     before: &Report,

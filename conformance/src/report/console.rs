@@ -15,10 +15,11 @@ use crate::exit::Exit;
 use crate::judge::{CLIENT, CaseSubject, HELLO, NOT_CLAIMED, TESTEE, Verdict, WaiverReport};
 use crate::text::{plural, shorten};
 
-/// Maximum number of reasons why cases were not run.
+/// Maximum number of notes of cases printed for a subject, and of requirements printed by
+/// [`orphans`].
 const REASONS_MAX: usize = 4;
 
-/// Writes the report.
+/// Writes the report as text, with the detail and the colours of `display`.
 pub fn print(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     let verbose = match display.detail {
         Detail::Quiet => return last_line(report, display, out),
@@ -50,15 +51,15 @@ pub fn print(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> i
     tail(report, display, out)
 }
 
-/// The failure of a testee or client that did not answer `hello`, the first line of the protocol,
-/// so that nothing was judged.
+/// The failure of a testee or client that did not answer `hello` correctly. This is the first line
+/// of the protocol, so nothing was judged.
 fn unanswered(report: &Report) -> Option<&FailureReport> {
     let mut all = report.cases.iter().flat_map(|case| &case.failures);
     all.find(|one| [TESTEE, CLIENT].contains(&one.requirement.as_str()) && one.expected == HELLO)
 }
 
-/// Shows the reaction of a testee or client that did not answer, the likely cause and the next
-/// command.
+/// Writes the reaction of a testee or client that did not answer `hello` correctly, the likely
+/// cause, and the command or document that helps.
 fn unstarted(
     report: &Report,
     failure: &FailureReport,
@@ -79,15 +80,16 @@ fn unstarted(
     writeln!(out, "{verdict}  {}", shorten(&what, RESULT_MAX.saturating_mul(2)))?;
     let stderr = report.target.stderr.as_deref().unwrap_or_default();
     let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
-    // If the testee has ended, `found` already contains the end of its stderr.
-    if let Some(last) = last.filter(|_| !found.contains("its stderr ends with: ")) {
+    // If the testee has ended, `found` already contains the end of its stderr, which may be any text.
+    let (reaction, own) = found.split_once("; its stderr ends with: ").unwrap_or((found, ""));
+    if let Some(last) = last.filter(|_| own.is_empty()) {
         writeln!(out, "  stderr: {}", shorten(last, RESULT_MAX))?;
     }
     let cause = if garbled.is_some() {
         "No other case was run."
-    } else if found.contains("within") {
+    } else if reaction.contains("no answer within ") {
         "Check that each line ends with a line feed and is flushed (Python: print(..., flush=True))."
-    } else if found.contains("127") {
+    } else if reaction.ends_with("exit status: 127") {
         "Check that the shell finds the command in this folder."
     } else {
         "Check that the command runs by itself in this folder."
@@ -99,7 +101,8 @@ fn unstarted(
     writeln!(out, "  {cause} {next}")
 }
 
-/// The head of a report: versions, target, profile and selection.
+/// Writes the head of a report: versions, editions, seed, target, device, profile, the result of
+/// the queries before the cases, and selection.
 fn head(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, editions, seed, only, target, profile, found, .. } = report;
     let editions = editions.join(" and ");
@@ -130,7 +133,7 @@ fn head(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Re
     writeln!(out)
 }
 
-/// The subject on one line.
+/// The target, testee, client or capture on one line.
 pub(super) fn describe(target: &TargetReport) -> String {
     let TargetReport { name, version, language, command, address, net_id, file, .. } = target;
     let mut text = name.clone();
@@ -159,7 +162,7 @@ pub(super) const fn heading(subject: CaseSubject) -> &'static str {
     }
 }
 
-/// The cases of a subject; vectors are grouped by stream.
+/// Writes the cases of a subject; vectors and sequences are grouped by stream.
 fn cases(report: &Report, judged_subject: CaseSubject, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(judged_subject))?;
     let sorted = report.sorted();
@@ -189,7 +192,7 @@ fn of_cases(cases: &[&CaseReport]) -> Totals {
     totals
 }
 
-/// A line for each subject, with the reasons why cases were not judged.
+/// Writes a line for each subject, each followed by the notes of its cases.
 fn parts(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let width = report.subjects.iter().map(|one| one.subject.name().len()).max();
     let width = width.unwrap_or_default();
@@ -209,7 +212,8 @@ fn parts(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// The reasons why cases were not judged, the most common first.
+/// Writes the notes of cases, which are usually the reasons why the cases were not judged, the most
+/// common note first.
 fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     let mut all: BTreeMap<(Verdict, &str), (usize, BTreeSet<&str>)> = BTreeMap::new();
     for case in cases {
@@ -240,8 +244,8 @@ fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// The beginnings of notes about an action that a client does not have, or a stream that a testee
-/// does not have.
+/// The beginnings of notes about an action that a client does not have, or about streams that a
+/// testee does not claim.
 const LACKS: [&str; 2] = ["the client has no ", NOT_CLAIMED];
 
 fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
@@ -292,10 +296,11 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Maximum number of waivers that are printed.
+/// Maximum number of suggested waivers that are printed.
 const WAIVABLE_MAX: usize = 20;
 
-/// Prints a waiver for each failure, or for each inconclusive verdict if nothing fails.
+/// Prints a waiver for each failure that is not waived, or, without such a failure, for each
+/// inconclusive verdict that is not waived.
 fn waivable(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let sorted = report.sorted();
     let with = |wanted: &[Verdict]| -> Vec<(&str, &RequirementReport)> {
@@ -358,7 +363,8 @@ fn tail(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Re
     last_line(report, display, out)
 }
 
-/// Writes the last line, after the reasons for an exit code that no verdict explains.
+/// Writes the last line, after the stale waivers, the requirements without their cause and the
+/// rejected requests, which can be reasons for the exit code.
 fn last_line(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     for waiver in report.waivers.iter().filter(|waiver| waiver.state.is_stale()) {
         let WaiverReport { test, requirement, state, .. } = waiver;
@@ -387,8 +393,8 @@ fn last_line(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> i
     writeln!(out, "{}  {totals}{ended}", display.paint(color, verdict))
 }
 
-/// Writes the requirements whose failure follows from another requirement that this run did not
-/// judge.
+/// Writes, in a run with `--only`, the requirements whose failure follows from a requirement that
+/// this selection does not judge.
 fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     if report.only.is_empty() {
         return Ok(());

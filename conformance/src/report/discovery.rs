@@ -8,7 +8,7 @@ use crate::text::plural;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FoundReport {
-    /// Number of these queries.
+    /// Number of the queries before the cases.
     pub requests: usize,
     /// Approximate number of requests that the cases will send, without those of `--allow-write`.
     pub expected: u64,
@@ -63,7 +63,7 @@ fn joined(texts: impl Iterator<Item = String>) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
-/// The found number, with the claimed number if it differs.
+/// The found number, after the claimed number if the two numbers differ.
 fn claimed(found: u32, claimed: Option<u32>, noun: &str) -> Option<String> {
     Some(match claimed.filter(|claimed| *claimed != found) {
         // 0 may also mean that the number was not queried.
@@ -88,7 +88,7 @@ impl FoundReport {
         if !self.channels.is_empty() {
             let channels = self.channels.iter();
             let channels = channels
-                .map(|one| format!("{} with {}", one.number, plural(one.axes, "axis place")));
+                .map(|one| format!("{} with {}", one.number, plural(one.axes, "axis index")));
             parts.push(format!("channel {}", joined(channels)));
         }
         let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis");
@@ -104,7 +104,8 @@ impl FoundReport {
         format!("{}, by {}{stopped}", parts.join("; "), plural(self.requests, "request"))
     }
 
-    /// The lists that are only sampled, on one line; `None` if all lists are read completely.
+    /// The lists of which only a sample is read, on one line; `None` if all lists are read
+    /// completely.
     pub fn sampled(&self) -> Option<String> {
         let sampled: Vec<String> = self
             .lists

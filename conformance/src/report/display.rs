@@ -7,9 +7,9 @@ use crate::judge::Verdict;
 /// The parts of a report that are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Detail {
-    /// Only the last line.
+    /// Only the last line and, above it, the reasons for the exit code that are not verdicts.
     Quiet,
-    /// A line for each part, and each failure once.
+    /// A line for each subject, and each failed clause once.
     #[default]
     Normal,
     /// Also every case and every requirement.
@@ -25,7 +25,7 @@ pub struct DisplayOptions {
     pub found_shown: bool,
 }
 
-/// Width of wrapped text.
+/// Width of wrapped text in characters.
 pub(super) const WIDTH: usize = 98;
 /// Maximum number of characters of an expected and of an actual result in normal detail.
 pub(super) const RESULT_MAX: usize = 160;

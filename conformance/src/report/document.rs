@@ -35,13 +35,15 @@ pub struct Report {
     /// Names of the values that were changed; all were restored, except those in `left_changed`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub written: Vec<String>,
+    /// The version of the suite.
     pub suite: String,
+    /// The version of the vectors.
     pub vectors: String,
-    /// The time at which the run began, in UTC.
+    /// The time at which the run began, in UTC and in the format of RFC 3339.
     pub time: String,
     /// Editions of the manual by which the run judged.
     pub editions: Vec<String>,
-    /// The seed of the order of cases.
+    /// The seed of the order of the cases and of the samples of long lists; 0 for a capture.
     pub seed: u32,
     /// The selection (--only); empty if all cases were selected.
     pub only: Vec<String>,
@@ -59,7 +61,8 @@ pub struct Report {
     pub found: Option<FoundReport>,
     /// Waivers and their states.
     pub waivers: Vec<WaiverReport>,
-    /// The command that repeats the run, without a selection and without reports.
+    /// The command that repeats the run, without a selection and without reports; `None` for a
+    /// capture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub again: Option<String>,
     /// The exit code of the run.
@@ -71,9 +74,10 @@ pub struct Report {
     pub ended: Option<String>,
     /// Number of cases that were not selected; they are not in `cases`.
     pub left_out: usize,
-    /// The judged subjects: codec, target, testee or client.
+    /// The judged subjects, each with the verdicts on all requirements.
     pub subjects: Vec<SubjectReport>,
-    /// All cases in the order in which they were run.
+    /// The selected cases, for a run in an order that the seed determines, and then the cases of
+    /// the other edition.
     pub cases: Vec<CaseReport>,
 }
 
@@ -99,9 +103,10 @@ pub struct TargetReport {
     /// The device information of the COM task, if available.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device: Option<DeviceReport>,
-    /// The end of stderr; not judged.
+    /// The end of the output on stderr, which is not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stderr: Option<String>,
+    /// The path of the captured file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
 }
@@ -115,16 +120,16 @@ pub struct ProfileReport {
     pub claims: BTreeMap<String, Value>,
 }
 
-/// The target, testee or client that was judged.
+/// A subject that was judged, and the verdicts on it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectReport {
     pub subject: CaseSubject,
-    /// Number of requirements by gravest verdict.
+    /// Number of requirements with each verdict.
     pub totals: Totals,
     /// Number of waived requirements.
     pub waived: usize,
-    /// Duration of the cases.
+    /// Duration of the cases, if measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub milliseconds: Option<u64>,
     /// The requirements by area.
@@ -137,7 +142,7 @@ pub struct SubjectReport {
 pub struct AreaReport {
     /// The letters of the area; `TESTEE` or `CLIENT` for a protocol.
     pub area: String,
-    /// Number of requirements by gravest verdict.
+    /// Number of requirements with each verdict.
     pub totals: Totals,
     pub requirements: Vec<RequirementReport>,
 }
@@ -147,7 +152,8 @@ pub struct AreaReport {
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     pub requirement: String,
-    /// The gravest verdict on the requirement.
+    /// The gravest verdict on the requirement. A verdict that is not waived and fails the run takes
+    /// precedence, then a waived verdict.
     pub verdict: Verdict,
     /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -161,10 +167,11 @@ pub struct CaseReport {
     pub id: String,
     pub title: String,
     pub subject: CaseSubject,
-    /// The stream, if the case is a vector.
+    /// The stream of the vector, or the kind of the sequence, with which the case tests a codec;
+    /// `None` for other cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
-    /// The gravest verdict of the case.
+    /// The gravest verdict of the case, with the precedence of [`RequirementReport::verdict`].
     pub verdict: Verdict,
     /// Whether that verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -175,10 +182,10 @@ pub struct CaseReport {
     /// Duration of the case, if measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub milliseconds: Option<u64>,
-    /// The reason why the case was not run, or not completely.
+    /// The reason why the case was not run or not completed, or another note about the case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// Checks that did not pass.
+    /// The stored checks that did not pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<FailureReport>,
 }
@@ -188,7 +195,8 @@ pub struct CaseReport {
 #[serde(deny_unknown_fields)]
 pub struct FailureReport {
     pub requirement: String,
-    /// The level of the check; lower than that of the requirement for an assumed part.
+    /// The level of the check; for an assumed part, lower than the level of the requirement. `None`
+    /// for an ID that is not in the catalogue.
     pub level: Option<Level>,
     /// The text of the requirement, or of its parts of this level.
     pub clause: String,
@@ -200,7 +208,8 @@ pub struct FailureReport {
     pub waived: bool,
     pub expected: String,
     pub found: String,
-    /// Number of other checks with the same verdict, which are not shown.
+    /// Number of other checks of the requirement in the same case with the same verdict, which are
+    /// not stored.
     pub more: usize,
     /// The clause whose failure explains this check, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -273,7 +282,8 @@ fn in_file(text: &str, error: &serde_json::Error) -> String {
 }
 
 impl FailureReport {
-    /// Whether the check is about the frames: their headers, or a reply that is not a frame.
+    /// Whether the check is about the frames: it judges the headers (ADS-5), or the received bytes
+    /// cannot be parsed as a frame of a service.
     pub(super) fn is_of_frames(&self) -> bool {
         let has_faults = |one: &EvidenceReport| {
             let [_, received] = one.frames();
@@ -286,7 +296,7 @@ impl FailureReport {
 }
 
 impl EvidenceReport {
-    /// The frames of the request and the reply: headers and fields of the service.
+    /// The frames of the request and the reply, each as its headers and the fields of the service.
     pub(super) fn frames(&self) -> [Vec<BytesReport>; 2] {
         let bytes = |hex: &str| compact::parse(hex).unwrap_or_default();
         let (sent, received) = (bytes(&self.frame_sent), bytes(&self.frame_received));
@@ -295,7 +305,8 @@ impl EvidenceReport {
 }
 
 impl CaseReport {
-    /// The failures, grouped by evidence, because one check may judge several requirements.
+    /// The failures, grouped by check, because one check may judge several requirements. Failures
+    /// with the same texts, evidence, verdict, waiver and cause belong to the same check.
     pub(super) fn findings(&self) -> Vec<Vec<&FailureReport>> {
         fn check(one: &FailureReport) -> impl PartialEq + '_ {
             let seen = (&one.expected, &one.found, &one.evidence);

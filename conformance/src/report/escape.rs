@@ -71,9 +71,9 @@ impl Report {
         {
             all([test, requirement, reason, expires]);
         }
-        for UnrestoredValue { name, was, is, refused } in left_changed {
+        for UnrestoredValue { name, was, is, rejected } in left_changed {
             all([name, was]);
-            all(is.iter_mut().chain(refused));
+            all(is.iter_mut().chain(rejected));
         }
         for SubjectReport { subject: _, totals: _, waived: _, milliseconds: _, areas } in subjects {
             for AreaReport { area, totals: _, requirements } in areas {

@@ -15,9 +15,10 @@ use super::lines::{is_fault, lines, marked};
 use crate::judge::{CLIENT, CaseSubject, TESTEE};
 use crate::text::{plural, shorten, wrap};
 
-/// Maximum number of failed clauses in normal detail.
+/// Maximum number of groups of failures that are printed in normal detail.
 const GROUPS_MAX: usize = 6;
-/// Maximum number of warnings and differences shown in addition to failures.
+/// Maximum number of other groups, such as warnings and differences, that are printed before
+/// failures in normal detail.
 const NOTES_MAX: usize = 3;
 /// Maximum number of lines of bytes in normal detail, and maximum number of these lines before the
 /// first wrong byte.
@@ -26,7 +27,8 @@ const BEFORE_MARK: usize = 2;
 /// Maximum number of lines of a clause in normal detail.
 const CLAUSE_MAX: usize = 3;
 
-/// Prints the checks that did not pass: each warning and difference on a line, then the failures.
+/// Prints the groups of checks that did not pass: first each group that is not a failure, such as a
+/// warning, on one line, and then the failures.
 pub(super) fn blocks(
     report: &Report,
     display: DisplayOptions,
@@ -71,7 +73,7 @@ pub(super) fn blocks(
     Ok(())
 }
 
-/// A group on one line.
+/// Prints a group on one line.
 fn brief(group: &Group<'_>, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     let Some((case, failure)) = group.example() else { return Ok(()) };
     let verdict = display.verdict(group.verdict, group.waived);
@@ -86,7 +88,7 @@ fn location<'r>(group: &Group<'r>) -> Option<&'r str> {
     failure.evidence.as_ref()?.call.lines().last().map(str::trim_start)
 }
 
-/// Text for the number of other checks of a group.
+/// The text for the number of checks of a group besides its example; empty without other checks.
 pub(super) fn alike(group: &Group<'_>) -> String {
     match group.checks().saturating_sub(1) {
         0 => String::new(),
@@ -94,7 +96,8 @@ pub(super) fn alike(group: &Group<'_>) -> String {
     }
 }
 
-/// A sentence with the variable or object, the expected and the found result.
+/// A sentence with the variable or object, the expected result and the actual result. Each result
+/// is shortened to `most` characters.
 pub(super) fn sentence(failure: &FailureReport, most: usize) -> String {
     let [expected, found] = [&failure.expected, &failure.found].map(|text| shorten(text, most));
     let subject = failure.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref());
@@ -130,7 +133,8 @@ fn differing(evidence: &EvidenceReport) -> Option<String> {
         .then(|| format!("{}: {} where {} is expected", is.field, is.value, instead.value))
 }
 
-/// Prints a whole group: clause, example with its bytes, number of other checks, and its results.
+/// Prints a whole group: clause, example with its bytes, number of other checks, checks that follow
+/// from the group, and the command that runs the example again.
 pub(super) fn block(
     report: &Report,
     group: &Group<'_>,
@@ -207,7 +211,7 @@ pub(super) fn finding(
     }
     writeln!(out, "  expected  {}", failure.expected)?;
     writeln!(out, "  found     {}", failure.found)?;
-    // If the check follows from another clause, the finding of that clause shows the bytes.
+    // If the check follows from another clause, the failed check of that clause shows the bytes.
     if let Some(evidence) = failure.evidence.as_ref().filter(|_| failure.follows.is_none()) {
         let display = DisplayOptions { detail: Detail::Verbose, ..DisplayOptions::default() };
         bytes(evidence, frames_shown(failure, subject), display, out)?;
@@ -236,8 +240,8 @@ fn sources(failure: &FailureReport) -> String {
     }
 }
 
-/// Whether the request and the reply are shown as whole frames with headers instead of only their
-/// data.
+/// Whether the request is shown as a frame with its headers instead of only its data, and the same
+/// for the reply.
 fn frames_shown(failure: &FailureReport, subject: CaseSubject) -> [bool; 2] {
     let is_of_frames = failure.is_of_frames();
     // A client is judged by its requests.
@@ -262,7 +266,7 @@ fn bytes(
     let most = if display.detail == Detail::Verbose { usize::MAX } else { RESULT_MAX };
     // In a capture, bytes that are not an exchange may come from either side.
     let who = if result.is_empty() && frame_sent.is_empty() { "captured" } else { "sent" };
-    // Do not shorten a location, which is on the following line.
+    // Do not shorten the location in a capture, which follows on the next lines.
     let (call, location) = call.split_at(call.find('\n').unwrap_or(call.len()));
     let (call, location) = match location {
         "" if who == "captured" => (call.to_owned(), ""),
@@ -295,7 +299,8 @@ fn bytes(
     Ok(())
 }
 
-/// In normal detail, only some lines, beginning shortly before the first wrong byte.
+/// The lines to print: in normal detail, at most [`BYTES_MAX`] lines, which begin shortly before
+/// the first marked line or error, and the numbers of omitted lines.
 fn cut(mut lines: Vec<String>, detail: Detail) -> Vec<String> {
     if detail == Detail::Verbose || lines.len() <= BYTES_MAX {
         return lines;

@@ -8,21 +8,23 @@ use ads_cnc_vectors::{sequence, vector};
 use super::document::{CaseReport, FailureReport, Report};
 use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict, clauses_of};
 
-/// Checks that failed for the same clause, or in the same field of vectors of one stream.
+/// Checks with the same verdict that did not pass for the same clause, or in the same field of
+/// vectors of one stream.
 #[derive(Debug)]
 pub(super) struct Group<'r> {
     pub(super) verdict: Verdict,
     pub(super) waived: bool,
-    /// The clauses, the one with most checks first.
+    /// The clauses, the clause with most checks first.
     pub(super) requirements: Vec<&'r str>,
-    /// Each check in its case, with one of the clauses.
+    /// The case and one failure of each check.
     checks: Vec<(&'r CaseReport, &'r FailureReport)>,
     /// The cases with checks that follow from these failures, each with the clauses of these checks.
     pub(super) followers: BTreeMap<&'r str, BTreeSet<&'r str>>,
 }
 
 impl Report {
-    /// The cases by subject, stream, requirement and ID: the same order for every seed.
+    /// The cases, sorted by subject, stream, first requirement and ID, so that the order does not
+    /// depend on the seed.
     pub(super) fn sorted(&self) -> Vec<&CaseReport> {
         let position = self.positions();
         let mut all: Vec<&CaseReport> = self.cases.iter().collect();
@@ -34,7 +36,7 @@ impl Report {
         all
     }
 
-    /// The position of each requirement in the catalogue.
+    /// A number for each requirement, which ascends in the order of the catalogue.
     fn positions(&self) -> BTreeMap<&str, usize> {
         let all = self.subjects.iter().flat_map(|one| &one.areas);
         let all = all.flat_map(|area| &area.requirements).enumerate();
@@ -42,8 +44,7 @@ impl Report {
     }
 }
 
-/// The groups in the order of their verdicts, the gravest last, and then in the order of their
-/// requirements.
+/// The groups, sorted by verdict, with the gravest verdict last, and then by [`GroupKey`].
 pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
     let positions = report.positions();
     let position = |id: &str| positions.get(id).copied().unwrap_or(usize::MAX);
@@ -121,7 +122,7 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
     all
 }
 
-/// The vectors and sequences that fail.
+/// The IDs of the cases with a failed check that is not waived.
 fn failed(report: &Report) -> BTreeSet<&str> {
     let fails = |case: &&CaseReport| {
         case.failures.iter().any(|one| one.verdict == Verdict::Fail && !one.waived)
@@ -129,7 +130,7 @@ fn failed(report: &Report) -> BTreeSet<&str> {
     report.cases.iter().filter(fails).map(|case| case.id.as_str()).collect()
 }
 
-/// The case of the accepted sibling of a rejected vector or sequence.
+/// The ID of the case of the accepted sibling of a rejected vector or sequence.
 fn sibling(case: &CaseReport) -> Option<String> {
     let (kind, id) = case.id.split_once('-')?;
     let sibling = match kind {
@@ -139,10 +140,10 @@ fn sibling(case: &CaseReport) -> Option<String> {
     sibling.map(|sibling| format!("{kind}-{sibling}"))
 }
 
-/// The beginnings of `found` for a testee that ended or did not answer.
+/// The beginnings of [`FailureReport::found`] for a testee that ended or did not answer.
 const LOST: [&str; 2] = ["a crash", "no answer within"];
 
-/// The common properties of the checks in a group; groups are sorted by them.
+/// The common properties of the checks in a group. Groups are sorted by these properties.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct GroupKey<'r> {
     gravity: u8,
@@ -153,8 +154,8 @@ struct GroupKey<'r> {
     field: Option<&'r str>,
 }
 
-/// The name of the first field that differs; if no field differs, the text of the result up to its
-/// first colon.
+/// The name of the first field of the reply with a marked byte; without such a field, the text of
+/// the actual result up to its first colon.
 fn field(failure: &FailureReport) -> &str {
     let received = failure.evidence.as_ref().and_then(|evidence| evidence.received.as_ref());
     let differs = received.and_then(|bytes| {
@@ -165,7 +166,8 @@ fn field(failure: &FailureReport) -> &str {
     differs.unwrap_or_else(kind)
 }
 
-/// Whether the check is about bytes that the clause of the check describes.
+/// Whether the clause of the check defines a stream or a field in the data of the request or the
+/// reply.
 fn is_of_own_stream(failure: &FailureReport) -> bool {
     let evidence = failure.evidence.iter();
     let bytes = evidence.flat_map(|evidence| evidence.sent.iter().chain(&evidence.received));
@@ -178,14 +180,15 @@ impl<'r> Group<'r> {
         self.followers.entry(&case.id).or_default().insert(&failure.requirement);
     }
 
-    /// Whether the group makes the run fail.
+    /// Whether the group is a failure, of the product under test or of the suite, that is not
+    /// waived.
     pub(super) const fn is_failure(&self) -> bool {
         let fails = matches!(self.verdict, Verdict::Fail | Verdict::Vacuous);
         (fails || matches!(self.verdict, Verdict::HarnessError)) && !self.waived
     }
 
-    /// Whether the group is about the protocol with a testee or client; until the protocol works,
-    /// other groups mean little.
+    /// Whether the group is about the protocol with a testee or client. If the protocol is
+    /// violated, the other groups may be consequences of the violation.
     pub(super) fn is_of_protocol(&self) -> bool {
         self.requirements.iter().any(|id| [TESTEE, CLIENT].contains(id))
     }
@@ -195,25 +198,26 @@ impl<'r> Group<'r> {
         self.requirements.first().copied().unwrap_or_default()
     }
 
-    /// The subject of its cases.
+    /// The subject of the cases.
     pub(super) fn subject(&self) -> Option<CaseSubject> {
         self.checks.first().map(|(case, _)| case.subject)
     }
 
-    /// The number of checks.
+    /// The number of checks, including those that were not stored.
     pub(super) fn checks(&self) -> usize {
         self.checks.iter().map(|(_, failure)| failure.more.saturating_add(1)).sum()
     }
 
-    /// The cases, each once.
+    /// The IDs of the cases, each once.
     pub(super) fn cases(&self) -> Vec<&'r str> {
         let mut cases: Vec<&str> = self.checks.iter().map(|(case, _)| case.id.as_str()).collect();
         cases.dedup();
         cases
     }
 
-    /// The check that shows the fault best: one of a stream that the clause describes; of the checks
-    /// of vectors, the one with the shortest texts and the fewest bytes.
+    /// The check that shows the fault best: preferably a check of the first clause, about a stream
+    /// that this clause defines. Of the checks of vectors, the check with the smallest total length
+    /// of texts and bytes.
     pub(super) fn example(&self) -> Option<(&'r CaseReport, &'r FailureReport)> {
         let size = |failure: &FailureReport| {
             let evidence = failure.evidence.as_ref();
@@ -225,10 +229,10 @@ impl<'r> Group<'r> {
         let of_clause = |failure: &FailureReport| failure.requirement == self.requirement();
         let simplest = self.checks.iter().min_by_key(|(case, failure)| {
             let is_vector = case.stream.is_some();
-            // Prefer other cases to the cases about all replies, which repeat the requests of the
-            // other cases and therefore take longer.
+            // Prefer other cases to the cases about all replies: to run such a case again, the
+            // suite must also run all query cases.
             let is_of_replies = case.id.starts_with("replies-");
-            // The first check of a case is the closest to the cause.
+            // Without a size, the first check is chosen, because it is the closest to the cause.
             let size = if is_vector { size(failure) } else { 0 };
             (!of_clause(failure), !is_of_own_stream(failure), is_of_replies, size)
         });

@@ -24,8 +24,8 @@ const TEMPLATE: &str = include_str!("report.html");
 const STYLE: &str = include_str!("report.css");
 const SCRIPT: &str = include_str!("report.js");
 
-/// Writes the report as one HTML file without external resources; JavaScript is used only to
-/// filter.
+/// Writes the report as one HTML file without external resources. Only the filter, links to hidden
+/// cases and the preparation for printing use JavaScript.
 ///
 /// # Errors
 /// An error of `out` or of the template.
@@ -40,7 +40,7 @@ pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// The meaning of the result of the run in words, and the failed requirements.
+/// The meaning of the result of the run in words, and the failed requirements that are not waived.
 fn meaning(report: &Report) -> (String, Vec<FailedView>) {
     let failed: Vec<FailedView> = report
         .subjects
@@ -101,14 +101,14 @@ pub(super) fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
 struct ReportView<'r> {
     style: &'static str,
     script: &'static str,
-    /// The report without the cases, which are in the subjects.
+    /// The report without its subjects and cases, which `subjects` contains.
     report: Report,
     cases: usize,
     passed: bool,
     meaning: String,
     failed: Vec<FailedView>,
     causes: Vec<CauseView>,
-    /// Whether the seed determined the order of the cases; not for a capture.
+    /// Whether the seed determined the order of the cases; false for a capture.
     is_ordered: bool,
     target: String,
     device: Option<String>,

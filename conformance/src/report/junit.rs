@@ -16,10 +16,10 @@ use crate::judge::{Verdict, WaiverReport};
 /// Writes the report as JUnit XML.
 ///
 /// A fail or a vacuous verdict is a failure. An inconclusive verdict, an interrupted case and a
-/// harness error are errors. A case is skipped if it was not run, was not judged, or is waived. Warnings
-/// and differences pass, with their text in `system-out`. Further failures are in their own suites:
-/// values that were not restored in `left-changed`, entries rejected for safety in `rejected`, and
-/// stale waivers in `waivers`. Measured times are in seconds.
+/// harness error are errors. A case is skipped if it was not run, was not judged, or is waived.
+/// Warnings and differences pass, with their text in `system-out`. Further failures are in their
+/// own suites: values that were not restored in `left-changed`, requests and entries rejected for
+/// safety in `rejected`, and stale waivers in `waivers`. Measured times are in seconds.
 pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let mut xml: Xml<'_> = Writer::new_with_indent(&mut *out, b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -75,7 +75,7 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 
 type Xml<'w> = Writer<&'w mut dyn Write>;
 
-/// The JUnit result of a verdict.
+/// The result of a test in JUnit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum JunitKind {
     Passed,
@@ -226,7 +226,7 @@ fn waiver<'r>(report: &'r Report, case: &CaseReport) -> Option<&'r WaiverReport>
     used.filter(|_| case.waived).find(|waiver| waiver.test == case.id)
 }
 
-/// A failed test that is not a case.
+/// Writes a failed test that is not a case.
 fn failure(
     xml: &mut Xml<'_>,
     (name, class): (&str, &str),
@@ -243,7 +243,7 @@ fn failure(
     end(xml, "testcase")
 }
 
-/// The findings of a case, as on the console.
+/// The checks of a case that did not pass, as text.
 fn text(case: &CaseReport) -> io::Result<String> {
     let mut out = Vec::new();
     for all in case.findings() {
@@ -260,7 +260,7 @@ fn put(element: &mut BytesStart<'_>, name: &str, value: &str) {
     element.push_attribute((name, clean(value).as_str()));
 }
 
-/// Removes the characters that XML does not allow, even escaped.
+/// Replaces each character that XML does not allow, not even escaped, by U+FFFD.
 fn clean(text: &str) -> String {
     let allowed = |c: char| {
         matches!(c, '\t' | '\n' | '\r') || c >= ' ' && !matches!(c, '\u{fffe}' | '\u{ffff}')

@@ -1,17 +1,18 @@
-//! Formats bytes as lines, one for each field.
+//! Formats bytes as lines, field by field.
 
 use super::bytes::ShownField;
 use super::{BytesReport, FieldReport};
 use crate::text::hex;
 use crate::value_format::ValueFormat;
 
-/// All lines of bytes, without a comparison.
+/// The lines of bytes, without marks and without omissions.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
     all_lines(&BytesReport::new(stream, bytes, None, &ValueFormat::default()), false)
 }
 
-/// One line for each field up to an error: offset, bytes, characters, name. A line with a byte that
-/// differs from the expected one begins with an exclamation mark.
+/// The lines of each field, with at most 16 bytes on a line: offset, bytes, characters, name. Then
+/// a line for each error. A line with a marked byte begins with an exclamation mark. Items of long
+/// lists and long runs of zeros are omitted.
 pub(super) fn lines(bytes: &BytesReport) -> Vec<String> {
     all_lines(bytes, true)
 }
@@ -37,7 +38,7 @@ pub(super) fn is_fault(line: &str) -> bool {
     line.starts_with(FAULT)
 }
 
-/// Like [`lines`], but only the lines with a byte that differs.
+/// Like [`lines`], but only the lines with a marked byte.
 pub(super) fn marked(bytes: &BytesReport) -> Vec<String> {
     lines(bytes).into_iter().filter(|line| line.starts_with('!')).collect()
 }

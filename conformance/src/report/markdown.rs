@@ -12,9 +12,11 @@ use crate::exit::Exit;
 use crate::judge::{Verdict, WaiverReport};
 use crate::text::plural;
 
-/// Maximum number of characters of all failures: a comment on GitHub has at most 65 536.
+/// Maximum length in bytes of the texts of all groups of checks that did not pass, because a
+/// comment on GitHub has at most 65 536 characters. The first group is printed even if it is
+/// longer.
 const FAILURES_MAX: usize = 48_000;
-/// Maximum number of characters of the expected and of the found result in a title.
+/// Maximum number of characters of the expected and of the actual result in a title.
 const TITLE_MAX: usize = 60;
 
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
@@ -133,7 +135,7 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Escapes text for an HTML element, where Markdown has no escapes.
+/// Escapes text inside an HTML element, where the escapes of Markdown have no effect.
 fn html(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

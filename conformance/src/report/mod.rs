@@ -40,6 +40,9 @@ pub use markdown::to_markdown;
 
 pub use statement::{to_statement, to_statement_html};
 
+/// The title of the requirements of a protocol of the suite, which the catalogue does not contain.
+const PROTOCOL_TITLE: &str = "Protocol with the suite";
+
 pub fn to_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     json::write(report, out)
 }

@@ -48,7 +48,7 @@
     const cases = `${all} case${all === 1 ? "" : "s"}`;
     output.textContent = active ? `${shown} of ${cases}` : cases;
   };
-  // The filter is in the URL, so that a view can be shared.
+  // The fragment of the URL contains the filter, so that a link can share the filtered view.
   const remember = () => {
     const wanted = new URLSearchParams();
     for (const [name, value] of new FormData(form)) {

@@ -1,4 +1,4 @@
-//! The conformance statement: for each clause whether it is claimed and verified.
+//! The conformance statement, which says for each requirement whether it is claimed and verified.
 
 use std::io::{self, Write};
 
@@ -6,12 +6,12 @@ use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
-use super::FoundReport;
 use super::console::describe;
 use super::document::{AreaReport, Report, RequirementReport, SubjectReport};
 use super::failures::list;
 use super::html::claims;
 use super::markdown::plain;
+use super::{FoundReport, PROTOCOL_TITLE};
 use crate::exit::Exit;
 use crate::judge::{Verdict, about};
 
@@ -64,7 +64,7 @@ impl Statement {
             ("Selection", Some(report.only.join(", ")).filter(|only| !only.is_empty())),
         ];
         facts.extend(more.into_iter().filter_map(|(name, fact)| Some((name.to_owned(), fact?))));
-        // Without a profile, there are no claims.
+        // Without a profile file, queries determined what was judged, so the device claims nothing.
         let word = if is_found(report) { "Judged" } else { "Claims" };
         for (name, claim) in report.profile.iter().flat_map(claims) {
             if !claim.is_empty() {
@@ -81,7 +81,8 @@ fn is_found(report: &Report) -> bool {
     report.found.as_ref().is_some_and(FoundReport::is_by_queries)
 }
 
-/// The result on one line: the requirements that are not met, and those that were not verified.
+/// The result on one line: whether the run passed, and the requirements that are not met, that
+/// deviate, or that were not verified.
 fn result(report: &Report) -> String {
     let all = report.subjects.iter().flat_map(|subject| &subject.areas);
     let all: Vec<&RequirementReport> = all.flat_map(|area| &area.requirements).collect();
@@ -96,7 +97,8 @@ fn result(report: &Report) -> String {
         list(ids, most)
     };
     let mut open = vec![Verdict::Inconclusive, Verdict::Interrupted, Verdict::HarnessError];
-    // With a selection, requirements that were not run are no finding.
+    // With a selection, it is intended that other requirements were not run, so they are not
+    // listed.
     if report.only.is_empty() {
         open.push(Verdict::NotRun);
     }
@@ -152,7 +154,7 @@ fn clause(report: &Report, subject: &SubjectReport, one: &RequirementReport) -> 
     };
     ClauseStatement {
         id: id.clone(),
-        title: known.map_or("Protocol with the suite", |known| known.title.as_str()).to_owned(),
+        title: known.map_or(PROTOCOL_TITLE, |known| known.title.as_str()).to_owned(),
         level: known.map_or_else(String::new, |known| format!("{:?}", known.level).to_lowercase()),
         claimed,
         result,

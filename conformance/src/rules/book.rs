@@ -11,10 +11,11 @@ use super::topic::TopicRecords;
 use super::{replies, requests};
 use crate::exchange::{Exchange, Violation};
 
-/// Maximum number of CNCs that are distinguished.
+/// Maximum number of CNCs whose state is stored. Of the replies of further CNCs, only the headers
+/// and the fields of the service are judged.
 const CNCS_MAX: usize = 64;
 
-/// The checks of all exchanges, and the state of each CNC as far as they have shown it.
+/// The checks of all exchanges, and the state of each CNC as far as the exchanges have shown it.
 #[derive(Debug)]
 pub(crate) struct RuleBook {
     pub(crate) records: TopicRecords,
@@ -25,13 +26,14 @@ pub(crate) struct RuleBook {
 }
 
 impl RuleBook {
-    /// `is_lost`: whether a CNC may have received requests before the first one observed.
+    /// Creates the book of a capture or a client. `is_lost`: whether a CNC may have received
+    /// requests before the first observed request.
     pub(crate) fn new(is_lost: bool) -> Self {
         Self::with_memory(is_lost, MemoryBudget::ALL)
     }
 
-    /// Creates the book of a run. It has less memory, because the cases of a run keep their own
-    /// knowledge of the target.
+    /// Creates the book of a run. This book has less memory, because the cases of a run also store
+    /// what they know about the target.
     pub(crate) fn of_run() -> Self {
         Self::with_memory(true, MemoryBudget::OF_RUN)
     }
@@ -52,8 +54,8 @@ impl RuleBook {
         self.is_lost = true;
     }
 
-    /// Judges the headers of a request. `is_repeated`: whether another request with this invoke ID
-    /// is still without a reply, if known.
+    /// Judges the AMS header of a request. `is_repeated`: whether an earlier request, which may
+    /// still be without a reply, has the same invoke ID; `None` if unknown.
     pub(crate) fn request_headers(
         &mut self,
         observation: &dyn Observation,
@@ -63,7 +65,9 @@ impl RuleBook {
         requests::headers(&mut self.records, observation, header, is_repeated);
     }
 
-    /// Judges a request. Returns its address if no manual documents it.
+    /// Judges a request. Returns the service and the address of the request as text if no function
+    /// has this address, or if the request may access content at this address (SDA-12): such a
+    /// request is not judged.
     pub(crate) fn request(
         &mut self,
         observation: &dyn Observation,
@@ -72,7 +76,7 @@ impl RuleBook {
         requests::judge(&mut self.records, observation, call)
     }
 
-    /// Judges a reply, alone and together with earlier ones of the same CNC.
+    /// Judges a reply, alone and together with earlier replies of the same CNC.
     pub(crate) fn reply(
         &mut self,
         observation: &dyn Observation,
@@ -86,7 +90,7 @@ impl RuleBook {
             return;
         };
         if !answer.ams_error.is_ok() {
-            // The CNC may have been replaced by another one with the same NetId.
+            // After an AMS error, another CNC may have this NetId, so the stored state is removed.
             self.cncs.remove(&cnc);
             return;
         }

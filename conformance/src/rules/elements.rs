@@ -8,23 +8,26 @@ use ads_cnc::address::{
 use ads_cnc::operation::{Call, FindInstance, Reply, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
+use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::knowledge::ExchangeJudge;
 use super::observation::Observation;
 use super::topic::Topic;
-use crate::judge::{Checks, Rule, assumed, online};
+use crate::judge::{Checks, Rule, assumed};
 use crate::number::to_u32;
 use crate::text::plural;
 
-/// The type of an element with this type name: a type of variables, or REAL32.
+/// The type of an element with this type name: a type of variables, or REAL32; `None` for another
+/// name.
 pub(crate) fn element_type(name: &str) -> Option<DataType> {
     let is_of_objects_only = |one: &DataType| matches!(one, DataType::Lint | DataType::Lword);
     DataType::ALL.into_iter().find(|one| one.name() == name && !is_of_objects_only(one))
 }
 
-/// The rule for a type name that is not in the manual's list: a name of the same pattern with another
-/// width may continue the list; another name for a listed type violates it.
+/// The rule by which the name of a type is checked. A name with the pattern of the manual's list,
+/// such as UNS64, may belong to the part of the list that the manual abbreviates, so its rule is
+/// assumed.
 fn name_rule(name: &str) -> Rule {
     let digits = ["UNS", "SGN", "REAL"].into_iter().find_map(|one| name.strip_prefix(one));
     let is_alike = digits.is_some_and(|digits| {
@@ -33,20 +36,11 @@ fn name_rule(name: &str) -> Rule {
     if is_alike { assumed(SDA_7) } else { SDA_7.into() }
 }
 
-/// The rules for the length of an element of a type. The tables of dynamic parameters print the sizes
-/// of UNS32 and REAL64, an example prints that of BOOLEAN, and the others are documented online.
-/// A failure does not show whether the type or the length is wrong, so the rules of both are returned.
-fn length_rules(data_type: DataType) -> [Rule; 3] {
-    let of_size = if data_type == DataType::Boolean { GEN_5.into() } else { online(GEN_5) };
-    match data_type {
-        DataType::Boolean | DataType::Uns32 | DataType::Real64 => {
-            [SDA_7.into(), SDA_8.into(), of_size]
-        }
-        _ => [online(SDA_7), online(SDA_8), of_size],
-    }
-}
+/// The rules for the length of an element of a known type: the rule of the type, of the length
+/// attribute and of the size of the type. A failure does not show which of them is violated.
+const LENGTH_RULES: [ClauseId; 3] = [SDA_7, SDA_8, GEN_5];
 
-/// Checks the name of an element's type. Returns the type, if the manual has it.
+/// Checks the name of an element's type. Returns the type if the manual has this type.
 pub(crate) fn check_type(
     record: &mut impl Checks,
     name: &str,
@@ -58,7 +52,8 @@ pub(crate) fn check_type(
     data_type
 }
 
-/// Checks the length of an element of a type.
+/// Checks the length of an element in bytes. If the type is unknown or has no fixed size, only a
+/// length of 0 is wrong.
 pub(crate) fn check_length(
     record: &mut impl Checks,
     data_type: Option<DataType>,
@@ -68,7 +63,7 @@ pub(crate) fn check_length(
     let found = || format!("{} of {at}", plural(length, "byte"));
     if let Some((data_type, size)) = data_type.and_then(|one| Some((one, one.size()?))) {
         let expected = || format!("the {} of {data_type}", plural(size, "byte"));
-        record.check(length_rules(data_type), length == size, expected, found);
+        record.check(LENGTH_RULES, length == size, expected, found);
         record.check(SDA_8, length > 0, "a length of at least 1 byte", found);
     } else {
         record.check(assumed(SDA_8), length > 0, "a length of at least 1 byte", found);
@@ -131,7 +126,8 @@ impl ExchangeJudge<'_> {
             }
             _ => return,
         }
-        // That the number of elements, which is element 0, has 4 bytes is assumed.
+        // Element 0 is the number of element types. Its size of 4 bytes is assumed, so it is not
+        // checked.
         if call.index_offset.get() & 0xFFF == 0 {
             return;
         }
@@ -159,7 +155,7 @@ impl ExchangeJudge<'_> {
             return;
         };
         let record = &mut self.records.on(Topic::CncSda, observation);
-        // If requested by rank, the returned rank may differ from the requested one.
+        // If the request contains the rank of a channel, the rank in the reply may differ.
         let is_by_number = find.class_group().addressing == Addressing::Logical;
         let instance = (is_by_number || class == Class::Spindle).then_some(query.channel);
         check_group(record, (class, instance), group);
@@ -167,7 +163,9 @@ impl ExchangeJudge<'_> {
     }
 }
 
-/// Checks the group in the address of an instance: it must match the class and the number, if known.
+/// Checks the group in the address of an instance: the group must match the class. If the number of
+/// the instance is known, the group must also match the number and have the logical bit, or for a
+/// spindle lack this bit.
 pub(crate) fn check_group(
     record: &mut impl Checks,
     (class, instance): (Class, Option<u32>),
@@ -191,8 +189,9 @@ pub(crate) fn check_group(
     }
 }
 
-/// Checks the offset in the address of an instance, which is printed for the decoder and for one axis
-/// of the HLD.
+/// Checks the offset in the address of an instance. The manual prints the offset of a channel, the
+/// stride of the axes of the decoder, and the offset of one axis of the HLD. For other axes, both
+/// strides are accepted, and the rule is assumed.
 pub(crate) fn check_offset(
     record: &mut impl Checks,
     (class, channel, axis): (Class, u32, u32),
@@ -213,7 +212,7 @@ pub(crate) fn check_offset(
     record.check(rule, expected.contains(&Some(offset)), shown.join(" or "), found);
 }
 
-/// Index group and index offset of an element's content.
+/// The index group and the index offset of the content of the element that a call addresses.
 fn key(call: &Call<'_>) -> Option<(u32, u32)> {
     let Some(Group::Class(group)) = call.index_group.parts() else { return None };
     let mut content = group;
@@ -227,6 +226,30 @@ mod tests {
     use ads_cnc_vectors::Level;
 
     use super::*;
+    use crate::evidence::Evidence;
+    use crate::rules::topic::TopicRecords;
+
+    struct Unobserved;
+
+    impl Observation for Unobserved {
+        fn evidence(&self) -> Evidence {
+            Evidence::default()
+        }
+    }
+
+    /// GEN-5 and its parts state the size of each of these types at the level *must*.
+    #[test]
+    fn a_length_that_is_not_the_size_of_the_type_fails() {
+        for data_type in DataType::ALL.into_iter().filter(|one| element_type(one.name()).is_some())
+        {
+            let Some(size) = data_type.size() else { continue };
+            let mut records = TopicRecords::new();
+            let of_type = Some(data_type);
+            let at = "an element";
+            check_length(&mut records.on(Topic::CncSda, &Unobserved), of_type, size + 1, &at);
+            assert_eq!(records.failed(), 1, "{data_type}");
+        }
+    }
 
     #[test]
     fn a_type_name_of_another_width_is_not_an_error() {

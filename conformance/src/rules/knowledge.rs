@@ -1,4 +1,4 @@
-//! The known state of a CNC, and what the judgement of an exchange needs.
+//! The known state of a CNC, and the context in which an exchange is judged.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -22,8 +22,8 @@ pub(super) struct ExchangeJudge<'j> {
 }
 
 impl ExchangeJudge<'_> {
-    /// Judges a client's request for an index or name that does not exist according to an earlier reply.
-    /// No manual forbids such a request, so the rule is assumed.
+    /// Records a failed check of a client's request for an index that does not exist according to
+    /// an earlier reply. No manual forbids such a request, so the rule is assumed.
     pub(super) fn judge_nonexistent(
         &mut self,
         observation: &dyn Observation,
@@ -37,9 +37,10 @@ impl ExchangeJudge<'_> {
     }
 }
 
-/// The remaining memory for names, objects and elements of all CNCs.
+/// The remaining memory for the stored state of all CNCs.
 #[derive(Debug)]
 pub(super) struct MemoryBudget {
+    /// Number of bytes.
     pub(super) left: usize,
     /// Number of entries that were not stored.
     pub(super) missed: u64,
@@ -49,7 +50,8 @@ impl MemoryBudget {
     pub(super) const ALL: usize = 0x180_0000;
     pub(super) const OF_RUN: usize = 0x40_0000;
 
-    /// Reserves memory for an entry of this size plus overhead. Returns whether enough was left.
+    /// Reserves memory for an entry with `bytes` bytes of text and 512 bytes of overhead. Returns
+    /// whether enough memory was left.
     pub(super) fn take(&mut self, bytes: usize) -> bool {
         let left = self.left.checked_sub(bytes.saturating_add(512));
         match left {
@@ -72,7 +74,7 @@ pub(super) struct Knowledge {
 }
 
 impl Knowledge {
-    /// `is_lost`: whether the CNC may have received requests before the first one observed.
+    /// `is_lost`: whether the CNC may have received requests before the first observed request.
     pub(super) fn new(is_lost: bool) -> Self {
         Self {
             streams: ObservedProgramStreams::new(is_lost),
@@ -96,6 +98,7 @@ pub(super) struct ObservedList {
     pub(super) count: Option<u32>,
     /// By index: the descriptor, and whether it was read alone.
     pub(super) known: BTreeMap<u32, (Descriptor, bool)>,
+    /// By ID of an object: its index.
     pub(super) ids: BTreeMap<u32, u32>,
 }
 
@@ -103,7 +106,7 @@ pub(super) struct ObservedList {
 pub(super) struct ObservedContent {
     pub(super) name: String,
     pub(super) size: u32,
-    /// Size of its type in bytes, if it is fixed.
+    /// Size of the type in bytes; `None` for a type without a fixed size.
     pub(super) type_size: Option<u32>,
     pub(super) writable: bool,
 }
@@ -146,10 +149,11 @@ pub(super) struct Variables {
 
 #[derive(Debug, Default)]
 pub(super) struct ChannelVariables {
-    /// By kind; the empty kind has the sum of all.
+    /// By kind: the number of variables. For the empty kind, the sum for V.E, V.G and V.A.
     pub(super) counts: BTreeMap<String, u32>,
     /// By name: the description, and the kind and index with which it was requested.
     pub(super) described: BTreeMap<String, (Description, String, u32)>,
+    /// By handle: the name.
     pub(super) handles: BTreeMap<u32, String>,
     /// By name: the first known handle.
     pub(super) names: BTreeMap<String, u32>,
@@ -171,15 +175,18 @@ impl ObservedProgramStreams {
 
 #[derive(Default)]
 pub(super) struct ObservedProgramStream {
-    /// The last packet that was rejected, and when.
-    pub(super) refused: Option<(Vec<u8>, Option<Duration>)>,
-    /// Checks the program so far; `None` while its beginning is unknown.
+    /// The packet of the previous write, if it was rejected, and the time of that write, if known.
+    pub(super) rejected: Option<(Vec<u8>, Option<Duration>)>,
+    /// Checks the current program; `None` before the first accepted packet of a program, and while
+    /// packets may be missing.
     pub(super) checker: Option<Checker>,
 }
 
 impl fmt::Debug for ObservedProgramStream {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ObservedStream").field("refused", &self.refused).finish_non_exhaustive()
+        f.debug_struct("ObservedProgramStream")
+            .field("rejected", &self.rejected)
+            .finish_non_exhaustive()
     }
 }
 
@@ -187,7 +194,7 @@ impl fmt::Debug for ObservedProgramStream {
 #[derive(Debug, Default)]
 pub(super) struct Services {
     pub(super) known: BTreeMap<u32, ObservedInterface>,
-    /// Whether the CNC may have received requests before the first one observed.
+    /// Whether the CNC may have received requests before the first observed request.
     pub(super) is_lost: bool,
 }
 

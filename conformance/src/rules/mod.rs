@@ -1,8 +1,10 @@
-//! Checks of a request and its reply, alone and together with earlier ones, by the manuals' clauses.
+//! Checks of a request and its reply, alone and together with earlier exchanges, by the manuals'
+//! clauses.
 //!
-//! `ads-cnc check` applies them to captured traffic, `ads-cnc run` to every exchange with a target,
-//! and `ads-cnc run --client` and `--listen` to every request of a client. A `RuleBook` records the
-//! checks by `Topic`.
+//! `ads-cnc check` applies these checks to captured traffic. `ads-cnc run` applies the checks of
+//! replies to every reply that a case receives from a target, if the frame of the reply violates no
+//! rule of AMS/TCP. With `--client` or `--client-listen`, it applies the checks of requests to
+//! every request of a client. A `RuleBook` records the checks by `Topic`.
 
 mod book;
 mod elements;

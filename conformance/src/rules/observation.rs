@@ -9,7 +9,8 @@ use crate::exchange::Exchange;
 pub(crate) trait Observation {
     fn evidence(&self) -> Evidence;
 
-    /// When the request was sent, relative to any common start; `None` if unknown.
+    /// The time at which the request was sent, since a start that all observations of a `RuleBook`
+    /// share; `None` if unknown.
     fn time(&self) -> Option<Duration> {
         None
     }

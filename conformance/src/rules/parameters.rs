@@ -36,8 +36,12 @@ impl ExchangeJudge<'_> {
         let Some(ObservedCount { number: count, answered_beyond }) = known else { return };
         let count = *count;
         if index > count && reply.is_some() {
-            // A program may have created a parameter; the next count will show that.
+            // A program may have created a parameter. The next number of parameters shows this.
             *answered_beyond = Some(index);
+            return;
+        }
+        if index <= count && reply.is_none() {
+            // A program may have deleted a parameter since the number was read.
             return;
         }
         if index > count {
@@ -59,9 +63,8 @@ impl ExchangeJudge<'_> {
         record.check(DYN_2, of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
     }
 
-    /// Stores a number. Names are not stored, because a parameter's index may change.
-    ///
-    /// DYN-4
+    /// Compares the number of parameters of a kind with the previous number, and stores it. Names
+    /// are not stored, because the index of a parameter may change (DYN-4).
     fn number_of_parameters(
         &mut self,
         observation: &dyn Observation,
@@ -69,7 +72,8 @@ impl ExchangeJudge<'_> {
         number: u32,
     ) {
         let length = key.1.len();
-        // A subprogram may have created a V.L variable and deleted it at its end.
+        // Between two counts, a subprogram may have created a V.L variable, which is deleted when
+        // the subprogram ends.
         let rule = if key.1 == "V.L" { assumed(DYN_5) } else { DYN_5.into() };
         let counts = &mut self.cnc.parameters.counts;
         if !counts.contains_key(&key) && !self.budget.take(length) {
@@ -81,6 +85,50 @@ impl ExchangeJudge<'_> {
             let expected =
                 || format!("an error number for index {index} between two counts of {number}");
             self.records.on(Topic::CncDyn, observation).check(rule, false, expected, "a success");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc::address::Channel;
+    use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader};
+    use ads_cnc::dynamic::DynamicKind;
+    use ads_cnc::operation::{CountDynamic, DynamicNameByIndex};
+
+    use super::*;
+    use crate::exchange::{AdsReply, Exchange};
+    use crate::gate::NET_ID;
+    use crate::rules::RuleBook;
+
+    /// Judges a reply. Returns whether a check of DYN-5 was recorded.
+    fn judges_index(
+        book: &mut RuleBook,
+        request: Request<'_>,
+        result: AdsError,
+        data: &[u8],
+    ) -> bool {
+        let mut buf = [0; 64];
+        let call = request.encode(&mut buf).unwrap();
+        let address = AmsAddr { net_id: NET_ID, port: call.port };
+        let header = AmsHeader::request(address, address, call.service.command(), 1);
+        let reply = AdsReply { ams_error: AdsError::NO_ERROR, result, data: Some(data.to_vec()) };
+        let exchange = Exchange { outcome: Ok((reply, header)), ..Exchange::new(&call) };
+        book.reply(&exchange, NET_ID, &call, &exchange, &[]);
+        let record = book.records.take_of_replies("replies-dyn");
+        record.judgements.iter().any(|one| one.requirement == "DYN-5")
+    }
+
+    /// A rejection shows that an index does not exist, but not that an index within the number does.
+    #[test]
+    fn a_rejected_index_within_the_number_passes_nothing() {
+        let (channel, mut book) = (Channel::new(1).unwrap(), RuleBook::new(false));
+        let count = CountDynamic::new(channel, DynamicKind::P).into();
+        judges_index(&mut book, count, AdsError::NO_ERROR, &[2, 0, 0, 0]);
+        for (index, expected) in [(1, false), (2, false), (3, true)] {
+            let name = DynamicNameByIndex::new(channel, DynamicKind::P, index).unwrap().into();
+            let found = judges_index(&mut book, name, AdsError::INVALID_DATA, &[]);
+            assert_eq!(found, expected, "{index}");
         }
     }
 }

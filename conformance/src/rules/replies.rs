@@ -1,4 +1,4 @@
-//! Judges a reply alone, and passes it on for the comparison with earlier ones.
+//! Judges a reply alone, and passes the reply on for the comparison with earlier replies.
 
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::AmsHeader;
@@ -16,7 +16,7 @@ use crate::judge::{Checks as _, Rule, assumed};
 use crate::number::to_u32;
 use crate::text::plural;
 
-/// Checks the headers of a reply.
+/// Records the violations in the headers of a reply.
 pub(super) fn headers(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -32,7 +32,8 @@ pub(super) fn headers(
     }
 }
 
-/// Judges the reply as that of its service, and returns it if it decodes.
+/// Judges whether the reply has the fields of the requested service and at most the requested
+/// length. Returns the reply if it has these fields.
 pub(super) fn service<'e>(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -60,7 +61,7 @@ pub(super) fn service<'e>(
     }
 }
 
-/// Records a pass of ADS-6 for an error reply that ends before the fields that only a success needs.
+/// Records a pass for an error reply that has no payload or ends after its result (ADS-6).
 fn short_error(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -83,7 +84,8 @@ pub(super) fn judge(
     let request = match call.dispatch() {
         Ok(request) => request,
         Err(DispatchError::Stream(error)) => {
-            // That the CNC must reject the request is assumed, unless its count is too large.
+            // The rule that the CNC rejects the request is assumed, unless a count in the request
+            // is too large (VAR-24).
             let spec = error.field().spec().map(|spec| spec.clause);
             let spec =
                 if error.kind() == ErrorKind::TooMany { Some(VAR_24.as_str()) } else { spec };
@@ -131,8 +133,8 @@ pub(super) fn judge(
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
             let mut record = context.records.on(Topic::of_reply(request.function()), observation);
             let clause = if record.knows(clause) { clause } else { spec.clause };
-            // The size of a number of elements is assumed, and so is the reply to a read length
-            // between two multiples of a descriptor's length.
+            // The size of the number of element types is assumed, and so is the reply to a read
+            // length between two multiples of a descriptor's length.
             let is_assumed = match &request {
                 Request::CountElements(_) => true,
                 Request::ReadDescriptors(_) => {
@@ -149,7 +151,7 @@ pub(super) fn judge(
     together(context, observation, &request, reply.as_ref(), call);
 }
 
-/// Judges a reply together with earlier ones.
+/// Judges a reply together with earlier replies.
 fn together(
     context: &mut ExchangeJudge<'_>,
     observation: &dyn Observation,

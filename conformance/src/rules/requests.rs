@@ -14,7 +14,8 @@ use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::text::plural;
 use crate::values::until_nul;
 
-/// Checks the headers of a request.
+/// Checks the AMS header of a request. `again` is `is_repeated` of
+/// `RuleBook::request_headers`.
 pub(super) fn headers(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -35,7 +36,8 @@ pub(super) fn headers(
     }
 }
 
-/// Judges a request. Returns its address if no manual documents it.
+/// Judges a request. Returns the service and the address of the request as text if the request is
+/// not judged, because no function has this address or because the request may access content.
 pub(super) fn judge(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -66,13 +68,13 @@ pub(super) fn judge(
             }
             None
         }
-        Err(refusal) => {
+        Err(rejection) => {
             let other = if call.port == AmsPort::COM { AmsPort::SDA } else { AmsPort::COM };
             let elsewhere = Call { port: other, ..*call };
             let is_elsewhere = match elsewhere.dispatch() {
                 Ok(_) => true,
                 Err(DispatchError::Stream(_) | DispatchError::Service { .. }) => {
-                    matches!(refusal, DispatchError::Group(_))
+                    matches!(rejection, DispatchError::Group(_))
                 }
                 Err(_) => false,
             };
@@ -83,8 +85,8 @@ pub(super) fn judge(
                 record.check(port_rule(other), false, expected, || format!("port {}", call.port));
                 return None;
             }
-            if matches!(refusal, DispatchError::Service { .. }) {
-                return wrong_service(records, observation, call, refusal);
+            if matches!(rejection, DispatchError::Service { .. }) {
+                return wrong_service(records, observation, call, rejection);
             }
             let Call { port, service, index_group, index_offset, .. } = call;
             Some(format!("{service} {index_group}, {index_offset} at {port}"))
@@ -92,12 +94,15 @@ pub(super) fn judge(
     }
 }
 
-/// The manual states the port of COM; the ports of SDA and GEO are documented online only.
+/// The rule for the port of a task. The sample programs of the manuals use the port of COM; the
+/// ports of SDA and GEO are documented online.
 fn port_rule(port: AmsPort) -> Rule {
     if port == AmsPort::COM { GEN_4.into() } else { online(GEN_4) }
 }
 
-/// The function at a call's address, whatever its service.
+/// The function at the index group and index offset of a call, whatever the port of the call.
+/// Access to content must have the service of the call; other functions may have any service, and
+/// take precedence.
 pub(crate) fn function_at(call: &Call<'_>) -> Option<Function> {
     let group = call.index_group.parts()?;
     let mut all = Function::ALL.iter().copied().filter(|function| {
@@ -109,14 +114,14 @@ pub(crate) fn function_at(call: &Call<'_>) -> Option<Function> {
     first.or_else(|| all.find(|function| function.spec().service == call.service))
 }
 
-/// Judges a call of a function by the wrong service. In the decoder's group it may also be a read
-/// of all elements in sequence, whose offsets collide with functions (SDA-12): such a call is only
-/// counted.
+/// Judges a call of a function by the wrong service. A Read, or any call at the address of data
+/// streaming, may instead access content whose address is also that of a function (SDA-12): such a
+/// call is not judged, and its service and address are returned as text.
 fn wrong_service(
     records: &mut TopicRecords,
     observation: &dyn Observation,
     call: &Call<'_>,
-    refusal: DispatchError,
+    rejection: DispatchError,
 ) -> Option<String> {
     let function = function_at(call)?;
     let spec = function.spec();
@@ -130,7 +135,7 @@ fn wrong_service(
         Rule::of(spec.clause),
         false,
         || format!("{} for {}", spec.service, spec.name),
-        || refusal,
+        || rejection,
     );
     None
 }
@@ -159,7 +164,8 @@ fn documented(
     if let Request::ReadByHandle(_) | Request::WriteByHandle(_) = request {
         record.pass(VAR_24);
     }
-    if let Some(least) = spec.reply.filter(|reply| reply.layout().is_fixed()).map(least) {
+    if let Some(reply) = spec.reply.filter(|reply| reply.layout().is_fixed()) {
+        let least = reply.layout().max;
         let rule = assumed(ads_service::clause(call.service));
         let asked = call.read_length;
         let mut record = records.on(Topic::ClientServices, observation);
@@ -180,11 +186,6 @@ fn documented(
             found,
         );
     }
-}
-
-/// The length of a stream of fixed length; 0 for others.
-fn least(stream: Stream) -> u32 {
-    if stream.layout().is_fixed() { stream.layout().max } else { 0 }
 }
 
 /// The name of a variable in a request of this function.

@@ -56,7 +56,8 @@ impl ExchangeJudge<'_> {
     }
 }
 
-/// Checks the size: a text has at most 128 bytes, a state is an UNS32.
+/// Checks the size of a value: REQUEST and RESPONSE have at most 128 bytes, a state has 4 bytes.
+/// The size of UUID is not checked.
 fn form(record: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
     let found = || format!("{} of {}", plural(length, "byte"), variable.name());
@@ -80,7 +81,7 @@ impl ObservedInterface {
         match variable {
             ServiceVariable::RequestState => {
                 if is_set(value) && self.answered {
-                    // This is a new request.
+                    // The previous request is answered, so this is a new request.
                     *self = Self::default();
                 }
                 self.read_state = is_set(value);

@@ -13,7 +13,8 @@ use super::topic::Topic;
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::text::plural;
 
-/// A client that has sent nothing for this long after a rejected write has given up.
+/// If a client writes nothing for this time after a rejected write, it is assumed that the client
+/// does not repeat the rejected write.
 const RETRY_TIMEOUT: Duration = Duration::from_secs(30);
 
 impl ExchangeJudge<'_> {
@@ -51,18 +52,19 @@ impl ExchangeJudge<'_> {
         let now = observation.time();
         let is_lost = self.cnc.streams.is_lost;
         let stream = self.cnc.streams.known.entry(call.index_group.get()).or_default();
-        if let Some((refused, then)) = stream.refused.take() {
+        if let Some((rejected, then)) = stream.rejected.take() {
             let waited = match (now, then) {
                 (Some(now), Some(then)) => now.saturating_sub(then),
                 _ => Duration::ZERO,
             };
             if waited < RETRY_TIMEOUT {
                 let expected =
-                    || format!("the {} that were rejected before", plural(refused.len(), "byte"));
-                record.check(STM_6, refused == data, expected, "other data");
+                    || format!("the {} that were rejected before", plural(rejected.len(), "byte"));
+                record.check(STM_6, rejected == data, expected, "other data");
             }
         }
-        // After a gap the data may be inside a comment, where every byte is allowed.
+        // If packets are missing, the data may be inside a comment, where forbidden keywords are
+        // permitted.
         if accepted && !is_lost {
             let checker = stream.checker.get_or_insert_with(Checker::new);
             let mut ended = false;
@@ -85,7 +87,7 @@ impl ExchangeJudge<'_> {
                 stream.checker = None;
             }
         } else if !accepted && passed && whole {
-            stream.refused = Some((data.to_vec(), now));
+            stream.rejected = Some((data.to_vec(), now));
         }
         let mut record = self.records.on(Topic::CncStream, observation);
         let expected = "an error number for more than 992 bytes";

@@ -124,8 +124,8 @@ pub(crate) fn captured_cases() -> impl Iterator<Item = Case> {
     Topic::ALL.iter().map(|topic| topic.case())
 }
 
-/// The cases that judge every reply to a run's own requests. The headers are judged by the case of
-/// all frames.
+/// The cases that judge every reply to the requests of a run. The case `ads-every-frame` judges the
+/// headers of these replies.
 pub(crate) fn reply_cases() -> impl Iterator<Item = Case> {
     let replies = Topic::ALL.iter().filter(|topic| topic.subject() == CaseSubject::CapturedCnc);
     let replies = replies.filter(|topic| **topic != Topic::CncFrames).map(|topic| topic.case());
@@ -137,7 +137,8 @@ fn reply_case_id(captured: &str) -> String {
     captured.replacen("cap-cnc", "replies", 1)
 }
 
-/// The requirements of an area in the function table and the field tables.
+/// The requirements in `also`, and those that the function table and the field tables name for the
+/// functions of an area: for their requests if `subject` is a client, otherwise for their replies.
 fn of_area(area: &str, subject: CaseSubject, also: Vec<&'static str>) -> Vec<&'static str> {
     let mut all = also;
     for spec in Function::ALL.iter().map(|function| function.spec()) {
@@ -183,7 +184,7 @@ impl TopicRecords {
         }
     }
 
-    /// The number of cases with a failed check.
+    /// The number of cases with a check whose verdict is fail.
     pub(crate) fn failed(&self) -> usize {
         let has_failed = |record: &Record| {
             record.judgements.iter().any(|judgement| judgement.verdict == Verdict::Fail)
@@ -191,14 +192,14 @@ impl TopicRecords {
         self.records.iter().filter(|(_, record, _)| has_failed(record)).count()
     }
 
-    /// Takes the record of one of the [`reply_cases`].
+    /// Takes the record of the case with this ID, which is one of the [`reply_cases`].
     pub(crate) fn take_of_replies(&mut self, id: &str) -> Record {
         let mut all = self.records.iter_mut();
         let mine = all.find(|(case, ..)| reply_case_id(&case.id) == id);
         mine.map(|(_, record, _)| std::mem::take(record)).unwrap_or_default()
     }
 
-    /// The record of all checks of a client.
+    /// The record of all checks of requests.
     pub(crate) fn into_client_record(self) -> Record {
         let mut all = Record::default();
         let of_client = |case: &Case| case.subject == CaseSubject::CapturedClient;
@@ -231,7 +232,7 @@ impl TopicRecord<'_> {
         self.subject = Some(name.to_string());
     }
 
-    /// Records an inconclusive check: the bytes that it needs were not captured.
+    /// Records an inconclusive check, because bytes that the check needs were not captured.
     pub(crate) fn open(&mut self, rule: impl Into<Rule>, found: impl Describe) {
         if let Some((_, record, _)) = &mut self.case {
             let (verdict, expected) = (Verdict::Inconclusive, "all its bytes in the capture");

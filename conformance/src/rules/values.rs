@@ -11,7 +11,7 @@ use super::topic::Topic;
 use crate::judge::{Checks as _, assumed};
 use crate::text::plural;
 
-/// Maximum size in bytes of a text that can be declared.
+/// Maximum size in bytes with which a text variable can be declared (VAR-25).
 const TEXT_MAX: usize = 800;
 
 impl TargetVariable {

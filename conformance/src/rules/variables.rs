@@ -14,11 +14,11 @@ use super::topic::Topic;
 use crate::judge::{Checks, assumed};
 use crate::text::plural;
 
-/// Maximum number of channels that are distinguished.
+/// Maximum number of channels of a CNC whose variables are stored.
 const CHANNELS_MAX: usize = 512;
 
 impl ChannelVariables {
-    /// Stores the name of a handle, if there is memory for it.
+    /// Stores the name of a handle and the first handle of the name, if enough memory is left.
     fn handle(&mut self, handle: u32, name: &str, budget: &mut MemoryBudget) {
         if self.handles.contains_key(&handle) || budget.take(name.len()) {
             self.handles.insert(handle, name.to_owned());
@@ -38,7 +38,7 @@ impl Variables {
         Some(self.channels.entry(group).or_default())
     }
 
-    /// The name of a handle, if its request was captured.
+    /// The name of a handle, if an observed reply contained this handle.
     pub(super) fn name_of(&self, group: u32, handle: u32) -> Option<&str> {
         self.channels.get(&group)?.handles.get(&handle).map(String::as_str)
     }
@@ -158,7 +158,7 @@ impl ExchangeJudge<'_> {
     /// The number of variables of a kind, unless a program may change it.
     fn bound(&mut self, call: &Call<'_>, kind: &str) -> Option<u32> {
         let counts = &self.cnc.variables.channel(call)?.counts;
-        // The empty kind includes all kinds, also those of programs.
+        // The number for the empty kind is not a bound either, because it belongs to several kinds.
         let is_of_program = kind.is_empty() || OF_PROGRAM.contains(&kind);
         counts.get(kind).copied().filter(|_| !is_of_program)
     }
@@ -173,7 +173,8 @@ impl ExchangeJudge<'_> {
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
         if changed {
-            // The configuration has changed, so the stored facts are obsolete.
+            // The configuration has changed, so everything that is stored about the channel is
+            // obsolete.
             *channel = ChannelVariables::default();
         }
         if channel.counts.len() < 64 {
@@ -308,7 +309,7 @@ pub(crate) fn check_description(record: &mut impl Checks, variable: &Description
     if variable.dimensions.is_empty() {
         let one = variable.size < size.saturating_mul(2);
         let found = || format!("{} of {name}", plural(variable.size, "byte"));
-        // The dimensions may be missing.
+        // If the size is larger, the description may lack the dimensions, so VAR-4 is judged too.
         record.check([VAR_7, VAR_4], one, "the size of one element without a dimension", found);
     }
     let whole = size.saturating_mul(element_count(&variable.dimensions));

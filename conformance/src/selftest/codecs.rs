@@ -1,5 +1,5 @@
-//! Tests the suite with codecs that have a defect, and with miniatures: small testees that behave in the
-//! same way in every case, mostly wrongly.
+//! Tests the suite with codecs that have a defect, and with miniatures: small testees, most of
+//! which have one kind of wrong behaviour, such as a crash in every tenth case.
 
 use std::time::Duration;
 
@@ -12,36 +12,38 @@ use crate::session::ToolError;
 use crate::suite;
 use crate::testee::{CodecTestee, JudgementOptions, Miniature, TesteeProcess, judge};
 
-/// Time limit for an answer of a miniature; with a miniature that hangs, each case lasts this long.
+/// Time limit for an answer of a miniature. A case in which a miniature hangs lasts this long.
 const TIMEOUT: Duration = Duration::from_millis(1000);
 
-/// A miniature behaves in the same way in every case, so only every `SHARE`-th case is run.
+/// Only every `SHARE`-th case is run, because the wrong behaviour of a miniature occurs in many
+/// cases.
 const SHARE: usize = 25;
 
 const TERMS: JudgementOptions<'static> =
     JudgementOptions { seed: 1, subject: CaseSubject::Testee, edition: None, strict: false };
 
 pub(super) fn candidates() -> Vec<Candidate> {
-    let seeds = faults::all().iter().filter(|seed| seed.is_for_codec()).map(of_seed);
-    seeds.chain(Miniature::ALL.map(of_miniature)).collect()
+    let defects = faults::all().iter().filter(|defect| defect.is_for_codec()).map(of_defect);
+    defects.chain(Miniature::ALL.map(of_miniature)).collect()
 }
 
-fn of_seed(seed: &'static SeededDefect) -> Candidate {
+fn of_defect(defect: &'static SeededDefect) -> Candidate {
     Candidate {
-        id: seed.id.clone(),
+        id: defect.id.clone(),
         group: SelfTestGroup::Codec,
-        what: seed.what.clone(),
-        targets: seed.requirements.clone(),
+        what: defect.what.clone(),
+        targets: defect.requirements.clone(),
         run: Box::new(move || {
-            // A field defect affects only the stream of the field, so only the cases of this stream run.
-            let field = seed.field();
+            // A field defect affects only streams with this field, so only the vectors of these
+            // streams run.
+            let field = defect.field();
             let touched = |case: &Case| match (&case.body, field) {
                 (Body::Vector(vector), Some(field)) => {
                     Stream::by_name(&vector.stream).is_some_and(|stream| field.touches(stream))
                 }
                 (_, field) => field.is_none(),
             };
-            let mut own = CodecTestee { defect: Some(seed.clone()) };
+            let mut own = CodecTestee { defect: Some(defect.clone()) };
             Ok(Some(judge(&mut own, cases().filter(touched).collect(), TERMS).outcomes))
         }),
     }
@@ -59,7 +61,8 @@ fn of_miniature(miniature: Miniature) -> Candidate {
     }
 }
 
-/// The requirements that a miniature breaks: that of the testee protocol only, or those of all cases.
+/// The requirements that a miniature breaks: only that of the testee protocol, or those of all
+/// cases that are run.
 fn targets(miniature: Miniature) -> Vec<&'static str> {
     match miniature {
         Miniature::KnowsAll

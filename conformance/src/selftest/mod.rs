@@ -1,9 +1,10 @@
 //! Tests the suite: a codec, CNC or client with a seeded defect must fail a requirement that the
 //! defect breaks, and a valid variant must not fail.
 //!
-//! A defect is caught if a requirement that it breaks fails. For a requirement below the level *must*, a
-//! warning or a difference suffices. A defect that is not caught needs a written reason, otherwise
-//! the self-test fails.
+//! A defect is caught if a requirement that it breaks fails. For a requirement below the level
+//! *must*, and for every codec, a warning or a difference suffices. If neither happens, the defect
+//! needs a written reason, otherwise the self-test fails. The detection table lists the defects
+//! that a run against a device misses; these need no reason.
 
 mod clients;
 mod cncs;
@@ -35,17 +36,19 @@ pub use undetectable::UNSEEN;
 pub struct SelfTest {
     /// All trials, in the order of groups and IDs.
     pub tried: Vec<Trial>,
-    /// The IDs of written reasons why a defect survives, for which no surviving defect was found.
+    /// The groups and ID prefixes of the written reasons why a defect survives, for which no
+    /// surviving defect was found.
     pub stale: Vec<String>,
     /// The detection table, and the differences of the defects that were measured again.
     pub detection: CheckedTable,
-    /// The result of the pairs of defects; empty if only some of the trials were run.
+    /// The result of the pairs of defects; `PairFigures::default()` if only some of the trials were
+    /// run.
     pub pairs: PairFigures,
 }
 
 impl SelfTest {
-    /// The number of trials of a group with the desired result, and the number of all its trials. Trials
-    /// in which the defect changed nothing do not count in either number.
+    /// The number of trials of a group with the desired result, and the number of all trials of the
+    /// group. Trials in which the defect changed nothing do not count in either number.
     pub fn rate(&self, group: SelfTestGroup) -> (usize, usize) {
         let differs = |one: &&Trial| one.group == group && one.result != TrialResult::Same;
         let mine = || self.tried.iter().filter(differs);
@@ -55,8 +58,9 @@ impl SelfTest {
         (mine().filter(right).count(), mine().count())
     }
 
-    /// The exit code. Failures are: a failed trial, a stale reason, a difference from the detection table,
-    /// and a pair in which one defect hides the other.
+    /// The exit code: [`Exit::Nothing`] without a trial; [`Exit::Failure`] after a failed trial, a
+    /// stale reason, a difference from the detection table, or a pair in `PairFigures::hidden`;
+    /// otherwise [`Exit::Success`].
     pub fn exit(&self) -> Exit {
         let differs = !self.detection.differences.is_empty();
         let hides = !self.pairs.hidden.is_empty();
@@ -74,9 +78,10 @@ impl SelfTest {
     }
 }
 
-/// Runs the trials that a word in `only` selects by the start of their ID, by their group or by a
-/// requirement; all trials if `only` is empty. `scope` selects the defects that are measured again for
-/// the detection table; with words in `only`, all selected defects are. Calls `tell` after each trial.
+/// Runs the trials that a word in `only` selects by the start of their ID, by the name of their
+/// group, or by a requirement, an area or a section; all trials if `only` is empty. `scope` selects
+/// the defects that are measured again for the detection table; with words in `only`, all defects
+/// that they select are measured. Calls `report_progress` after each trial, measurement and pair.
 pub fn run(
     only: &[String],
     scope: Scope,
@@ -94,7 +99,8 @@ pub fn run(
     candidates.extend(cncs::candidates());
     candidates.extend(clients::candidates());
     candidates.retain(|one| wanted(&one.id, one.group, &one.targets));
-    // Uses more threads than processors, because most trials wait for a connection.
+    // Uses more threads than processors, because the trials of clients and miniatures wait for
+    // another thread or process.
     let tried = parallel(
         ("defects tried once", &candidates),
         3,
@@ -103,17 +109,17 @@ pub fn run(
         &report_progress,
     );
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
-    let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
-    let seeds = seeds.filter(|seed| {
-        let group = if seed.kind == DefectKind::Different {
+    let defects = faults::all().iter().filter(|defect| defect.is_for_cnc());
+    let defects = defects.filter(|defect| {
+        let group = if defect.kind == DefectKind::Different {
             SelfTestGroup::Different
         } else {
             SelfTestGroup::Cnc
         };
-        wanted(&seed.id, group, &seed.requirements)
+        wanted(&defect.id, group, &defect.requirements)
     });
     let scope = if only.is_empty() { scope } else { Scope::All };
-    let detection = CheckedTable::new(seeds.collect(), scope, only.is_empty(), &report_progress);
+    let detection = CheckedTable::new(defects.collect(), scope, only.is_empty(), &report_progress);
     let pairs = if only.is_empty() {
         detection::pairs(&detection.table, &report_progress)
     } else {

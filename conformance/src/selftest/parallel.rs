@@ -5,7 +5,8 @@ use std::thread;
 
 use crate::mutex::lock;
 
-/// The progress of a part of the self-test: the number of all, processed and failed items.
+/// The progress of a part of the self-test: the numbers of all items, processed items and failed
+/// items.
 #[derive(Clone, Copy, Debug)]
 pub struct SelfTestProgress {
     /// The text after the number of items, such as "defects tried once".

@@ -3,7 +3,7 @@
 use super::trial::{SelfTestGroup, Trial, TrialResult};
 use super::undetectable::UNSEEN;
 
-/// The group and the prefix of the IDs of defects, and the reason why no case need detect them.
+/// The group and the prefix of the IDs of defects, and the reason why these defects may survive.
 #[rustfmt::skip]
 const REASONS: &[(SelfTestGroup, &str, &str)] = &[
     (
@@ -31,7 +31,7 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[
     (SelfTestGroup::Cnc, "write-object.unknown-axis-is-first", NOT_WRITTEN),
 ];
 
-/// Reasons shared by several generated defects.
+/// Reasons in `REASONS` and `MISSED`.
 const NOT_WRITTEN: &str = "No case writes to a channel or an axis that is not configured.";
 const ANY_TEXT: &str = "An element may have any name, unit and write flag.";
 const CONTENT: &str =
@@ -41,7 +41,8 @@ const UNCHANGED: &str = "A success without a change differs from an error only b
 /// The reason for the defects in [`UNSEEN`].
 const INSIDE: &str = "No case can detect it; a test of the simulated CNC does.";
 
-/// The prefix of the IDs of defects, and the reason why a run against a device misses them.
+/// The prefix of the IDs of defects, and the reason why a run against a device misses them. Of
+/// several matching prefixes, the first prefix counts.
 #[rustfmt::skip]
 const MISSED: &[(&str, &str)] = &[
     ("cnc.var.cycle-", "V.CYC is in no list: a profile names it."),
@@ -78,7 +79,7 @@ const MISSED: &[(&str, &str)] = &[
     ("cnc.svc.request-state-stays", "Only the service of an NC program shows it."),
 ];
 
-/// Reasons shared by several missed defects.
+/// Reasons in `MISSED`.
 const SPINDLE: &str = "A spindle that no query finds is known by a profile only.";
 const MALFORMED: &str = "Only malformed queries ask for an axis that is not configured.";
 const ANY_CONTENT: &str = "An element may have any content.";

@@ -10,7 +10,8 @@ use crate::text::plural;
 /// Maximum number of requirements that are printed for a trial.
 const TARGETS_SHOWN: usize = 6;
 
-/// Prints the result of a self-test; with `verbose`, also each trial.
+/// Prints the result of a self-test, and each trial that does not have the desired result; with
+/// `verbose`, every trial and every missed defect.
 pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     for one in &test.tried {
         let fine = matches!(

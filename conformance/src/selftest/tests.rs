@@ -18,7 +18,7 @@ fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<CaseOutcome> {
         verdicts: verdicts.collect(),
         checks: 1,
         note: None,
-        refused: false,
+        rejected: false,
         time: None,
     }]
 }
@@ -128,7 +128,7 @@ fn every_reason_belongs_to_a_trial() {
 #[test]
 fn every_reason_belongs_to_a_missed_defect() {
     for start in reasons::missed() {
-        assert!(faults::all().iter().any(|seed| seed.id.starts_with(start)), "{start}");
+        assert!(faults::all().iter().any(|defect| defect.id.starts_with(start)), "{start}");
     }
 }
 
@@ -137,8 +137,8 @@ fn every_reason_belongs_to_a_missed_defect() {
 fn the_table_is_complete() {
     let table = DetectionTable::published().unwrap();
     let renew = "run `ads-cnc selftest --renew conformance/doc`";
-    let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
-    let ids: Vec<&str> = seeds.map(|seed| seed.id.as_str()).collect();
+    let defects = faults::all().iter().filter(|defect| defect.is_for_cnc());
+    let ids: Vec<&str> = defects.map(|defect| defect.id.as_str()).collect();
     let rows: Vec<&str> = table.rows.iter().map(|row| row.id.as_str()).collect();
     let lack = |of: &[&str], all: &[&str]| {
         all.iter().filter(|id| !of.contains(id)).map(|id| (*id).to_owned()).collect::<Vec<_>>()

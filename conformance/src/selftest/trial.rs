@@ -15,7 +15,7 @@ pub enum SelfTestGroup {
     Cnc,
     /// Clients with a defect, judged by the scenarios.
     Client,
-    /// Miniatures: testees that misbehave in the same way in every case.
+    /// Miniatures: small testees with one kind of wrong behaviour.
     Miniature,
     /// Valid variants of a CNC or a client, and correct miniatures.
     Different,
@@ -35,9 +35,11 @@ pub struct Trial {
     pub what: String,
     /// The requirements that the defect breaks; empty for a valid variant.
     pub targets: Vec<String>,
+    /// The requirements that failed; after a harness error, the requirements with a harness error;
+    /// if the trial could not be run, the error.
     pub failed: Vec<String>,
     pub result: TrialResult,
-    /// The written reason why the defect may survive; only for a defect that survived.
+    /// The written reason why the defect may survive; only for a defect that was not caught.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -63,8 +65,9 @@ pub enum TrialResult {
     /// A requirement that the defect breaks has failed or, below the level *must*, has a warning or a
     /// difference.
     Caught,
-    /// For codecs only: a vector of a requirement that the defect breaks has a warning or a difference,
-    /// because the manuals do not state everything that the vector expects.
+    /// For codecs only: no requirement that the defect breaks has failed, but a case of such a
+    /// requirement has a warning or a difference, because the manuals do not state everything that
+    /// a vector expects.
     Noticed,
     /// Only requirements that the defect does not break have failed.
     Elsewhere,
@@ -74,9 +77,9 @@ pub enum TrialResult {
     Quiet,
     /// A valid variant, but a requirement has failed.
     FalseAlarm,
-    /// The defect changed no byte in any exchange, so it is not detectable.
+    /// The defect changed no byte in any exchange of the trial, so it is not detectable.
     Same,
-    /// The trial could not be run.
+    /// The trial could not be run, or had a harness error.
     Broken,
 }
 
@@ -95,8 +98,8 @@ pub(super) fn whole(id: &str) -> &str {
     id.split_once('.').map_or(id, |(of, _)| of)
 }
 
-/// The failed requirements, and the result of the trial. After a harness error, the requirements
-/// with a harness error instead.
+/// The failed requirements and the result of the trial. After a harness error, the requirements
+/// with a harness error are returned instead of the failed requirements.
 pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);

@@ -1,8 +1,8 @@
-//! Defects of a CNC that no case can detect.
+//! Defects of a CNC that no case detects.
 
-/// The IDs of the defects of a CNC that no case can detect: for example, no reply contains the lines of
-/// an NC program that were executed. `tests/simulator/defects.rs` detects each of these defects with a
-/// test of the simulated CNC.
+/// The IDs of the defects of a CNC with which no case fails for a requirement that the defect
+/// breaks: for example, no reply contains the lines of an NC program that were executed.
+/// `tests/simulator/defects.rs` detects each of these defects with a test of the simulated CNC.
 #[rustfmt::skip]
 pub const UNSEEN: &[&str] = &[
     "ams-header.error.swap", "axis-handle-by-name.first-channel", "cnc.adr.place-keeps-axis",

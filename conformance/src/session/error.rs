@@ -1,4 +1,4 @@
-//! The errors of commands, with advice.
+//! The errors of commands, some with advice for the user.
 
 use std::fmt;
 use std::io;
@@ -12,7 +12,7 @@ use crate::exchange::{ExchangeError, meaning};
 use crate::exit::Exit;
 use crate::gate::GateRejection;
 
-/// The error that ends a command. The text includes advice.
+/// The error that ends a command. Some of the texts include advice for the user.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ToolError {
@@ -34,12 +34,12 @@ pub enum ToolError {
     Enough(String),
     /// The request cannot be encoded.
     Unsendable(Error),
-    /// No connection, or no reply.
+    /// No connection, or no reply over AMS/TCP.
     NoReply(String),
     /// An AMS error: the request did not reach a CNC.
     Ams {
         error: AdsError,
-        /// Advice.
+        /// The likely cause, with advice if possible.
         hint: String,
     },
     /// An ADS error of the CNC.
@@ -48,7 +48,7 @@ pub enum ToolError {
         function: Function,
         error: AdsError,
     },
-    /// The device rejects an inquiry.
+    /// The device rejects ReadDeviceInfo or ReadState.
     Device {
         /// The name of the command: ReadDeviceInfo or ReadState.
         command: &'static str,
@@ -56,7 +56,7 @@ pub enum ToolError {
     },
     /// The reply cannot be decoded.
     Reply(Error),
-    /// The frame of the reply violates a rule of AMS/TCP.
+    /// The reply has another invoke ID than the request.
     Frame(String),
 }
 
@@ -95,7 +95,7 @@ impl ToolError {
         let addr = target.addr;
         Self::NoReply(match error.kind() {
             io::ErrorKind::ConnectionRefused => format!(
-                "{addr} refuses the connection: no program is listening. Check that the ADS router \
+                "{addr} rejects the connection: no program is listening. Check that the ADS router \
                  of the device is running, that the TCP port is right (usually 48898), and that the \
                  firewall allows it"
             ),

@@ -43,7 +43,8 @@ pub use error::ToolError;
 /// ```
 #[derive(Debug)]
 pub struct Session {
-    // Dropped before the server, which waits for its connections to end.
+    // Fields are dropped in order: the client must be dropped before the server, which waits for
+    // the threads of its connections.
     client: Client,
     simulated: Option<Server>,
     reply: Vec<u8>,
@@ -57,7 +58,8 @@ impl Session {
     /// Connects to a target.
     ///
     /// # Errors
-    /// If the connection fails; the error contains advice.
+    /// If the connection fails, or the gate must not be used for this target; the error contains
+    /// advice.
     pub fn connect(target: Target, gate: Gate) -> Result<Self, ToolError> {
         match Client::connect(target, gate) {
             Ok(client) => Ok(Self::over(client, None)),
@@ -65,11 +67,12 @@ impl Session {
         }
     }
 
-    /// A session that prints requests instead of sending them. Writes seem to succeed; calls that need
-    /// a reply fail with [`ToolError::NotSent`].
+    /// Creates a session that prints requests instead of sending them. Writes seem to succeed;
+    /// calls of functions whose reply has data fail with [`ToolError::NotSent`].
     ///
     /// # Errors
-    /// If the gate allows malformed requests and the target is another machine.
+    /// If the gate allows malformed requests and the target is another machine, or the gate is for
+    /// another address.
     pub fn dry(target: Target, gate: Gate, print: fn(&Exchange)) -> Result<Self, ToolError> {
         let client = Client::dry(target, gate);
         let client = client.map_err(|error| ToolError::Usage(error.to_string()))?;
@@ -79,25 +82,26 @@ impl Session {
     /// Starts a simulated CNC in this process, on loopback, and connects to it.
     ///
     /// # Errors
-    /// If the system cannot provide a socket or a thread.
+    /// If the system cannot provide a socket or a thread, or the gate is for another address.
     pub fn simulated(cnc: impl Responder + 'static, gate: Gate) -> Result<Self, ToolError> {
         let failed = |error: io::Error| {
             ToolError::Internal(format!("the simulated CNC could not be started: {error}"))
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, cnc).map_err(failed)?;
-        // The timeout is longer than for a device: only a busy machine can delay a reply, which is no
-        // fault.
+        // The timeout is longer than for a device: only a busy machine delays a reply of the
+        // simulated CNC, and this delay is not a fault of the CNC.
         let target =
             Target { timeout: SIMULATED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
         Ok(Self::over(client, Some(server)))
     }
 
-    /// Connects to a simulated CNC of this process without a socket. Its clock must be stopped.
+    /// Connects to a simulated CNC of this process without a socket. The clock of the CNC must be
+    /// stopped.
     ///
     /// # Errors
-    /// If the gate allows malformed requests and the target is another machine.
+    /// If the gate is for the address of another simulated CNC.
     pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, ToolError> {
         let target = Target::local(IN_PROCESS, NET_ID);
         let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID));
@@ -105,20 +109,20 @@ impl Session {
         Ok(Self::over(client, None))
     }
 
-    /// Connects to a simulated CNC of this process without a socket, with a gate that allows every
-    /// request except those that are never sent. The clock of the CNC must be stopped.
+    /// Connects to a simulated CNC of this process without a socket, with a gate like that of
+    /// [`Gate::of_server`]. The clock of the CNC must be stopped.
     ///
     /// # Errors
-    /// Never: the gate is made for this address.
+    /// No error occurs: the gate is made for this address.
     pub fn in_process_to_try(cnc: Arc<dyn Responder>) -> Result<Self, ToolError> {
         Self::in_process(cnc, Gate::of_address(IN_PROCESS))
     }
 
-    /// Starts a simulated CNC in this process, with a gate that allows every request except those
-    /// that are never sent.
+    /// Starts a simulated CNC in this process, and connects to it with the gate of
+    /// [`Gate::of_server`].
     ///
     /// # Errors
-    /// Those of [`simulated`](Self::simulated).
+    /// Those of [`simulated`](Self::simulated) and [`with_gate`](Self::with_gate).
     pub fn simulated_to_try(cnc: impl Responder + 'static) -> Result<Self, ToolError> {
         let session = Self::simulated(cnc, Gate::queries())?;
         match session.simulated.as_ref().map(Gate::of_server) {
@@ -127,7 +131,7 @@ impl Session {
         }
     }
 
-    /// Like [`dry`](Self::dry), but for a simulated CNC of this process.
+    /// Like [`dry`](Self::dry), with the NetId of a simulated CNC, which is not started.
     ///
     /// # Errors
     /// Those of [`dry`](Self::dry).
@@ -135,11 +139,12 @@ impl Session {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate, print)
     }
 
-    /// Connects to the same simulated CNC with another gate. For a device, only the file of
-    /// `--allow-write` can allow more.
+    /// Closes the connection, and connects to the same simulated CNC with another gate. The session
+    /// must have started the simulated CNC: for a device, only the file of `--allow-write` can
+    /// allow more.
     ///
     /// # Errors
-    /// [`ToolError::Usage`] for a device.
+    /// [`ToolError::Usage`] for any other session, and those of [`connect`](Self::connect).
     pub fn with_gate(self, gate: Gate) -> Result<Self, ToolError> {
         let Self { client, simulated: Some(server), .. } = self else {
             return Err(ToolError::Usage("only a simulated CNC can have another gate".to_owned()));
@@ -183,7 +188,8 @@ impl Session {
     /// Calls a function and decodes its reply.
     ///
     /// # Errors
-    /// Why there is no valid reply, or why the request was not sent.
+    /// The reason why the request was not sent, the ADS error of the reply, or the reason why there
+    /// is no valid reply.
     pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, ToolError> {
         let mut data = vec![0; operation.encoded_len()];
         let call = operation.call(&mut data).map_err(ToolError::Unsendable)?;
@@ -191,8 +197,8 @@ impl Session {
         operation.decode_reply(&self.reply).map_err(ToolError::Reply)
     }
 
-    /// Sends a request to a task, and returns the data of the reply as received: SDA and GEO share the
-    /// functions of classes.
+    /// Sends a request to `task`, and returns the data of the reply as received. The caller names
+    /// the task, because SDA and GEO share the functions of classes.
     ///
     /// # Errors
     /// Those of [`call`](Self::call).
@@ -248,12 +254,13 @@ impl Session {
         }
     }
 
-    /// Checks that the device replies to a query that the profile claims. A device that does not reply
-    /// cannot be judged.
+    /// Checks that the device replies to a query: the number of objects of the platform or, if the
+    /// profile does not claim this function, the number of V.E variables of the first channel. A
+    /// device that does not reply cannot be judged.
     ///
     /// # Errors
-    /// If there is no reply. An ADS error counts as a reply, and so does an AMS frame that violates a
-    /// rule.
+    /// If there is no reply. An ADS error counts as a reply, and so does an AMS frame that violates
+    /// a rule of AMS/TCP. An AMS error alone does not.
     pub(crate) fn check_reachable(&mut self, profile: &Profile) -> Result<(), ToolError> {
         let request: Request<'_> = match profile.claims(Function::CountObjects) {
             Claim::No => {
@@ -290,7 +297,7 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If the CNC sends no valid reply: a CNC need not support the command.
+    /// If the CNC does not send a valid reply, or rejects the command: a CNC need not support it.
     pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, ToolError> {
         self.inquire(task)
     }
@@ -310,7 +317,7 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If the CNC sends no valid reply: a CNC need not support the command.
+    /// If the CNC does not send a valid reply, or rejects the command: a CNC need not support it.
     pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, ToolError> {
         self.inquire(task)
     }
@@ -342,8 +349,8 @@ impl Session {
         }
     }
 
-    /// Checks whether the gate allows a call now, before a tool begins a sequence that it could not
-    /// complete. Nothing is sent.
+    /// Checks whether the gate allows a request now. Nothing is sent. A tool calls this function
+    /// before it begins a sequence of requests that the gate might interrupt.
     ///
     /// # Errors
     /// [`ToolError::NotPermitted`], [`ToolError::Unsendable`].
@@ -354,7 +361,7 @@ impl Session {
         checked.map_err(|fault| ToolError::fault(&self.client, fault, self.answered))
     }
 
-    /// Whether the CNC is simulated in this process.
+    /// Whether this session has started a simulated CNC.
     pub const fn is_simulated(&self) -> bool {
         self.simulated.is_some()
     }
@@ -368,7 +375,8 @@ impl Session {
         self.client.target()
     }
 
-    /// The connection, for untyped requests, and the simulated CNC, which must outlive it.
+    /// The client, for untyped requests, and the simulated CNC if the session has started one. The
+    /// simulated CNC must outlive the client.
     pub fn into_parts(self) -> (Client, Option<Server>) {
         (self.client, self.simulated)
     }
@@ -383,11 +391,11 @@ fn encode<'d>(
     Ok(Call { port: task.port(), ..call })
 }
 
-/// The address of a simulated CNC without a socket.
+/// The placeholder address of a simulated CNC that has no socket.
 const IN_PROCESS: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
 
-/// Timeout for a reply of the simulated CNC.
+/// Timeout for a reply of a simulated CNC that the session has started.
 const SIMULATED_TIMEOUT: Duration = Duration::from_secs(6);
 
-/// Default timeout for a reply.
+/// Default timeout for a reply of a device.
 pub const TIMEOUT: Duration = Duration::from_secs(2);

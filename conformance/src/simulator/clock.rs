@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// The time since the start of the CNC: the time that has passed on the clock of the system, unless
-/// this clock is stopped, plus the time added by `pass`.
+/// Measures the time since the start of the CNC: the time that was added by `pass` plus, unless
+/// this clock is stopped, the time that has passed on the clock of the system.
 #[derive(Debug)]
 pub(super) struct Clock {
     /// The time of the system at the start of the CNC; `None` if this clock is stopped.

@@ -27,7 +27,8 @@ pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
     items.map(Vec::as_slice).unwrap_or_default()
 }
 
-/// The content; zeros for a place without an axis (SDA-11).
+/// The content of an object or element; zeros for a place (axis index of a channel) without an axis
+/// (SDA-11).
 pub(super) fn read<'s>(
     model: &Model,
     state: &'s CncState,
@@ -75,16 +76,15 @@ pub(super) fn write(
         }
         (ContentSource::AxisNumber, _) => Err(AdsError::INVALID_ACCESS),
         (ContentSource::Value, _) => {
-            let content = state.values_mut(owner).and_then(|values| values.get_mut(index));
             // A place without an axis is not writable.
-            copy_padded(content.ok_or(AdsError::INVALID_DATA)?, bytes);
-            Ok(())
+            let changed = state.change(owner, index, |content| copy_padded(content, bytes));
+            changed.ok_or(AdsError::INVALID_DATA)
         }
     }
 }
 
-/// Checks the size of a value: a text with a NUL may be shorter than the content, any other value must
-/// have the exact size.
+/// Checks the size of a value: a text may be shorter than the content, and must contain a NUL if it
+/// has the size of the content; any other value must have the exact size.
 pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(), AdsError> {
     let ends = bytes.contains(&0) || bytes.len() < size;
     let fits = if is_text { bytes.len() <= size && ends } else { bytes.len() == size };

@@ -1,4 +1,4 @@
-//! Changes a CNC without ADS, as an operator or an NC program does.
+//! Changes a simulated CNC without ADS, as an operator or an NC program does.
 
 use ads_cnc::CncString;
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
@@ -22,7 +22,7 @@ pub enum ControlError {
     Exchange {
         /// Logical number of the channel.
         channel: u8,
-        /// The place, from 1.
+        /// The place, that is, the axis index in the channel, from 1.
         place: u8,
         /// Logical number of the axis.
         axis: u32,
@@ -33,11 +33,12 @@ pub enum ControlError {
 }
 
 impl Cnc {
-    /// Assigns the axis with a logical number to a place (from 1) of a channel (ADR-13). The axis
-    /// leaves its previous place, and the previous axis of this place then has no place. The number
-    /// 0 removes the axis from the place.
+    /// Assigns the axis with a logical number to a place of a channel, that is, to an axis index,
+    /// which counts from 1 (ADR-13). The axis leaves its previous place, and the previous axis of
+    /// this place then has no place. The number 0 removes the axis from the place.
     ///
-    /// Over ADS, a write to an object or element with the meaning axis-number does the same.
+    /// Over ADS, a write to an object or element of a channel axis whose content is the axis number
+    /// (`is = "axis-number"` in the model) does the same.
     ///
     /// # Errors
     /// [`ControlError::Channel`] or [`ControlError::Exchange`]; then nothing is changed.
@@ -75,8 +76,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.active = active)
     }
 
-    /// Replaces the dynamic parameters of a kind, as an NC program does by creating and deleting them.
-    /// The names and values have the order of their indices (DYN-4).
+    /// Replaces the dynamic parameters of a kind, as an NC program does by creating and deleting
+    /// them. The names and values have the order of their indices (DYN-4).
     ///
     /// ```
     /// use ads_cnc::dynamic::DynamicKind;
@@ -108,8 +109,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.parameters.replace(kind, new))
     }
 
-    /// Calls a function with the Service Interface of a channel. The CNC is locked during the call and
-    /// answers no requests.
+    /// Calls a function with the Service Interface of a channel. The CNC is locked during the call
+    /// and answers no requests.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -134,8 +135,8 @@ impl Cnc {
         })
     }
 
-    /// Calls a function with the streaming program of a channel. The CNC is locked during the call and
-    /// answers no requests.
+    /// Calls a function with the streaming program of a channel. The CNC is locked during the call
+    /// and answers no requests.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -156,8 +157,8 @@ impl Cnc {
         self.of_channel(channel, |channel| channel.script = script)
     }
 
-    /// Calls a function with the NC program of a channel that sends requests to services, and the
-    /// Service Interface.
+    /// Calls a function with the NC program of a channel that sends requests to services; `None` if
+    /// the channel has no such program. The CNC is locked during the call and answers no requests.
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -169,7 +170,7 @@ impl Cnc {
         self.of_channel(channel, |channel| then(channel.script.as_mut()))
     }
 
-    /// The script with the policy of this CNC.
+    /// Returns the script with the policy of this CNC.
     #[must_use]
     pub fn as_run(&self, script: Script) -> Script {
         script.with_policy(self.policy())

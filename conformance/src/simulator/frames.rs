@@ -1,4 +1,4 @@
-//! The frames in received bytes.
+//! Splits received bytes into frames.
 
 use std::io;
 

@@ -36,8 +36,8 @@ impl LocalPeers for LocalCnc {
 
 /// The CNC's end of a connection.
 ///
-/// Instead of waiting for bytes as a socket does, this advances the CNC's clock by the timeout: a test
-/// with a missing reply takes no time, and the replies are repeatable.
+/// A socket waits for bytes; this end advances the CNC's clock by the timeout instead. So a test
+/// with a missing reply takes no time, and the replies are the same in every run.
 #[derive(Debug)]
 struct InProcess {
     cnc: Arc<dyn Responder>,

@@ -9,8 +9,8 @@ use super::content;
 use super::model::{ContentSource, Model};
 use super::owner::Owner;
 
-/// The owner of a content. Channels are identified by their logical numbers; axes and places are
-/// counted from 1, spindles from 0.
+/// The owner of the content of an object or element. Channels are identified by their logical
+/// numbers; axes and places (axis indices of a channel) are counted from 1, spindles from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContentOwner {
     /// The platform, as the owner of COM objects.
@@ -35,7 +35,7 @@ pub enum ContentOwner {
 #[derive(Clone, Debug)]
 pub struct StoredContent {
     pub holder: ContentOwner,
-    /// The element number.
+    /// The element number; for a COM object, its index offset without the axis.
     pub element: u32,
     pub name: CncString,
     pub type_name: &'static str,
@@ -93,13 +93,14 @@ impl Cnc {
         all
     }
 
-    /// Sets the value of a content; it must have the size of the previous value.
+    /// Sets the value of a content. If the value does not have the size of the previous value,
+    /// nothing changes.
     pub fn set_content(&self, stored: &StoredContent, value: &[u8]) {
-        let mut state = self.state();
-        let content = state.values_mut(stored.owner).and_then(|all| all.get_mut(stored.index));
-        if let Some(content) = content.filter(|content| content.len() == value.len()) {
-            content.copy_from_slice(value);
-        }
+        self.state().change(stored.owner, stored.index, |content| {
+            if content.len() == value.len() {
+                content.copy_from_slice(value);
+            }
+        });
     }
 
     /// All variables that the CNC lists, except those of the Service Interface.
@@ -139,7 +140,7 @@ impl Cnc {
         all
     }
 
-    /// The writable variables of a channel that have no handle.
+    /// The writable variables without a handle of the channel with this logical number.
     pub fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
         let channels = self.model().channels.iter().filter(|channel| channel.number == number);
         let all = channels.flat_map(|channel| channel.variables.list.iter());
@@ -210,7 +211,7 @@ fn elements(model: &Model, owner: Owner) -> Vec<u32> {
     };
     match objects {
         Some(objects) => objects.elements.clone(),
-        // The first element contains the number of elements.
+        // Element 0 contains the number of the other elements, so the items are numbered from 1.
         None => (1..).take(content::items(model, owner).len()).collect(),
     }
 }

@@ -2,7 +2,8 @@
 
 use ads_cnc::address::Class;
 
-/// The owner of an object or an element. Numbers are counted from 0.
+/// The owner of an object or an element. All numbers are indices, counted from 0; a place is an
+/// axis index of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Owner {
     /// The platform, as the owner of COM objects.

@@ -11,7 +11,8 @@ use super::model::Parameter;
 pub(super) struct ParameterState {
     pub(super) parameter: Parameter,
     pub(super) value: DynamicValue,
-    /// The number of times that the parameter was created before; `None` while it does not exist.
+    /// The number of times that the parameter was created before; `None` at times at which it does
+    /// not exist.
     life: Option<u128>,
 }
 
@@ -44,8 +45,9 @@ impl ParameterStates {
         Self { all, are_always }
     }
 
-    /// Creates and deletes parameters that are due. A parameter that is created again has its
-    /// initial value, even if it was written to before (assumed).
+    /// Creates and deletes the parameters whose times have come. A parameter that is created again
+    /// has its initial value, even if it was written before (assumed). [`reset`](Self::reset) does
+    /// the same for parameters that an object creates.
     pub(super) fn advance(&mut self, now: Duration) {
         // Return early, because this function is called for every request.
         if self.are_always {
@@ -60,6 +62,16 @@ impl ParameterStates {
         }
     }
 
+    /// Gives the parameters for which `is_deleted` returns true their initial values, which they
+    /// have when they are created again.
+    pub(super) fn reset(&mut self, is_deleted: impl Fn(&Parameter) -> bool) {
+        for one in &mut self.all {
+            if is_deleted(&one.parameter) {
+                one.value = one.parameter.value;
+            }
+        }
+    }
+
     /// Replaces the parameters of a kind.
     pub(super) fn replace(&mut self, kind: DynamicKind, new: Vec<Parameter>) {
         let mut all = std::mem::take(&mut self.all);
@@ -68,7 +80,7 @@ impl ParameterStates {
         *self = Self::of(all);
     }
 
-    /// The parameters that currently exist, in the order of their indices.
+    /// The parameters that currently exist according to their times, in the order of their indices.
     pub(super) fn at_their_time(&self) -> impl Iterator<Item = &ParameterState> {
         self.all.iter().filter(|one| one.life.is_some())
     }

@@ -15,7 +15,7 @@ use crate::number::{to_u32, to_usize};
 /// request with a longer reply is rejected.
 pub const DATA_MAX: u32 = 0x1_0000;
 
-/// Maximum length of a frame.
+/// Maximum length of a frame in bytes, including its headers.
 pub(crate) const FRAME_MAX: usize = FrameRef::HEADERS_LEN + 0x1_0000;
 
 const _: () = assert!(DATA_MAX == 0x1_0000);
@@ -43,7 +43,7 @@ pub(crate) fn respond(
         return;
     }
     let start = answers.len();
-    // Write the headers when the length of the data is known.
+    // Reserve room for the headers, which are written when the length of the data is known.
     answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
     let after = answers.len();
     let error = if header.target.net_id != net_id {
@@ -74,7 +74,7 @@ fn write_headers(header: AmsHeader, answers: &mut [u8], start: usize) -> Result<
     Ok(())
 }
 
-/// Appends the data of the reply to a command for the port of a task.
+/// Appends the data of the reply to a command at the port of a task.
 fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
     let (command, data) = (frame.header().command, frame.data());
     if let Some(service) = service_of(command) {
@@ -140,7 +140,7 @@ const INFO: DeviceInfoReply = DeviceInfoReply {
     name: *b"ads-cnc serve\0\0\0",
 };
 
-/// Parses a number of the version; 255 if it is greater.
+/// Parses a number of the version; 255 if the number is greater.
 const fn number(text: &str) -> u8 {
     match u8::from_str_radix(text, 10) {
         Ok(number) => number,

@@ -10,19 +10,19 @@ use ads_cnc::operation::Call;
 use super::frames::Frames;
 use super::respond::{ReplyData, respond};
 
-/// Answers ADS requests: a [`Cnc`](super::Cnc), or middleware around one.
+/// Answers ADS requests: a [`Cnc`](super::Cnc), or middleware around a CNC.
 pub trait Responder: fmt::Debug + Send + Sync {
     /// Answers a request; returns the data of the reply.
     ///
     /// # Errors
-    /// An error number.
+    /// The ADS error number of the reply.
     fn answer(&self, call: &Call<'_>) -> ReplyData;
 
-    /// Appends the reply to a frame, as the device with this NetId. Appends nothing if the frame is not
-    /// a request.
+    /// Appends the reply to a frame, as the device with this NetId. Appends nothing if the frame is
+    /// not a request.
     ///
-    /// A frame to another NetId or to a port without a task is answered with an AMS error without data;
-    /// other invalid requests are answered with an error in the result.
+    /// A frame to another NetId or to a port without a task is answered with an AMS error without
+    /// data; other invalid requests are answered with an error in the result.
     fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
         respond(&mut |call| self.answer(call), net_id, frame, answers);
     }
@@ -35,7 +35,7 @@ pub trait Responder: fmt::Debug + Send + Sync {
         }
     }
 
-    /// Maximum number of bytes to send at a time; at least 1.
+    /// Maximum number of bytes of a reply that are sent at a time; at least 1.
     fn piece(&self) -> usize {
         usize::MAX
     }

@@ -30,7 +30,7 @@ pub const CONNECTION_BYTES_MAX: usize = connection::BUFFERED_MAX;
 /// Stack size of a connection's thread in bytes.
 const STACK: usize = 1024 * 1024;
 
-/// Time after which a connection is closed whose client does not read a reply.
+/// Time after which a connection is closed if the client does not read a reply.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// A running server; dropping it closes every connection and waits for their threads.
@@ -50,16 +50,17 @@ struct ServerState {
 }
 
 impl Gate {
-    /// Creates a gate that allows every request except those that are never sent, but only to this
-    /// server of a simulated CNC in this process, which moves nothing. A client with this gate accepts
-    /// no other address.
+    /// Creates a gate that allows every request except WriteControl, notifications, sum commands,
+    /// undocumented access to a program stream, and writes at a port other than the documented one.
+    /// The gate is only for this server of a simulated CNC in this process, which moves nothing: a
+    /// client with this gate connects to no other address.
     pub fn of_server(server: &Server) -> Self {
         Self::of_address(server.addr())
     }
 }
 
 impl Server {
-    /// Serves the connections of a listener until dropped.
+    /// Starts a server, which answers the connections of a listener until the server is dropped.
     ///
     /// # Errors
     /// If the listener has no address, or the system cannot start a thread.
@@ -67,7 +68,7 @@ impl Server {
         Self::with_options(listener, cnc, ServerOptions::default())
     }
 
-    /// Serves the connections of a listener until dropped, with options.
+    /// Like [`start`](Self::start), with options.
     ///
     /// # Errors
     /// If the listener has no address, or the system cannot start a thread.

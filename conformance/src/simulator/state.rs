@@ -1,4 +1,4 @@
-//! The state of the CNC, which requests and the machine change.
+//! The state of the simulated CNC, which requests, NC programs and the passage of time change.
 
 use std::time::Duration;
 
@@ -6,7 +6,7 @@ use ads_cnc::address::{Addressing, Class};
 use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicKind;
 
-use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
+use super::model::{AxisModel, ChannelModel, Item, Model, Parameter, Variables, class_place};
 use super::owner::Owner;
 use super::parameters::{ParameterState, ParameterStates};
 use super::program::service::ServiceInterface;
@@ -28,7 +28,8 @@ pub(super) struct CncState {
 #[derive(Debug)]
 pub(super) struct ChannelState {
     pub(super) active: bool,
-    /// The axis at each place.
+    /// The axis at each place (axis index) of the channel, as its index in the model; `None`
+    /// without an axis.
     pub(super) places: Vec<Option<usize>>,
     objects: Contents,
     variables: Contents,
@@ -44,7 +45,7 @@ pub(super) struct ChannelState {
 /// The state of an axis, which the axis keeps when it is assigned to another place.
 #[derive(Clone, Debug)]
 struct AxisState {
-    /// The objects of the COM task, as a platform axis and as an axis of a channel.
+    /// The contents of the COM objects of the platform axis; `of_place`, of the axis of a channel.
     objects: Contents,
     of_place: Contents,
     variables: Contents,
@@ -112,8 +113,8 @@ impl CncState {
         }
     }
 
-    /// The channel of an address: by its number, or by its rank among the active channels
-    /// (ADR-11).
+    /// The index of the active channel with this number or, with addressing by index, with this
+    /// rank among the active channels (ADR-11).
     pub(super) fn channel(
         &self,
         model: &Model,
@@ -138,12 +139,12 @@ impl CncState {
         self.channels.iter().position(|one| one.active) == Some(channel)
     }
 
-    /// The axis at a place of a channel.
+    /// The axis at a place of a channel, as its index in the model; `None` without an axis.
     pub(super) fn axis_at(&self, channel: usize, place: usize) -> Option<usize> {
         *self.channels.get(channel)?.places.get(place)?
     }
 
-    /// Contents of objects and elements; `None` for a place without an axis.
+    /// Contents of the objects or elements of an owner; `None` for a place without an axis.
     pub(super) fn values(&self, owner: Owner) -> Option<&Contents> {
         match owner {
             Owner::Platform => Some(&self.platform),
@@ -164,8 +165,23 @@ impl CncState {
         }
     }
 
-    /// Like `values`, mutable.
-    pub(super) fn values_mut(&mut self, owner: Owner) -> Option<&mut Contents> {
+    /// Changes the content of an object or element; `None` if it does not exist. An object of a
+    /// channel whose content is now 0 deletes its parameters.
+    pub(super) fn change(
+        &mut self,
+        owner: Owner,
+        index: usize,
+        change: impl FnOnce(&mut [u8]),
+    ) -> Option<()> {
+        change(self.values_mut(owner)?.get_mut(index)?);
+        if let Owner::Channel(channel) = owner {
+            self.channels.get_mut(channel)?.reset_parameters();
+        }
+        Some(())
+    }
+
+    /// Like `values`, but mutable.
+    fn values_mut(&mut self, owner: Owner) -> Option<&mut Contents> {
         match owner {
             Owner::Platform => Some(&mut self.platform),
             Owner::Channel(channel) => {
@@ -195,7 +211,7 @@ impl CncState {
         self.channels.get(channel).map(|channel| &channel.variables)
     }
 
-    /// Like `variables`, mutable.
+    /// Like `variables`, but mutable.
     pub(super) fn variables_mut(&mut self, channel: usize) -> Option<&mut Contents> {
         self.channels.get_mut(channel).map(|channel| &mut channel.variables)
     }
@@ -205,7 +221,7 @@ impl CncState {
         self.axes.get(self.axis_at(channel, place)?).map(|axis| &axis.variables)
     }
 
-    /// Like `axis_variables`, mutable.
+    /// Like `axis_variables`, but mutable.
     pub(super) fn axis_variables_mut(
         &mut self,
         channel: usize,
@@ -230,8 +246,8 @@ impl CncState {
     /// previous place, and the previous axis of this place then has no place. The number 0 removes
     /// the axis from the place.
     ///
-    /// Fails without a change if the axis does not exist, or if the channel has another axis with
-    /// the same name, because their variables would have equal names.
+    /// Fails without a change if the axis or the place does not exist, or if the channel has
+    /// another axis with the same name, because the variables of both axes would have equal names.
     pub(super) fn exchange(
         &mut self,
         model: &Model,
@@ -239,23 +255,23 @@ impl CncState {
         place: usize,
         number: u32,
     ) -> Result<(), AdsError> {
-        let refused = AdsError::INVALID_DATA;
+        let rejected = AdsError::INVALID_DATA;
         let axis = match number {
             0 => None,
             _ => {
                 let found = model.axes.iter().position(|axis| axis.number == number);
-                Some(found.ok_or(refused)?)
+                Some(found.ok_or(rejected)?)
             }
         };
-        let places = &self.channels.get(channel).ok_or(refused)?.places;
+        let places = &self.channels.get(channel).ok_or(rejected)?.places;
         if place >= places.len() {
-            return Err(refused);
+            return Err(rejected);
         }
         let name = |axis: usize| model.axes.get(axis).map(|axis| &axis.name);
         let mut others = places.iter().enumerate().filter(|(other, _)| *other != place);
         let same_name = |other: usize| Some(other) != axis && axis.and_then(name) == name(other);
         if axis.is_some() && others.any(|(_, other)| other.is_some_and(same_name)) {
-            return Err(refused);
+            return Err(rejected);
         }
         for left in self.channels.iter_mut().flat_map(|channel| &mut channel.places) {
             *left = left.filter(|left| Some(*left) != axis);
@@ -269,11 +285,19 @@ impl CncState {
 
 impl ChannelState {
     fn present(&self) -> impl Iterator<Item = &ParameterState> {
-        let is_zero = |object: usize| {
-            let content = self.objects.get(object);
-            content.is_none_or(|content| content.iter().all(|&byte| byte == 0))
-        };
         let parameters = self.parameters.at_their_time();
-        parameters.filter(move |parameter| !parameter.parameter.needs.is_some_and(is_zero))
+        parameters.filter(move |one| !is_deleted(&one.parameter, &self.objects))
     }
+
+    fn reset_parameters(&mut self) {
+        self.parameters.reset(|parameter| is_deleted(parameter, &self.objects));
+    }
+}
+
+/// Whether the content of the object that the parameter needs is 0.
+fn is_deleted(parameter: &Parameter, objects: &[Vec<u8>]) -> bool {
+    parameter.needs.is_some_and(|object| {
+        let content = objects.get(object);
+        content.is_none_or(|content| content.iter().all(|&byte| byte == 0))
+    })
 }

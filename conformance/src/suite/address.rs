@@ -39,7 +39,7 @@ pub(super) const CASES: &[CaseRow] = &[
 pub(super) const FRAME_CASES: &[CaseRow] = &[
     case("ads-every-frame", &[ADS_1, ADS_2, ADS_3, ADS_4, ADS_5], Needs::Frames, every_frame,
         "Every frame of the run has the header and the length that its request requires"),
-    case("ads-every-refusal", &[ADS_6, ADS_7], Needs::Frames, every_refusal,
+    case("ads-every-refusal", &[ADS_6, ADS_7], Needs::Frames, every_rejection,
         "Each request that the target rejects in the run returns an error number"),
 ];
 
@@ -61,15 +61,16 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
 
 fn decoder_group(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        // The manual states the group, and that channels start at 1. Port 552 of SDA is documented
-        // online only.
+        // The manual states the group, and that channels start at 1. Port 552 of SDA is only an
+        // assumption of a sample program, so this rule has the level *should*.
         let rules = [ADR_1.into(), ADR_5.into(), GEN_6.into(), online(GEN_4)];
         probe.ask(rules, CountVariables::new(channel, Kind::V_E))?;
     }
     Ok(())
 }
 
-/// Queries whose replies identify a channel: counts, first object and first variables.
+/// Queries whose replies identify a channel: the numbers of objects and variables, the first
+/// object, and the first eight variables of each kind.
 fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     let mut requests =
         vec![CountObjects::new(channel).into(), ReadDescriptors::new(channel, 1, 1)?.into()];
@@ -81,8 +82,8 @@ fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     Ok(requests)
 }
 
-/// Whether both descriptors describe the same object. The reply to a request by rank may contain
-/// the rank in its group.
+/// Whether `found` is the descriptor `logical`, but with the rank of the channel, and without the
+/// bit for logical addressing, in the index group of the content.
 fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
     let one = |bytes| Some(DescriptorsRef::decode(bytes).ok()?.get(0)?.to_owned());
     let (Some(logical), Some(found)) = (one(logical), one(found)) else { return false };
@@ -215,12 +216,12 @@ fn only_errors_with_data(probe: &mut Probe<'_>) -> Option<Evidence> {
     last.filter(|_| !probe.target.any_success)
 }
 
-/// Checks that all rejections in the run returned an error number other than 0; the manuals do not
-/// require a particular number.
-fn every_refusal(probe: &mut Probe<'_>) -> Step {
+/// Checks that the rejections that the cases of the run required were errors, not successes without
+/// data. The manuals do not require a particular error number.
+fn every_rejection(probe: &mut Probe<'_>) -> Step {
     let by_nothing = std::mem::take(&mut probe.target.rejections.by_nothing);
     if probe.target.rejections.by_number > 0 {
-        // Error replies with and without data were decoded as errors.
+        // At least one error reply was decoded, whether it contains data or not.
         probe.pass([ADS_6, ADS_7]);
     }
     probe.take_over(by_nothing);

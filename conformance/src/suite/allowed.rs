@@ -11,23 +11,27 @@ use crate::gate::{AllowedList, Entry};
 use crate::judge::{IfPresent as _, Step};
 use crate::objects::{ReportedAccess, ValueAddress, ValueList};
 
-/// The names in the file that cannot be written.
+/// The entries of the file of `--allow-write` whose items cannot be written.
 #[derive(Clone, Debug, Default)]
 pub struct Unwritable {
-    /// Names that the target does not have.
+    /// Messages about entries whose item or channel the target does not have, one message for each
+    /// entry.
     pub absent: Vec<String>,
-    /// Names of read-only items: the suite checks that writes to them are rejected.
+    /// Names and locations of read-only items. The cases check that writes to these items are
+    /// rejected.
     pub read_only: Vec<String>,
 }
 
-/// The item of the target that an entry names.
+/// Whether the target has the item of an entry, and whether the item is writable.
 enum Named {
     Writable,
     ReadOnly,
+    /// The target does not have the item, which is of this kind.
     Absent(&'static str),
 }
 
-/// Looks up the entries of the file. Finds nothing if the target no longer answers.
+/// Looks up the entries of the file of `--allow-write`, in their order, until the target no longer
+/// answers, the deadline has passed or the run is interrupted.
 pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let allowed = target.client.gate().allowed();
     let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
@@ -35,7 +39,8 @@ pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let deadline = target.deadline;
     let mut probe = Probe::new(target).with_deadline(deadline);
     for entry in entries {
-        // The loop ends if the target stops answering: the remaining names may exist.
+        // The loop ends if the target stops answering, because the target may have the remaining
+        // names.
         let named = match is_in_no_channel(&probe, &entry) {
             true => Ok(Named::Absent("channel")),
             false => look_up(&mut probe, &entry),
@@ -92,7 +97,7 @@ fn look_up(probe: &mut Probe<'_>, entry: &Entry) -> Step<Named> {
                     _ => Named::Writable,
                 }
             }
-            // An object that the entry gives by its address need not be in a list.
+            // The entry contains the address of an object, which need not be in a list.
             _ => Named::Writable,
         },
         Entry::Stream(_) | Entry::Service(_) => Named::Writable,
@@ -110,7 +115,8 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
     if listed.is_some() && whole == text {
         return Ok(Named::Writable);
     }
-    // The name is that of an array element, or of a variable that is accessible by name only.
+    // The name is that of an array element, of a variable that is accessible by name only, of a
+    // variable that the cases do not read, or of no variable.
     let value = probe.value_at(&ValueAddress::Name { channel, name: name.clone() });
     Ok(match value.if_applicable()? {
         Some(None) if listed.is_some() => Named::Absent("element"),
@@ -119,7 +125,7 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
     })
 }
 
-/// Whether an entry belongs to a channel that the target does not have.
+/// Whether an entry belongs to a channel that the target does not have according to the profile.
 fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     let channel = match entry {
         Entry::Variable { channel, .. } | Entry::Stream(channel) | Entry::Service(channel) => {
@@ -136,7 +142,8 @@ fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     !channels.is_empty() && !known
 }
 
-/// The same channel, addressed by its number as in the lists, even if the entry gives its rank.
+/// The same channel, addressed by its number like the channels of the lists, even if the entry
+/// contains its rank.
 fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     let by_rank = channel.addressing() == Addressing::Index;
     let rank = usize::from(channel.number()).checked_sub(1).filter(|_| by_rank);
@@ -144,7 +151,7 @@ fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     number.and_then(|number| Channel::new(number).ok()).unwrap_or(channel)
 }
 
-/// The name of an entry and its location.
+/// The name or address in an entry, and its channel or axis, as text for a message.
 fn place(entry: &Entry) -> String {
     let of = |channel: &Channel| match channel.addressing() {
         Addressing::Logical => format!("channel {}", channel.number()),

@@ -1,4 +1,4 @@
-//! Cases of the bounds of arrays.
+//! Cases of the bounds of arrays, and of the number of indices.
 
 use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
@@ -19,15 +19,16 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read with too few or too many indices returns an error"),
 ];
 
-/// Returns the indices `place` with the index of the dimension `axis` replaced.
+/// Returns `indices` with the index in the dimension `axis`, counted from 0, replaced by `index`.
 fn with(indices: &[u32], axis: usize, index: u32) -> Vec<u32> {
     let mut indices = indices.to_vec();
     indices.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
     indices
 }
 
-/// Checks that a variable with dimensions has elements. How several dimensions are indexed is assumed, so
-/// the last element of each dimension is read only if the first element can be read.
+/// Checks that a variable with dimensions has elements. How elements are addressed in several
+/// dimensions is assumed, so the last element of each dimension is read only if the first element
+/// can be read.
 fn array_has_elements(probe: &mut Probe<'_>) -> Step {
     each_array(probe, |probe, channel, variable, _| {
         let Description { handle, dimensions, name, .. } = variable;

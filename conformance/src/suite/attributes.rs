@@ -1,4 +1,4 @@
-//! Cases of the attributes of elements, each in a group of its own.
+//! Cases of the attributes of elements. Each attribute has a separate index group.
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{

@@ -1,4 +1,5 @@
-//! Cases of the axis interface.
+//! Cases of the handles and values at the axis indices (in the messages: places) of the axis
+//! interface.
 
 use std::collections::HashMap;
 
@@ -24,12 +25,13 @@ pub(super) const CASES: &[CaseRow] = &[
     case("axis-values", &[VAR_10, VAR_26], Needs::Queries, values,
         "The axis interface returns the same value as the variable name with the axis appended"),
     case("axis-unknown", &[VAR_26, ADS_4], Needs::Queries, unknown,
-        "The axis interface rejects a name or an axis place that does not exist"),
+        "The axis interface rejects a name or an axis index that does not exist"),
     case("axis-zero", &[VAR_26], Needs::Malformed, zero,
-        "The axis interface has no axis place 0: its offsets belong to other functions"),
+        "The axis interface has no axis index 0: its offsets belong to other functions"),
 ];
 
-/// Calls a function for each axis place at which a variable with this name has a handle.
+/// Calls a function for each axis index at which the name of an axis variable has the handle of a
+/// described variable, with the description of this variable.
 fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, AxisVariable<'_>, &Description) -> Step,
@@ -41,7 +43,7 @@ fn each(
             described.iter().map(|one| (one.1.handle.0, one)).collect();
         for name in axis_names(&described) {
             for AxisHandle { axis, handle } in answering_places(probe, channel, name)? {
-                // A place without an axis has no description.
+                // At an axis index without an axis, the handle belongs to no description.
                 let Some((own, variable)) = by_handle.get(&handle.0) else { continue };
                 any = true;
                 let at = AxisVariable { channel, axis, name, own };
@@ -58,7 +60,7 @@ struct AxisVariable<'a> {
     axis: ChannelAxis,
     /// The name in the request.
     name: &'a CncString,
-    /// The name in the description with the same handle.
+    /// The name in the description with the same handle, without the axis.
     own: &'a CncString,
 }
 
@@ -72,7 +74,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
         let first = ChannelAxis::new(1)?;
-        // If the channel describes axis variables, at least one axis place must have a handle.
+        // If the channel describes axis variables, at least one axis index must have a handle.
         let mut any = described.is_empty();
         let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {
@@ -87,8 +89,8 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                     || format!("an error, or the 4-byte handle of {name} at place {place}");
                 probe.check(VAR_26, handle.is_ok(), expected, found);
                 let Ok(Handle(handle)) = handle else { continue };
-                // Each handle in a description belongs to one place. Other handles are not compared,
-                // because a place without an axis may return any handle.
+                // Each handle in a description belongs to one axis index. Other handles are not
+                // compared, because an axis index without an axis may return any handle.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
                 let other = at_places.insert(handle, place);
                 let other = other.filter(|other| known && *other != place);
@@ -109,12 +111,13 @@ fn handles(probe: &mut Probe<'_>) -> Step {
         }
         let found = || format!("no name has a handle in channel {}", channel.number());
         probe.check(VAR_26, any, "handles by name on the axis interface", found);
-        // No manual states that a variable has only one handle: the handles are compared only if at least
-        // one place returned a handle from a description.
+        // No manual states that a variable has only one handle. Therefore, the handles are compared
+        // only if at least one axis index returned a handle from a description.
         let handles = described.iter().map(|(_, variable)| variable.handle.0);
         let is_one_number = handles.into_iter().any(|handle| at_places.contains_key(&handle));
         for (_, variable) in &described {
-            // The handle in the description must belong to one of the places, which are counted from 1.
+            // The handle in the description must belong to one of the axis indices, which start at
+            // 1.
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
             let expected = || format!("a place, counted from 1, with the handle of {name}");
@@ -148,7 +151,7 @@ fn values(probe: &mut Probe<'_>) -> Step {
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
         steady.same(probe, VAR_26, &at, by_name, request)?;
-        // That handles of the axis interface can be used on the channel interface is assumed.
+        // That the handles of axis variables can be used on the channel interface is assumed.
         let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
         steady.same(probe, assumed(VAR_10), &at, by_handle, request)
     })?;
@@ -175,7 +178,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let what = format!("{} on the axis interface", variable.name.text);
     probe.rejects(VAR_26, &what, handle(axis, with_axis), handle(axis, valid))?;
     probe.rejects(VAR_26, &what, read(axis, with_axis), read(axis, valid))?;
-    // A name on the channel interface must contain an axis.
+    // The name of an axis variable on the channel interface must contain an axis.
     let what = format!("{} on the channel interface", valid.text());
     let of_channel = |name| HandleByName { channel, name };
     probe.rejects(VAR_26, &what, of_channel(valid), of_channel(with_axis))?;

@@ -1,4 +1,5 @@
-//! Cases of axis places: the axis at each place, and places without an axis.
+//! Cases of the axis indices of the axis interface (in the messages: places): the variable at each
+//! index, indices after the last one, and reserved index offsets.
 
 use std::collections::HashSet;
 
@@ -19,9 +20,9 @@ use crate::text::plural;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("axis-places", &[VAR_10, VAR_26, GEN_6], Needs::Queries, places,
-        "Every axis with variables has exactly one axis place, counted from 1"),
+        "Every axis with variables has exactly one axis index, counted from 1"),
     case("axis-place-too-far", &[VAR_26], Needs::Malformed, too_far,
-        "All 16 bits of the axis index count: no two indices address the same axis place"),
+        "All 16 bits of the axis index count: no two indices address the same axis"),
     case("axis-reserved", &[VAR_26], Needs::Malformed, reserved,
         "The reserved offsets of the axis interface return an error"),
 ];
@@ -39,7 +40,8 @@ fn places(probe: &mut Probe<'_>) -> Step {
             let expected =
                 || format!("one place for each of the {} with {name}", plural(own.len(), "axis"));
             probe.check([VAR_26, GEN_6], places.len() >= own.len(), expected, found);
-            // An axis has only one place. Handles of places without an axis belong to no variable.
+            // An axis has only one axis index. A handle at an index without an axis belongs to no
+            // variable.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
                 let found = || format!("handle {} also at place {}", at.handle, at.axis.index());
@@ -55,7 +57,8 @@ fn places(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target describes no axis variable")
 }
 
-/// Checks that the name with the axis appended reads the same value as one of the places.
+/// Checks that the value of a variable by its whole name, which ends with the axis, is also read at
+/// one of the axis indices in `places`.
 fn at_a_place(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -87,7 +90,8 @@ fn at_a_place(
     Ok(())
 }
 
-/// The last place of a channel at which a name has a handle from a description.
+/// A channel, the last axis index at which an axis variable has a handle from a description, and
+/// the name of this variable on the axis interface.
 fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
@@ -102,7 +106,8 @@ fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     Err(Stop::not_applicable("no axis variable is on the axis interface"))
 }
 
-/// The reply for a place after the last one is not specified, but must not be that for an existing axis.
+/// Requests handles at axis indices above 255. The reply is not specified, but it must not be the
+/// handle at the valid index that has the same lower bits.
 fn too_far(probe: &mut Probe<'_>) -> Step {
     let (channel, AxisHandle { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {

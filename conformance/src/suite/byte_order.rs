@@ -19,8 +19,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "Numbers in descriptors, descriptions and addresses are little-endian"),
 ];
 
-/// Checks the numbers of items and the handles: a wrong number that is correct with reversed bytes
-/// violates the byte order.
+/// Checks the numbers of items and the handles. A wrong number that is correct with reversed bytes
+/// violates GEN-1.
 fn number_order(probe: &mut Probe<'_>) -> Step {
     for (one, number) in Counted::all(probe)? {
         let from_behind = number.swap_bytes();
@@ -46,7 +46,8 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks a number: a value that is plausible only with reversed bytes violates the byte order.
+/// Checks a number. A value that is plausible (according to `makes_sense`) only with reversed bytes
+/// violates GEN-1.
 fn in_order(
     probe: &mut Probe<'_>,
     what: impl Display,

@@ -1,4 +1,4 @@
-//! Cases of the COM task.
+//! Cases of the object lists and descriptors of the COM task.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -29,7 +29,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length that is not a multiple of 84 returns one descriptor"),
 ];
 
-/// The lists of the platform and the channels; other cases judge missing lists.
+/// The object lists of the channels, and that of the platform if the target returns its number of
+/// objects. Another case judges whether the list of the platform is missing.
 fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
     let mut all = Vec::new();
     for list in probe.lists()? {
@@ -46,7 +47,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
     for list in lists(probe)? {
         let ObjectCount(number) = probe.read(COM_1, CountObjects::new(list))?;
         ends(probe, list, number)?;
-        // The list is static: the requests in between must not change it.
+        // The list is static, so the requests in between must not change the number of objects.
         let again: ObjectCount = probe.read(COM_1, CountObjects::new(list))?;
         let found = || format!("{} of {}", plural(again.0, "object"), list.parts().index_group());
         probe.check(COM_1, again.0 == number, || format!("{number} as before"), found);
@@ -54,8 +55,8 @@ fn count(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that the last object exists and that no object follows it. A failure does not show whether
-/// the number or the list is wrong.
+/// Checks that object `number`, the last one, exists and that no object follows it. A failure
+/// violates COM-1 and COM-2, because it does not show whether the number or the list is wrong.
 fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let rules = [COM_1, COM_2];
     let asked = number.min(OBJECTS_MAX);
@@ -72,8 +73,7 @@ fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         return Ok(());
     }
     for beyond in probe.beyond(number.saturating_add(1)) {
-        // An index of more than 16 bits cannot be encoded.
-        let Ok(beyond) = ReadDescriptors::new(list, beyond, 1) else { continue };
+        let beyond = ReadDescriptors::new(list, beyond, 1)?;
         let what = format!("object {}, after the last of {number}", beyond.first());
         probe.rejects(rules, &what, beyond, last)?;
     }

@@ -1,4 +1,4 @@
-//! Cases of the contents of COM objects, and of all lists together.
+//! Cases of the contents of COM objects, and a case that reads the lists of COM, SDA and GEO.
 
 use std::collections::HashSet;
 
@@ -22,7 +22,7 @@ pub(super) const CASES: &[CaseRow] = &[
     case("com-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
         "An object has the same content by the channel's number and by its rank"),
     case("com-content-room", &[COM_2, COM_5, ADS_1], Needs::Queries, room,
-        "A read longer than the object returns at most the size in the descriptor"),
+        "A read longer than the object returns exactly the size in the descriptor, or an error"),
     case("com-places", &[COM_2, COM_5], Needs::Queries, places,
         "No two objects of a list have the same address"),
     case("com-read-lengths", &[ADS_1], Needs::Malformed, read_lengths,
@@ -39,7 +39,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
         let read = match object.address.read() {
             Ok(read) => read,
             Err(error) => {
-                // That the program stream can be read is not documented.
+                // The object may be the program stream: that it can be read is not documented.
                 let stream = error.kind() == ErrorKind::Function;
                 let found = || {
                     format!(
@@ -79,7 +79,8 @@ fn content(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// A read longer than the object may be rejected, but must not return more data.
+/// Checks reads with a read length that exceeds the size of the object. Such a read may be
+/// rejected, but a success must return exactly the size of the object.
 fn room(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let Some((group, offset)) = object.address.content() else { continue };
@@ -105,7 +106,7 @@ fn room(probe: &mut Probe<'_>) -> Step {
     probe.finish("no content can be read with a longer read length")
 }
 
-/// The address in an object's descriptor.
+/// Index group and index offset of the content of an object, as text for a message.
 pub(super) fn at(object: &ListedValue) -> String {
     let content = object.address.content();
     content.map(|(group, offset)| format!("{group}, {offset}")).unwrap_or_default()
@@ -152,10 +153,11 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Reads everything, like an object browser: numbers and descriptors of COM, elements of SDA.
+/// Reads all lists like an object browser: the numbers of objects and the descriptors of COM, and
+/// the names of the elements of SDA and GEO.
 fn everything(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
-        // That platform axes have lists is assumed.
+        // No manual states that platform axes (`ComTable::Axis`) have object lists.
         let rule = match list.parts().table {
             ComTable::Axis => assumed(OBJ_1),
             ComTable::Channel => OBJ_1.into(),

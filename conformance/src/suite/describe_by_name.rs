@@ -26,7 +26,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A request for the description of an unknown name returns an error"),
 ];
 
-/// The number of variables of a kind; other cases judge it.
+/// The number of variables of a kind; 0 if it cannot be read, which other cases judge.
 fn count(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
     let count = probe.try_read::<VariableCount>(CountVariables::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0))
@@ -80,7 +80,8 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                     probe.rejects(VAR_3, &what, describe(beyond), describe(last))?;
                     continue;
                 }
-                // An index after the last must have no data either.
+                // A kind without extended descriptions must also return no data for an index after
+                // the last.
                 let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
                 let found = || plural(given.len(), "byte");
                 probe.check(VAR_3, given.is_empty(), || format!("no data for {what}"), found);
@@ -90,8 +91,8 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Ends the case if the target does not support the description by name. If the function is optional, a
-/// reply of any channel shows that the target supports it.
+/// Ends the case as not applicable if the target does not support the description by name. If the
+/// function is optional, a success in any channel shows that the target supports it.
 fn is_there(probe: &mut Probe<'_>) -> Step {
     if probe.target.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
         return Ok(());

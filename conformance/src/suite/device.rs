@@ -1,4 +1,5 @@
-//! Cases of device information and state. Both are documented online only, and optional.
+//! Cases of device information and state. Both are documented online only, so a missing or wrong
+//! reply is only a warning.
 
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
@@ -20,7 +21,8 @@ pub(super) const CASES: &[CaseRow] = &[
 ];
 
 impl Probe<'_> {
-    /// Sends an inquiry to a task; the exchange is the evidence of the following checks.
+    /// Sends an inquiry (ReadDeviceInfo or ReadState) to a task. The exchange becomes the evidence
+    /// of the following checks.
     pub fn inquire<R: Inquiry>(&mut self, task: Task) -> Step<Inquired<R>> {
         self.target()?;
         let inquired = self.target.client.inquire::<R>(task.port());
@@ -47,7 +49,7 @@ fn device_state(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Sends an inquiry to each claimed task.
+/// Sends an inquiry to each claimed task, checks that it succeeds, and calls `then` with the reply.
 fn each<R: Inquiry>(
     probe: &mut Probe<'_>,
     mut then: impl FnMut(&mut Probe<'_>, R) -> Step,

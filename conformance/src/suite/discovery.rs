@@ -43,8 +43,9 @@ impl Discovery {
     }
 }
 
-/// Finds the channels, axes, lists and ports of a target. Without a file for `--profile`, its replies
-/// become the claims of its profile; sections and functions stay claimed whether they answer or not.
+/// Finds the channels, axes, lists and ports of a target. With [`ClaimsBy::Queries`], the replies
+/// of the target determine the channels, axes, spindles and edition in `target.profile`; ports,
+/// sections and functions remain claimed, whether or not the target has them.
 pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let (begun, frames) = (Instant::now(), target.frames);
     let mut probe = Probe::new(target);
@@ -62,7 +63,7 @@ pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     Discovery { found, time: begun.elapsed() }
 }
 
-/// Lets the discovery continue after a wrong reply has ended a step, and stores the first reason.
+/// Lets the discovery continue after a step that is inconclusive, and stores the first reason.
 fn go_on<T>(found: &mut FoundReport, step: Step<T>) -> Step<Option<T>> {
     match step {
         Err(Stop::Inconclusive(why)) => {
@@ -101,7 +102,8 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let profile = &probe.target.profile;
     found.platform_axes = match by {
         ClaimsBy::Queries => profile.platform_axes,
-        // The profile claims the platform axes, so only the axes of the position controller are counted.
+        // `profile.platform_axes` is a claim here, so the axes of the position controller are
+        // counted instead.
         ClaimsBy::Profile => controlled_axes(&instances),
     };
     if by == ClaimsBy::Profile {
@@ -139,8 +141,8 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
 /// Approximate number of requests that the cases send for a channel, independent of its lists.
 const PER_CHANNEL: u64 = 3_400;
 
-/// Approximate number of requests that the cases send for a list; `tests/library/large.rs` compares the sum
-/// with the number of requests sent.
+/// Approximate number of requests that the cases send for a list with `items` items, of which they
+/// read `read`. `tests/library/large.rs` compares the sum with the number of requests sent.
 fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     let (list, item) = match kind {
         Some(ItemKind::Object) => (0, 13),
@@ -148,7 +150,7 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
         Some(ItemKind::Element) => (35, 35),
         None => (0, 30),
     };
-    // The description of every variable is read once, to learn its name.
+    // The descriptions of the other variables are read once, to learn their names.
     let names = match kind {
         Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
         _ => 0,
@@ -156,8 +158,8 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     u64::from(read).saturating_mul(item).saturating_add(list).saturating_add(names.into())
 }
 
-/// The ports at which a task replies. Ports without a reply stay claimed, so that a case fails for a
-/// missing port.
+/// The ports at which a task replies. Ports without a reply remain claimed, so that a case fails
+/// for a missing port.
 fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     let channel = Channel::new(1)?;
     let mut found_ports = Vec::new();
@@ -193,8 +195,8 @@ impl Walker for IfClaimed<'_, '_> {
     }
 }
 
-/// Claims the channels that are found, or channel 1 if no channel is found. The first number that is
-/// not found becomes that of an absent channel.
+/// Claims the channels that are found, and the lowest number without a channel, if one is found, as
+/// the number of an absent channel. If no channel is found, the claims remain unchanged.
 fn claim_channels(probe: &mut Probe<'_>) -> Step {
     let (mut absent, mut by_objects) = (None, false);
     let walker = &mut IfClaimed(probe);
@@ -231,13 +233,14 @@ fn is_channel(walker: &mut IfClaimed<'_, '_>, channel: Channel, has_objects: boo
     Ok(if has_objects { has_decoder && has_variables } else { has_decoder || has_variables })
 }
 
-/// The number of axes that the position controller has.
+/// The highest axis number in the position controller; 0 without an axis.
 fn controlled_axes(instances: &[Instance]) -> u32 {
     let all = instances.iter().filter(|one| one.class == Class::PositionController);
     all.map(|one| one.axis).max().unwrap_or_default()
 }
 
-/// Claims the platform axes that COM or the position controller has, and the spindles.
+/// Claims the spindles that are found, and the larger of the numbers of platform axes in COM and in
+/// the position controller.
 fn claim_axes(probe: &mut Probe<'_>) -> Step {
     let mut listed = 0_u32;
     for axis in (1..=u32::from(u8::MAX)).map_while(|place| PlatformAxis::new(place).ok()) {
@@ -255,9 +258,9 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The axis places of all channels but the first. Without a profile, a run does not write to these
-/// places: no list shows which places have no axis, and a value written to a place without an axis is
-/// lost.
+/// The axis indices of all channels but the first, each as channel and axis index. Without a
+/// profile, a run does not write at these indices, because no list shows which of them have no
+/// axis, and a value that is written without an axis is lost.
 fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
     let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
     Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())

@@ -29,14 +29,15 @@ pub(super) const CASES: &[CaseRow] = &[
         Needs::Queries, attributes,
         "Every element has a valid name, type, length, unit and write flag"),
     case("sda-content", &[SDA_8, ADR_6, GEN_5], Needs::Queries, content,
-        "The content of an element has the element's length and a value of its type"),
+        "The content of an element has the element's length; a BOOLEAN is 0 or 1"),
     case("sda-content-by-index", &[ADR_1, ADR_12], Needs::Queries, content_by_index,
         "An element has the same content and attributes by the channel's number and rank"),
     case("sda-read-lengths", &[ADS_1], Needs::Malformed, read_lengths,
         "A read length shorter than the reply returns an error"),
 ];
 
-/// Reads an attribute: a valid reply passes the requirements of its stream and group.
+/// Reads an attribute of an element. A valid reply passes `rule` and ADR-6, the requirement of its
+/// index group.
 fn attribute<T>(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -55,7 +56,8 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     let (mut alone, mut with_first) = (None, None);
     for instance in probe.instances()? {
         let first = instance.first;
-        // If the request fails, the part of the address that selects the instance may be wrong.
+        // If the request fails, the part of the address that selects the instance may be wrong: the
+        // group of a spindle (ADR-2), or the offset of an axis (ADR-7).
         let of_address: &[ClauseId] = match instance.class {
             Class::Spindle => &[SDA_4, ADR_2],
             class if instance.axis > 0 && OF_PLACES.contains(&class) => &[SDA_4, ADR_7],
@@ -85,25 +87,19 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let name: ElementText = attribute(probe, SDA_4, ReadElementName::new(first))?;
         let name = name.text.text.to_string();
         let found = || format!("{name:?} of {instance}");
-        // The name of an instance is not specified at a place without an axis, nor if the instance has
-        // only element 0.
+        // The name of an instance is not specified at an axis index without an axis, nor if the
+        // instance has only element 0.
         let is_bare = count == 0 || probe.is_at_empty_place(&instance);
         let rule = if is_bare { assumed(SDA_4) } else { SDA_4.into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
-        let rule = assumed(SDA_4);
-        // Several channels have the same platform axes in their HLDs, so these names repeat.
-        let shared = instance.class == Class::Hld && instance.axis > 0;
-        if !shared {
-            probe.check(
-                rule,
-                names.insert((instance.channel, name.clone())),
-                "a name that no other instance has",
-                found,
-            );
-        }
+        // The HLDs of several channels have the same platform axes, so names are only compared within
+        // a channel.
+        let is_new = names.insert((instance.channel, name.clone()));
+        probe.check(assumed(SDA_4), is_new, "a name that no other instance has", found);
         ends(probe, &instance, count)?;
     }
-    // Whether the number of elements includes element 0 is assumed, but all instances must count alike.
+    // That the number of elements does not include element 0 is assumed, but all instances must
+    // count alike.
     if let Some((with_first, evidence)) = with_first {
         probe.set_evidence(evidence);
         let found = || format!("one more element for {with_first}");
@@ -122,11 +118,12 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
         attribute::<ElementText>(probe, SDA_4, ReadElementName::new(last))?;
     }
     let at_place = OF_PLACES.contains(&instance.class) && instance.axis > 0;
-    // At a place without an axis, the number of elements may be 0, because all contents are zero there.
+    // At an axis index without an axis, the number of elements may be 0, because all contents are
+    // zero there.
     let rule = if at_place && count == 0 { assumed(SDA_4) } else { SDA_4.into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
     for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
-        // The first element need not have all attributes.
+        // If the instance has only element 0, this element need not have all attributes.
         if count > 0 || probe.try_ask(last)?.is_some() {
             probe.rejects(rule, &what, beyond, last)?;
         }
@@ -197,7 +194,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             known = known.saturating_add(usize::from(is_known));
             units.push((element, unit));
         }
-        // Earlier reads must not change a text.
+        // Reads of other elements must not change a unit.
         for (element, unit) in units.iter().rev() {
             let again = probe.try_read::<ElementText>(ReadElementUnit::new(*element))?;
             let same = again.is_none_or(|again| again.text.text == unit.text.text);
@@ -206,7 +203,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             probe.check(SDA_6, same, "the unit as before", found);
         }
     }
-    // If no element has a known type, the texts are wrong rather than the types.
+    // If no element has a known type, the texts are wrong (SDA-6) rather than the types.
     let found = || format!("{}, none of the manual", plural(types, "type"));
     probe.check(SDA_6, types == 0 || known > 0, "texts", found);
     Ok(())

@@ -7,13 +7,13 @@ use ads_cnc::operation::{
     Request,
 };
 use ads_cnc::sda::ObjectAddress;
-use ads_cnc::{Description, Kind, U32List, VariableType};
+use ads_cnc::{Description, Kind, U32List};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{Probe, RawCall, name_of, name_on_axes};
 use super::row::{CaseRow, case};
-use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed, online};
+use crate::judge::{Checks as _, IfPresent as _, Needs, Step, assumed};
 use crate::number::to_u32;
 use crate::text::plural;
 
@@ -28,7 +28,7 @@ pub(super) const CASES: &[CaseRow] = &[
     case("gen-numbering", &[GEN_6, ADR_2], Needs::Queries, numbering,
         "Channels are counted from 1, spindles from 0"),
     case("gen-no-channel-0", &[GEN_6], Needs::Malformed, no_channel_0,
-        "Channel number 0, channel rank 0 and axis place 0 do not exist"),
+        "Channel number 0, channel rank 0 and axis index 0 do not exist"),
     case("gen-names-found", &[GEN_3], Needs::Queries, names_found,
         "A name is found by the characters of its description, including non-ASCII characters"),
 ];
@@ -72,18 +72,13 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
     probe.finish("neither COM nor SDA is claimed")
 }
 
-/// The size of BOOLEAN is printed in the manual; those of other types are documented online.
-fn rule_of(var_type: VariableType) -> Rule {
-    if var_type == VariableType::BOOLEAN { GEN_5.into() } else { online(GEN_5) }
-}
-
 fn type_sizes(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             let Some(size) = variable.var_type.element_size() else { continue };
             probe.set_subject(&variable.name.text);
             let whole = variable.dimensions.iter().fold(size, |all, &n| all.saturating_mul(n));
-            let (rule, name) = (rule_of(variable.var_type), &variable.name.text);
+            let name = &variable.name.text;
             let read = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
             // Another case judges whether the value can be read.
             let Some(value) = probe.try_ask(read)? else { continue };
@@ -94,7 +89,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("{} for {}", plural(whole, "byte"), variable.var_type);
             let found =
                 || format!("{name}: {} described, {read} read", plural(variable.size, "byte"));
-            probe.check(rule, sized, expected, found);
+            probe.check(GEN_5, sized, expected, found);
         }
     }
     Ok(())
@@ -104,7 +99,7 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
     let find = |probe: &mut Probe<'_>, class, channel| -> Step<Option<ObjectAddress>> {
         Ok(probe.address_of(class, channel, 0).if_applicable()?.flatten())
     };
-    // The manual states that SDA has the decoder.
+    // The check uses the decoder, because the manual states that it belongs to SDA.
     let first = u32::from(probe.channel()?.number());
     if let Some(there) =
         find(probe, Class::Decoder, first)?.filter(|one| *one != ObjectAddress::NONE)
@@ -144,7 +139,8 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
     probe.rejects(GEN_6, "a name at place 0", valid.with(|call| call.index_offset = offset), &valid)
 }
 
-/// Whether a name has characters that a wrong code page or 7-bit text would change.
+/// Whether a name has non-ASCII characters, or a `?`, which a CNC may return in place of such a
+/// character.
 fn depends_on_code_page(name: &[u8]) -> bool {
     name.iter().any(|byte| !byte.is_ascii() || *byte == b'?')
 }
@@ -154,8 +150,9 @@ fn is_utf_8(text: &[u8]) -> bool {
     !text.is_ascii() && std::str::from_utf8(text).is_ok()
 }
 
-/// Whether the first name with only ASCII characters has a handle in the channel. If it has none, a
-/// missing handle of another name does not show a wrong code page.
+/// Whether the first name that does not depend on the code page has a handle in the channel; also
+/// true if no such name exists. If this name has no handle, the missing handle of another name does
+/// not show a wrong code page.
 fn finds_plain_names(probe: &mut Probe<'_>, channel: Channel, all: &[Description]) -> Step<bool> {
     let plain = all.iter().find(|one| !depends_on_code_page(one.name.text.as_bytes()));
     let Some(plain) = plain else { return Ok(true) };
@@ -177,7 +174,7 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
             let found = probe.try_ask(by_name)?.is_some();
             let expected = || format!("a handle of {}", variable.name.text);
             probe.check(GEN_3, found, expected, "the name is not found");
-            // Bytes that are valid UTF-8 may also be intended characters of CP1252.
+            // Bytes that are valid UTF-8 may also be intended as CP1252, so this check is assumed.
             let text = Hex(name.to_vec());
             probe.check(assumed(GEN_3), !is_utf_8(name), "one byte per character", text);
         }
@@ -187,7 +184,52 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
 
 #[cfg(test)]
 mod tests {
+    use std::net::SocketAddr;
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use ads_cnc::operation::{Call, Function};
+
     use super::*;
+    use crate::client::{Client, Target};
+    use crate::gate::Gate;
+    use crate::judge::Verdict;
+    use crate::profile::Profile;
+    use crate::simulator::{Cnc, LocalCnc, NET_ID, ReplyData, Responder};
+    use crate::suite::kit::TargetState;
+
+    /// A CNC that describes its SGN16 variables as SGN32.
+    #[derive(Debug)]
+    struct Wrong(Cnc);
+
+    impl Responder for Wrong {
+        fn answer(&self, call: &Call<'_>) -> ReplyData {
+            let mut bytes = self.0.answer(call)?;
+            let function = call.dispatch().map(|request| request.function());
+            if function == Ok(Function::DescribeByIndex) && bytes[4] == 4 {
+                bytes[4] = 6;
+            }
+            Ok(bytes)
+        }
+
+        fn pass(&self, time: Duration) {
+            self.0.pass(time);
+        }
+    }
+
+    /// The size of each type of a variable is a part of GEN-5 at the level *must*.
+    #[test]
+    fn a_wrong_size_of_a_number_fails() {
+        let cnc = Wrong(Cnc::with_default_model().unwrap().with_stopped_clock());
+        let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
+        let cnc = LocalCnc::new(Arc::new(cnc), NET_ID);
+        let client = Client::in_process(target, Gate::queries(), cnc).unwrap();
+        let mut target = TargetState::new(client, Profile::DEVICE);
+        let mut probe = Probe::new(&mut target);
+        type_sizes(&mut probe).unwrap();
+        let (judgements, _) = probe.into_findings();
+        assert!(judgements.iter().any(|one| one.verdict == Verdict::Fail), "{judgements:?}");
+    }
 
     #[test]
     fn characters_of_several_bytes_are_seen() {

@@ -1,4 +1,4 @@
-//! Cases of handles: their variable and their validity.
+//! Cases of handles: the variable to which a handle belongs, and how long the handle is valid.
 
 use std::collections::HashSet;
 
@@ -39,8 +39,8 @@ fn described(probe: &mut Probe<'_>) -> Step {
             let by_handle = whole(channel, variable.handle);
             let by_name = ReadByName { channel, name: name_of(&variable) };
             let answered = probe.try_ask(by_handle)?.is_some();
-            // If the handle requested by name does not read the variable either, another case judges
-            // that.
+            // If the handle that is requested by name does not read the variable either, another
+            // case judges this failure.
             if answered || reads_by_own_handle(probe, channel, &variable)? {
                 let expected = || format!("a success for the handle in the description of {what}");
                 probe.check([VAR_4, VAR_10], answered, expected, "an error");
@@ -57,7 +57,8 @@ fn described(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// Whether the handle requested by the name of the variable reads it.
+/// Whether the variable can be read by the handle that is requested by its name; also true if the
+/// target returns no handle for the name.
 fn reads_by_own_handle(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -71,7 +72,7 @@ fn reads_by_own_handle(
     }
 }
 
-/// The handle of a name. The name must have a handle.
+/// Requests the handle of a name, and checks that the reply is a handle; a failure ends the case.
 fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step<Option<Handle>> {
     let rules = [VAR_9, VAR_10];
     let data = probe.ask(rules, HandleByName { channel, name })?;
@@ -88,8 +89,9 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let name = name_of(variable);
             probe.set_subject(name.text());
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
-            // The manuals do not state that a variable has only one handle, so the values are
-            // compared.
+            // The manuals do not state that a variable has only one handle. Therefore, these checks
+            // are assumed, and another handle than that of the description must read a value of the
+            // described size.
             let expected =
                 || format!("the description's handle {} for {}", variable.handle, name.text());
             let rule = assumed(VAR_10);
@@ -131,7 +133,7 @@ fn stays(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     for (channel, variable, handle) in &all {
         let (channel, by_handle) = (*channel, whole(*channel, *handle));
-        // Twice, because a handle must stay valid after a read.
+        // The variable is read twice, because its handle must stay valid after a read.
         for time in ["once", "again"] {
             let read = probe.try_ask(by_handle)?.is_some();
             let expected = || format!("{} read by its handle {time}", variable.name.text);
@@ -155,7 +157,8 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     }
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    // Handles of axis variables may belong to places without an axis.
+    // The valid handle should not be that of an axis variable, which may belong to an axis index
+    // without an axis.
     let is_of_axis = |variable: &&Description| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str());
         path.is_ok_and(|path| path.kind() == Kind::V_A)

@@ -1,8 +1,9 @@
 //! Malformed requests: the CNC must reply to each, and no reply may return data. A success without data
 //! counts as a rejection.
 //!
-//! No manual states that a CNC rejects these requests, so the checks marked `assumed` fail no device.
-//! The other checks use clauses: a result of 0 means success (ADS-4).
+//! For most of these requests, no manual states that a CNC rejects them, so their checks are
+//! `assumed` and cannot fail a device. The other checks have the level of their clause, such as
+//! ADS-4: a result of 0 means success.
 
 use ads_cnc::address::{Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -36,7 +37,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length shorter than the reply returns an error"),
 ];
 
-/// A valid request, and its variants with a fault.
+/// A valid request, of which the methods send variants that must be rejected.
 struct MalformedRequest<'p, 's> {
     probe: &'p mut Probe<'s>,
     valid: RawCall,
@@ -57,7 +58,8 @@ impl<'p, 's> MalformedRequest<'p, 's> {
         self.data([VAR_24, VAR_11], what, data)
     }
 
-    /// Sends the request with another address, service or length.
+    /// Sends the request as changed by `spoil`, for example with another address, service or
+    /// length.
     fn call(&mut self, rules: impl Rules, what: &str, spoil: impl FnOnce(&mut RawCall)) -> Step {
         self.probe.rejects(rules, what, self.valid.with(spoil), &self.valid)
     }
@@ -116,7 +118,8 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
             malformed.data(assumed(VAR_9), what, &data)?;
         }
     }
-    // A name of 256 characters, longer than the name of any variable, that begins with an existing name.
+    // This name has 256 characters, more than any variable can have in its name, and begins with an
+    // existing name.
     let longest = variables.iter().max_by_key(|one| one.name.text.as_bytes().len());
     for known in [Some(known), longest].into_iter().flatten() {
         let field = TextRef::from(known.name.text.as_cnc_str());

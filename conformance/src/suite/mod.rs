@@ -1,4 +1,4 @@
-//! The suite: its cases, their order and execution.
+//! The cases for this project's codec and for a target, and their execution.
 
 mod address;
 mod ads_services;
@@ -45,6 +45,7 @@ mod write_texts;
 
 pub use allowed::{Unwritable, unwritable};
 pub use discovery::{ClaimsBy, Discovery, discover};
+pub(crate) use kit::PLACES_MAX;
 pub use kit::{Changes, Probe, Sample, TargetState};
 pub use run::run;
 
@@ -52,7 +53,8 @@ use crate::judge::{Body, Case, CaseSubject, codec_cases};
 use crate::rules::reply_cases;
 use row::CaseRow;
 
-/// The cases that have a function of their own; other cases are made from vectors.
+/// The cases for a target that are functions of the submodules. [`cases`] makes the other cases
+/// from vectors, sequences and the rules for replies.
 const TABLES: &[&[CaseRow]] = &[
     address::CASES,
     ads_services::CASES,
@@ -107,7 +109,8 @@ fn case_of(row: &CaseRow) -> Case {
     }
 }
 
-/// All cases. [`Selection::plan`](crate::judge::Selection::plan) orders them.
+/// All cases for the codec and for a target, in no particular order:
+/// [`Selection::plan`](crate::judge::Selection::plan) orders them.
 pub fn cases() -> Vec<Case> {
     let mut cases = codec_cases();
     cases.extend(rows().map(case_of));

@@ -1,4 +1,4 @@
-//! Cases of names: their structure, and access by name only.
+//! Cases of the structure of names, of variables that are accessible by name only, and of texts.
 
 use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
@@ -39,7 +39,7 @@ fn paths(probe: &mut Probe<'_>) -> Step {
                 found,
             );
             let Ok(path) = path else { continue };
-            // An array is listed as a single variable; its elements are not listed.
+            // An array is described as a single variable; its elements have no description.
             let whole = path.elements().is_empty();
             probe.check(VAR_20, whole, "the name of the variable, not of an element", found);
         }
@@ -47,7 +47,8 @@ fn paths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The name of a variable that has a handle; a request for this handle must succeed.
+/// The name of the first described variable of the first channel. The request for its handle is the
+/// valid request with which a rejected request is compared.
 fn known(probe: &mut Probe<'_>) -> Step<CncString> {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
@@ -93,7 +94,8 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         steady.judge(probe, VAR_19, &name.text(), compared, |probe, rules, (before, read, _)| {
             let (expected, found) = (|| Hex(before.clone()), || Hex(read.clone()));
             probe.check(rules, false, expected, found);
-            // Either the value of the parameter or the value of the variable may be wrong.
+            // Either the value of the parameter (DYN-3) or the value of the variable (VAR-14) may
+            // be wrong.
             probe.check([DYN_3, VAR_14], false, expected, found);
             let (low, high) = before.split_at(before.len() / 2);
             let is_reversed = before.iter().rev().eq(&read) || [high, low].concat() == read;

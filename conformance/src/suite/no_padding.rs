@@ -21,7 +21,8 @@ fn has_type(object: DescriptorRef<'_>) -> bool {
     object.type_size().is_some() || object.type_name() == "STRING"
 }
 
-/// The bytes with zeros inserted or bytes removed at an offset.
+/// The bytes with `by` zeros inserted at the offset `at`, or, if `by` is negative, with that number
+/// of bytes removed there.
 fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
     let (head, tail) = bytes.split_at_checked(at).unwrap_or((bytes, &[]));
     let count = by.unsigned_abs();
@@ -66,8 +67,8 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     let object = |bytes: &[u8], judge: fn(DescriptorRef<'_>) -> bool| {
         DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
     };
-    // Only descriptors with an empty name and an empty type may consist of padding; an unknown name of a
-    // type does not show padding.
+    // Padding is searched for only if the name and the type are empty: an unknown type name does
+    // not show padding.
     let is_unpacked = object(bytes, |one| one.name().is_empty() && one.type_name().is_empty());
     let makes_sense = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();
@@ -81,8 +82,8 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     probe.check(GEN_2, shift.is_none(), "name at byte 20, type at byte 52", found);
 }
 
-/// Whether the size is that of the type and the dimensions. False for a STRING: it has no fixed size,
-/// so a wrong number of dimensions would look like padding.
+/// Whether the size is that of the type times the number of elements. False for a STRING, which has
+/// no fixed size, so that a wrong number of dimensions would look like padding.
 fn has_size(variable: &Description) -> bool {
     let element = variable.var_type.element_size();
     let count = element_count(&variable.dimensions);
@@ -102,8 +103,8 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
     probe.check(GEN_2, shift.is_none(), || format!("a name of {kind} after the dimensions"), found);
 }
 
-/// The number of padding bytes before `end` whose removal makes the stream plausible; negative if
-/// bytes are missing.
+/// The number of padding bytes before `end` whose removal makes the stream plausible (according to
+/// `makes_sense`); negative if bytes are missing; `None` if no shift in [`SHIFTS`] does.
 fn unpacked(bytes: &[u8], end: usize, makes_sense: impl Fn(&[u8]) -> bool) -> Option<isize> {
     let makes_sense = |by: isize| (0..end).any(|at| makes_sense(&shifted(bytes, at, by)));
     SHIFTS.into_iter().find(|by| makes_sense(*by)).map(isize::saturating_neg)
@@ -129,7 +130,7 @@ mod tests {
         }
         let narrow = shifted(DESCRIPTION, 10, -2);
         assert!(unpacked(&narrow, DESCRIPTION.len(), sense).is_some());
-        // Implausible bytes without padding are judged by other cases.
+        // Other cases judge bytes that are implausible for another reason than padding.
         assert_eq!(unpacked(b"\x02\0\0\x02", 4, sense), None);
     }
 }

@@ -42,7 +42,8 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         other => other,
     });
     let platform = match platform {
-        // Other cases judge the content of the list.
+        // The number of objects could not be read, so the list of the platform (channel 0) counts
+        // as missing.
         Err(Stop::Judged) => {
             probe.check(COM_4, false, "the platform's list in channel 0", "no list");
             return Err(Stop::Judged);
@@ -100,8 +101,8 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Channel 1 has the platform's objects: an object in the lists of channel 0 and channel 1 must have the
-/// same content under both channels.
+/// Checks that an object in the lists of channel 0 (the platform) and of channel 1 has the same
+/// content at the addresses in both lists, and at its offset in the groups of both channels.
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = platform_channel(probe)?.map(ObjectList::from);
@@ -119,7 +120,8 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         if let Some(other) = other.and_then(|other| other.address.read().ok()) {
             steady.same(probe, COM_4, &what, one, other)?;
         }
-        // The content must also be readable at the object's offset in the groups of channels 0 and 1.
+        // The content must also be readable at the object's offset in the groups of channels 0 and
+        // 1, even if the descriptor contains another group.
         for list in iter::once(ObjectList::PLATFORM).chain(first) {
             let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
             let there = ReadObject::new(group, offset, object.size())?;
@@ -133,7 +135,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// The objects printed in the manuals.
+/// The objects whose addresses the manuals print: owner, index group and index offset (COM-6).
 pub(super) const PRINTED: [(&str, u32, u32); 4] = [
     ("platform", 0x12_0100, 0x251),
     ("axis", 0x12_0200, 0x1_0001),

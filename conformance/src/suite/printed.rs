@@ -12,10 +12,11 @@ use crate::judge::{Body, Case, Needs, Rule, Step, Stop, case_of, typed};
 use crate::number::to_usize;
 use crate::text::hex::spaced;
 
-/// An example that contradicts another example of the same variable (E-27): no CNC can satisfy both.
+/// The vector of an example that contradicts another example of the same variable (E-27): no CNC
+/// can satisfy both.
 const CONTRADICTED: &str = "value-printed-name-element";
 
-/// One case for each printed reply.
+/// One case for each printed reply whose request is also a vector.
 pub(super) fn cases() -> Vec<Case> {
     vectors()
         .iter()
@@ -80,8 +81,9 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
 /// Requirements that consist of a printed example: a difference in any field violates them.
 const EXAMPLES: [ClauseId; 3] = [SDA_3, SDA_10, DYN_7];
 
-/// The requirements of the fields in which a reply differs from the printed one, and those of the
-/// whole example; all requirements of the vector if none is about these fields.
+/// The requirements of the vector that a difference from the printed reply violates: those of the
+/// fields that differ, and those that consist of the whole example. If no requirement of the vector
+/// is about a field that differs, these are all requirements of the vector.
 fn wrong_requirements<'v>(
     reply: &'v Vector,
     stream: Stream,
@@ -90,7 +92,7 @@ fn wrong_requirements<'v>(
 ) -> Vec<&'v str> {
     let received = received.unwrap_or_default();
     let mut clauses = Vec::new();
-    // A printed reply always decodes completely.
+    // A printed reply always decodes completely, so the result is ignored.
     let _walked = stream.walk(expected, |segment| {
         let at = to_usize(segment.offset);
         let same = received.get(at..at.saturating_add(segment.bytes.len())) == Some(segment.bytes);

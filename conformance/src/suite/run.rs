@@ -22,7 +22,7 @@ use crate::judge::{
 use crate::process::{interrupt, progress};
 use crate::testee::{self, JudgementOptions};
 
-/// The function of each case that has one.
+/// The function of each case that has one, by the ID of the case.
 static TRIES: LazyLock<HashMap<&str, CaseFunction>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
@@ -59,21 +59,28 @@ pub fn run(
         outcome
     }));
     if let Some(target) = target.as_deref_mut() {
-        outcomes.extend(broken_frames(target));
+        let broken = broken_frames(&outcomes, target);
+        outcomes.extend(broken);
     }
     attribute(&mut outcomes);
     if let Some(target) = target {
-        // Values that are still changed after a panic are reported.
+        // A panic is ignored here, because the report lists the values that remain changed.
         let _panic = caught(|| Probe::new(target).restore_rest());
     }
     outcomes
 }
 
-/// The outcome of the case that judges the frames. It is added if a frame was wrong, although the
-/// case was not selected.
-fn broken_frames(target: &mut TargetState) -> Option<CaseOutcome> {
-    let is_wrong = target.broken.checks > 0;
-    let row = rows().find(|row| row.id == "ads-every-frame").filter(|_| is_wrong)?;
+/// The case that judges the frames of all other cases.
+const EVERY_FRAME: &str = "ads-every-frame";
+
+/// The outcome of the case [`EVERY_FRAME`] if frames of this run violate a rule and the case was not
+/// selected; otherwise `None`. A selected case has its outcome, even if it was interrupted.
+fn broken_frames(outcomes: &[CaseOutcome], target: &mut TargetState) -> Option<CaseOutcome> {
+    let is_selected = outcomes.iter().any(|outcome| outcome.case.id == EVERY_FRAME);
+    if is_selected || target.broken.checks == 0 {
+        return None;
+    }
+    let row = rows().find(|row| row.id == EVERY_FRAME)?;
     Some(one(super::case_of(row), Some(row.run), Some(target)))
 }
 
@@ -147,12 +154,13 @@ mod tests {
 
     use ads_cnc::CncString;
     use ads_cnc::address::Channel;
+    use ads_cnc_vectors::ids::ADS_5;
 
     use super::*;
     use crate::client::{Client, Target};
     use crate::faults::{self, Faulty};
     use crate::gate::{Allowed, Gate};
-    use crate::judge::Step;
+    use crate::judge::{Rule, Step};
     use crate::net;
     use crate::objects::ValueAddress;
     use crate::profile::Profile;
@@ -190,8 +198,8 @@ mod tests {
         (server, TargetState::new(client, Profile::DEVICE))
     }
 
-    /// A value of 2048 bytes cannot be written by name, so the case is not observed; it is not
-    /// applicable only if the target has no such variable.
+    /// A value of 2048 bytes cannot be written by name, so the verdict is *not observed*. The
+    /// verdict is *not applicable* only if the target has no variable that may be written.
     #[test]
     fn a_case_without_a_subject_is_not_applicable() {
         let padded = Some("cnc.var.value-2048");
@@ -207,7 +215,20 @@ mod tests {
         }
     }
 
-    /// The case in which the target stops answering is named.
+    /// A wrong frame adds the case that judges frames, unless the case was selected and has an
+    /// outcome, such as that of an interrupted run.
+    #[test]
+    fn the_case_of_frames_has_one_outcome() {
+        let (_server, mut target) = target(None, NAME);
+        let rule = Rule::from(ADS_5);
+        target.broken.add(rule, Verdict::Fail, "a header", "another", || None);
+        let case = crate::suite::cases().into_iter().find(|one| one.id == EVERY_FRAME).unwrap();
+        let interrupted = [CaseOutcome::interrupted(case)];
+        assert!(broken_frames(&interrupted, &mut target).is_none());
+        assert_eq!(broken_frames(&[], &mut target).unwrap().verdict(), Verdict::Fail);
+    }
+
+    /// `TargetState::ended` names the case in which the target stops answering.
     #[test]
     fn the_case_in_which_the_target_is_gone_is_noted() {
         let (server, mut target) = target(None, NAME);

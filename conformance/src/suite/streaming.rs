@@ -1,4 +1,4 @@
-//! Cases of data streaming. Only comments are sent, which do not move a device.
+//! Cases of data streaming. Only comments and empty lines are sent, which do not move a device.
 
 use std::time::{Duration, Instant};
 
@@ -34,11 +34,11 @@ pub(super) const CASES: &[CaseRow] = &[
 /// Index offset of the stream object in the group of a channel.
 const OFFSET: u32 = 0x90;
 
-/// The name of the object.
+/// The name of the stream object.
 const NAME: &str = "mc_program_stream_w";
 
-/// Looks for the stream object in the lists of channels, by name and address. The object need not be
-/// listed.
+/// Looks for the stream object in the object lists of the channels, by name and by address, and
+/// checks both. The object need not be listed.
 fn object(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let ValueList::Channel(number) = object.list else { continue };
@@ -73,8 +73,8 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     Err(Stop::not_applicable("no stream may be written"))
 }
 
-/// Writes until the packet is accepted; returns the last rejection if the timeout expires, and the
-/// number of rejections before.
+/// Writes a packet repeatedly until it is accepted or the timeout has expired. Returns the last
+/// reply if the packet was not accepted, and the number of earlier rejections.
 fn repeat(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -95,12 +95,13 @@ fn repeat(
     }
 }
 
-/// Writes a packet that must be accepted; returns how often it was rejected before, or `None` if it
-/// is never accepted.
+/// Writes a packet that must be accepted. Returns how often it was rejected before it was accepted,
+/// or `None` if it is rejected although the buffer of the device has space.
 ///
-/// An error number does not show whether a rejection is temporary, nor whether the device empties its
-/// buffer at all. Therefore, after the timeout, two packets with the same total length are written by the
-/// channel's number: if the device accepts both, its buffer had space for the rejected packet.
+/// An error number does not show whether a rejection is temporary, nor whether the device empties
+/// its buffer at all. Therefore, after the timeout, two packets with at least the same total length
+/// are written by the channel's number. If the device accepts both, its buffer had space for the
+/// rejected packet; otherwise the case is inconclusive.
 fn write(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -108,7 +109,7 @@ fn write(
     data: &[u8],
 ) -> Step<Option<u32>> {
     let half = comment(data.len().div_ceil(2).max(4));
-    // Twice, because the device may have emptied its buffer meanwhile.
+    // This is tried twice, because the device may have emptied its buffer between two writes.
     for _ in 0..2 {
         let (rejection, rejections) = repeat(probe, channel, data)?;
         let Some(rejection) = rejection else { return Ok(Some(rejections)) };
@@ -150,7 +151,7 @@ fn longest(probe: &mut Probe<'_>) -> Step {
     write_accepted(probe, &[STM_2], channel, &many)
 }
 
-/// Writes packets with lengths around multiples of 256.
+/// Writes packets of 4 to 992 bytes, with lengths around 128 and around multiples of 256.
 fn lengths(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     for len in [4_usize, 127, 128, 255, 256, 257, 511, 512, 513, 767, 768, 769, 991, 992] {
@@ -183,7 +184,7 @@ fn too_long(probe: &mut Probe<'_>) -> Step {
         let sent = send(probe, channel, &comment(len))?;
         probe.check(
             STM_2,
-            sent.is_refused(),
+            sent.is_rejected(),
             || format!("{} rejected", plural(len, "byte")),
             &sent,
         );

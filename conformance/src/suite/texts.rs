@@ -1,10 +1,10 @@
-//! Cases of characters: a written text is read back unchanged.
+//! A case of characters: a written text is read back unchanged.
 
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, WriteCheck, same};
+use super::kit::{Probe, WriteCheck, is_of_service, same};
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, Rule, Step, assumed};
 use crate::objects::ValueAddress;
@@ -12,13 +12,13 @@ use crate::objects::ValueAddress;
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
     case("gen-characters-written", &[GEN_3], Needs::Writes, written,
-        "Every CP1252 character written to a text is read back"),
+        "Every byte from 0x80 to 0xFF written to a text is read back"),
 ];
 
 /// Bytes without a character in CP1252.
-const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
+pub(super) const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 
-/// Writable texts, with their names.
+/// The writable texts that the cases read, with their names: objects and variables.
 fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
     let mut all = Vec::new();
     for object in probe.objects().if_applicable()?.unwrap_or_default() {
@@ -32,9 +32,9 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
             let is_text = variable.var_type == VariableType::STRING
                 && variable.dimensions.is_empty()
                 && variable.access == ads_cnc::VariableAccess::READ_WRITE;
-            let name = variable.name.text;
             // The texts of the Service Interface are not written here, because an NC program reads them.
-            let own = !name.to_string().starts_with("V.G.SERVICE.");
+            let own = !is_of_service(&variable);
+            let name = variable.name.text;
             let what = name.to_string();
             (is_text && own).then_some((ValueAddress::Name { channel, name }, what))
         }));
@@ -67,7 +67,8 @@ fn written(probe: &mut Probe<'_>) -> Step {
     probe.finish("no text may be written")
 }
 
-/// Writes all characters, as many at a time as fit into the text.
+/// Writes all bytes from 0x80 to 0xFF, as many at a time as fit into the text, and the unassigned
+/// bytes separately.
 fn characters(probe: &mut Probe<'_>, address: &ValueAddress, what: &str, size: usize) -> Step {
     let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
     for (bytes, rule) in [(&all[..], Rule::from(GEN_3)), (&UNASSIGNED, assumed(GEN_3))] {
@@ -89,7 +90,7 @@ fn is_read_again(
     rule: Rule,
     value: &[u8],
 ) -> Step {
-    // Which texts are accepted is not documented.
+    // That the CNC accepts the text is assumed.
     let taken = [assumed(GEN_3)];
     if !probe.write_checked(
         &WriteCheck { what, rules: &taken, is_text: true, name: None },

@@ -32,7 +32,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "A text is at most as long as the maximum that can be declared"),
 ];
 
-/// Compares a value with the whole variable, which is read before and after it.
+/// Compares the value that `request` reads with what `part` extracts from the value of the whole
+/// variable.
 fn compare_with_whole<'r>(
     steady: &mut Steady,
     probe: &mut Probe<'_>,
@@ -133,7 +134,8 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// Checks that an index selects the same text of an array by handle and by name, whatever the layout.
+/// Checks that an index selects the same text of an array by handle and by name, whatever the
+/// layout of the array.
 fn text_by_name(
     probe: &mut Probe<'_>,
     channel: Channel,

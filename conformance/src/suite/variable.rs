@@ -35,7 +35,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "A name or a kind may be padded with NULs to 256 bytes"),
 ];
 
-/// The number of variables of a kind, which the target must return.
+/// Requests the number of variables of a kind. A reply without a number fails a check and ends the
+/// case.
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
     let data = probe.ask([VAR_1, VAR_2], CountVariables::new(channel, kind))?;
     let count = VariableCount::decode(&data);
@@ -52,14 +53,16 @@ fn count(probe: &mut Probe<'_>) -> Step {
         }
         let VariableCount(all) = probe.read(VAR_1, CountVariables::new(channel, Kind::ALL))?;
         let found = || format!("{all} of channel {}", channel.number());
-        // Kinds that are not claimed are not counted here, but may exist.
+        // The sum does not include kinds that are not claimed, but the target may have variables of
+        // them.
         let whole = probe.kinds().len() == KINDS.len();
         let passed = if whole { all == sum } else { all >= sum };
         probe.check(VAR_1, passed, || format!("{} of all kinds", plural(sum, "variable")), found);
         if !probe.target.client.gate().lets_malformed_pass() {
             continue;
         }
-        // A request without data must return the same number as a request with an empty kind.
+        // That a request without data returns the same number as a request with an empty kind is
+        // assumed.
         let absent = Kind::from_field(TextRef::with_tail(ads_cnc::CncStr::EMPTY, None));
         let exchange = probe.send(CountVariables::new(channel, absent))?;
         let data = exchange.reply().and_then(|reply| reply.success().map(<[u8]>::to_vec));
@@ -76,7 +79,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
             let chosen = probe.sample(ItemKind::Variable, 0..number);
             let mut names = HashSet::new();
             let mut all = Vec::new();
-            // Names must be unique among all variables, not only among those chosen.
+            // Names must be unique among all variables, not only among those of the sample.
             let last = chosen.iter().copied().filter(|index| *index >= VARIABLES_MAX);
             for index in (0..number.min(VARIABLES_MAX)).chain(last) {
                 let is_chosen = chosen.binary_search(&index).is_ok();
@@ -99,8 +102,9 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Reads the descriptions from the last index to the first. A difference counts only if the next read
-/// returns the first description again; otherwise an axis may have moved to another place meanwhile.
+/// Reads the descriptions from the last index to the first. A difference counts only if the next
+/// read returns the first description again; otherwise an axis may have moved to another axis index
+/// meanwhile.
 fn descriptions_backwards(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -168,12 +172,13 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     probe.rejects(VAR_14, &what, read(absent), read(channel))
 }
 
-/// The structures that contain a leaf: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
+/// The structures that contain a variable, such as `V.E.a[0].b`, `V.E.a[0]` and `V.E.a` for
+/// `V.E.a[0].b.c`.
 fn structures(name: &str) -> Vec<&str> {
     let mut all = Vec::new();
     let mut rest = name;
     while let Some((structure, _)) = rest.rsplit_once('.') {
-        // Only the kind is left, such as `V.E`.
+        // The rest of the name is a kind such as `V.E`, which is not a structure.
         if structure.matches('.').count() < 2 {
             break;
         }
@@ -232,7 +237,8 @@ fn padded_name(probe: &mut Probe<'_>) -> Step {
     same(probe, VAR_1, plain.into(), CountVariables::new(channel, kind).into())
 }
 
-/// Sends the same request twice, the second time in a form that is assumed to be permitted.
+/// Sends a request in its usual form (`plain`) and in a form that is assumed to be permitted
+/// (`odd`), and checks that both replies have the same data.
 fn same(probe: &mut Probe<'_>, rule: ClauseId, plain: Request<'_>, odd: Request<'_>) -> Step {
     let expected = probe.send(plain)?;
     let exchange = probe.send(odd)?;

@@ -1,4 +1,4 @@
-//! Cases of names and types: lookup by name, and types that other manuals state.
+//! Cases of the lookup of variables by name, and of types that another manual states.
 
 use ads_cnc::address::Channel;
 use ads_cnc::limits::TEXT_MAX;
@@ -34,7 +34,7 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
         probe.rejects(ADS_4, &what, handle, valid)?;
         let valid = ReadByName { channel, name: known };
         probe.rejects(ADS_4, &what, ReadByName { channel, name }, valid)?;
-        // A success would return a handle, although no variable has this name.
+        // A success, even without data, would mean that a variable has this name.
         let given = probe.try_ask(handle)?;
         let none = given.is_none();
         let found = || Hex(given.clone().unwrap_or_default());
@@ -63,7 +63,8 @@ fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     };
     let Some((_, shorter)) = name.split_last() else { return Vec::new() };
     let longer = [name, &b"q"[..]].concat();
-    // The changed character is after the kind: a name with a wrong kind would be rejected for its kind.
+    // The changed character is after the kind, because a name with a wrong kind would be rejected
+    // for its kind.
     let middle =
         name.len().saturating_sub(4).checked_div(2).map_or(4, |half| half.saturating_add(4));
     vec![longer, shorter.to_vec(), other(name.len().saturating_sub(1)), other(middle)]
@@ -88,7 +89,8 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let Some(all) = probe.all_variables(channel)? else { continue };
         let mut variables = probe.variables(channel)?;
-        // Whether names are case-sensitive is not stated.
+        // Upper and lower case count as equal, because no manual states whether names are
+        // case-sensitive.
         let is_there =
             |name: &[u8]| all.iter().any(|one| one.name.text.as_bytes().eq_ignore_ascii_case(name));
         variables.sort_by_key(|one| std::cmp::Reverse(one.name.text.as_bytes().len()));
@@ -125,7 +127,8 @@ fn apart(
     probe.rejects(rule, &what, ReadByName { channel, name }, valid)
 }
 
-/// Checks the types of the variables of the Service Interface, which are documented.
+/// Checks the types of the variables of the Service Interface, which the manual of the Service
+/// Interface states.
 fn known_types(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {

@@ -1,4 +1,4 @@
-//! Cases that write variables and restore them.
+//! Cases that write whole variables and restore them.
 
 use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
@@ -60,7 +60,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("{} of {name}, read by its handle", Hex(new.to_vec()));
             let passed = same(&read, new, is_text);
             probe.check(VAR_13, passed, expected, || Hex(read.clone()));
-            // If the value by name is the new one, the value by handle must be the new one too.
+            // If a read by name returns the new value, a read by handle must return it, too.
             let passed = passed || !same(&named, new, is_text);
             probe.check(VAR_14, passed, expected, || Hex(read));
             Ok(())
@@ -69,7 +69,8 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Calls a function for every axis variable with this access, at the place of its described handle.
+/// Calls a function for every axis variable with this access that may be written on the axis
+/// interface. The address has the axis index that returns the handle in the description.
 fn each_of_axes(
     probe: &mut Probe<'_>,
     access: VariableAccess,
@@ -102,11 +103,12 @@ fn axis_variables(probe: &mut Probe<'_>) -> Step {
 fn axis_read_only(probe: &mut Probe<'_>) -> Step {
     let rules = [VAR_6, VAR_26].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_ONLY, |probe, _, variable, at, what| {
-        probe.write_refused(&write_check(variable, what, &rules), at, None)
+        probe.write_rejected(&write_check(variable, what, &rules), at, None)
     })
 }
 
-/// Writes variables without a handle. That they are writable is stated only "with restrictions".
+/// Writes variables of the first channel that have no handle, by their names. That the CNC accepts
+/// such a write is assumed, because the manuals limit the access to such variables without details.
 fn by_names(probe: &mut Probe<'_>, rule: ClauseId, names: Vec<CncString>) -> Step {
     let channel = probe.channel()?;
     for name in names {

@@ -1,4 +1,5 @@
-//! Cases of rejected writes: they have no effect, and the next write succeeds.
+//! Cases of writes after a rejected write, of writes of a wrong size to objects, and of writes at
+//! axis indices without an axis.
 
 use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
@@ -22,7 +23,7 @@ pub(super) const CASES: &[CaseRow] = &[
     case("write-objects-of-wrong-size", &[COM_5], Needs::MalformedWrites, objects_of_wrong_size,
         "A rejected write with a wrong size does not change the object"),
     case("write-empty-places", &[SDA_11], Needs::MalformedWrites, empty_places,
-        "An axis place without an axis has blank content, also after a write"),
+        "An axis index without an axis has blank content, also after a write"),
 ];
 
 fn after_rejection(probe: &mut Probe<'_>) -> Step {
@@ -34,14 +35,15 @@ fn after_rejection(probe: &mut Probe<'_>) -> Step {
             let other = changed_value(value, false);
             let (valid, back) = (address.write(&other), address.write(value));
             let (valid, back) = (valid?, back?);
-            // Whether the target accepts a write that does not follow a rejected one.
+            // Sends a write and returns whether the target accepts it. An address is judged only if
+            // the target accepts two consecutive writes of the current value.
             let accepted = |probe: &mut Probe<'_>, request| -> Step<bool> {
                 Ok(probe.try_ask(request)?.is_some())
             };
             if !probe.may(back)? || !accepted(probe, back)? || !accepted(probe, back)? {
                 continue;
             }
-            // Continues only if the write to the unknown name is rejected.
+            // An address is judged only if the write to the unknown name is rejected.
             if probe.try_ask(unknown)?.is_some() {
                 continue;
             }
@@ -51,7 +53,8 @@ fn after_rejection(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("{name} written after a rejected write");
             probe.check([id, ADS_2, ADS_4], done, expected, &exchange);
             let after = probe.value_at(&address)?.unwrap_or_default();
-            // Another case judges values that cannot be changed.
+            // The value is judged only if a second write changes it. Another case judges values
+            // that cannot be changed.
             let (again, read) = (accepted(probe, valid)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));
@@ -63,8 +66,8 @@ fn after_rejection(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Writes values of a wrong size. The manuals state that a rejected write has no effect, but not that a
-/// write of another size must be rejected.
+/// Writes values of a wrong size to objects, and checks that a rejected write has no effect. The
+/// manuals do not state that a write of a wrong size must be rejected.
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
@@ -103,13 +106,14 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     applicable(any, NOTHING_WRITABLE)
 }
 
-/// Whether a value of this type may be the number of the axis at its place; such values are not written.
+/// Whether a value of this type may be the logical number of the axis at its axis index; such
+/// values are not written, because the write may exchange axes.
 fn may_be_a_number(type_name: &str) -> bool {
     !matches!(type_name, "BOOLEAN" | "BOOL" | "REAL32" | "REAL64" | "REAL" | "LREAL")
 }
 
-/// Writes to places without an axis. Whether such a write is rejected is not specified, but the content
-/// must stay blank.
+/// Writes at axis indices without an axis. Whether such a write is rejected is not specified, but
+/// the content must not become the written value.
 fn empty_places(probe: &mut Probe<'_>) -> Step {
     let mut all: Vec<(ValueAddress, String)> = Vec::new();
     let empty = probe.target.profile.empty_places.clone();
@@ -157,5 +161,5 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
             probe.send(address.write(&blank)?)?;
         }
     }
-    probe.finish("no axis place without an axis is known")
+    probe.finish("no axis index without an axis is known")
 }

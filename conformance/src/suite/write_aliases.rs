@@ -1,5 +1,5 @@
-//! Cases that write at one address and read at another: by number and by rank, with and without a
-//! channel.
+//! Cases that write a value at one of its addresses and read it at another: by the rank and by the
+//! number of a channel, and in the HLDs of the platform and of the first channel.
 
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
@@ -31,7 +31,8 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         {
             continue;
         }
-        // If the value cannot be read by the channel's number either, another case judges that.
+        // If the value cannot be read or written by the channel's number either, another case
+        // judges this.
         let Some(value) = probe.filled_value_at(logical)? else {
             continue;
         };

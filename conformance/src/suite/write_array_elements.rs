@@ -36,7 +36,7 @@ fn ends(dimensions: &[u32]) -> Vec<Vec<u32>> {
     places
 }
 
-/// The position of an element in the array, with the last index running fastest.
+/// The position of an element in the array, counted from 0; the last index changes fastest.
 fn number_of(place: &[u32], dimensions: &[u32]) -> usize {
     let number = place
         .iter()
@@ -66,8 +66,9 @@ fn elements(
             let rules = rules(variable);
             let write_check = write_check(variable, &name, &rules);
             probe.try_write(&write_check, &place, |probe, old, new| {
-                // That an accepted value is read back does not depend on the assumed layout of the array,
-                // so the rules are judged at their own level.
+                // That an accepted value is read back does not depend on the assumed layout of the
+                // array. This check therefore has the level of the clauses, even if `rules` are
+                // assumed.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
                 let passed = same(&read, new, is_text);
@@ -75,7 +76,7 @@ fn elements(
                 let stated: Vec<Rule> =
                     write_check.rules.iter().map(|rule| Rule::of(rule.id)).collect();
                 probe.check(&stated, passed, expected, || Hex(read.clone()));
-                // The array must have changed in this element only.
+                // In the whole array, only this element must have changed.
                 let mut expected = before.clone();
                 let size = old.len();
                 let start = number.saturating_mul(size);
@@ -91,8 +92,8 @@ fn elements(
     })
 }
 
-/// The rules with these IDs; assumed for several dimensions and for texts, whose order in an array is not
-/// documented.
+/// The rules with these IDs. They are assumed for arrays with several dimensions and for arrays of
+/// texts, whose layout is not documented.
 fn of_order(variable: &Description, ids: &[ClauseId]) -> Vec<Rule> {
     let is_assumed = variable.dimensions.len() > 1 || variable.var_type == VariableType::STRING;
     ids.iter().map(|&id| if is_assumed { assumed(id) } else { id.into() }).collect()

@@ -30,7 +30,9 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write to the element count of an instance is rejected"),
 ];
 
-/// The objects that are writable, or not writable, according to their descriptors.
+/// The objects that have, or do not have, write access according to their descriptors, and that the
+/// gate and the profile permit to write. Objects at axis indices that have no axis, or may have
+/// none, are left out.
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<ListedValue>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
@@ -106,7 +108,7 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
         let what = object.name.to_string();
         let rules = [COM_2.into()];
         let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&write_check, &object.address, known.as_ref())?;
+        probe.write_rejected(&write_check, &object.address, known.as_ref())?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
@@ -128,8 +130,8 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             }
             Ok(())
         })?;
-        // A sibling that had the new value and has its old value after the restoring was changed by both
-        // writes.
+        // A sibling that had the new value after the write, and has its old value again after the
+        // original value was restored, was changed by both writes.
         let is_own = taken.is_empty();
         for (rules, sibling, address, before, evidence) in taken {
             let again = probe.value_at(address)?;
@@ -152,8 +154,9 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 /// Another value that a faulty write might change: rules, name, address, current value.
 type Sibling = (Vec<Rule>, String, ValueAddress, Vec<u8>);
 
-/// The same element of the other instances of its class, and the other elements of its instance. The
-/// elements of one instance may depend on each other, so their rule is assumed.
+/// The elements with the same number in the other instances of the class, and the other elements of
+/// the instance, if they have the same length. The elements of one instance may depend on each
+/// other, so their rule is assumed.
 fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
@@ -164,7 +167,8 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
         others.push((vec![assumed(SDA_9)], what, element));
     }
     for other in probe.instances()? {
-        // The HLDs of all channels have the same axes, so the same axis in another HLD is no sibling.
+        // The HLDs of all channels have the same platform axes, so the same axis in another HLD is
+        // not a sibling.
         let is_same = other.first == one.instance.first
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
         let is_sibling = other.class == one.instance.class && !is_same && number <= other.count;
@@ -186,7 +190,8 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     Ok(all)
 }
 
-/// Writes values that are one byte too long or too short. A rejected write must have no effect.
+/// Writes values that are one byte too long or too short, and checks that they are rejected
+/// (assumed), and that a rejected write has no effect.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {
@@ -217,12 +222,13 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
     for WritableElement { address, what, .. } in &all {
         let rules = [SDA_9.into()];
         let write_check = WriteCheck { what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&write_check, address, known.as_ref())?;
+        probe.write_rejected(&write_check, address, known.as_ref())?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// Writes the first element, whose content is the number of elements.
+/// Writes the current number of elements to element 0 of each instance, which must reject the
+/// write.
 fn number_of_elements(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
         let write = RawCall::new(CountElements::new(instance.first)?)?.with(|call| {

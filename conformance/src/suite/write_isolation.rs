@@ -1,4 +1,5 @@
-//! Cases that write all values one after another and check the effect on the others.
+//! Cases that write all writable variables one after another, and check that no write changes
+//! another variable.
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -20,21 +21,22 @@ pub(super) const CASES: &[CaseRow] = &[
     case("write-nothing-else-by-handle", &[VAR_12], Needs::MalformedWrites, by_handle,
         "A write by handle changes the variable of the handle, and no other in any channel"),
     case("write-nothing-else-of-axes", &[VAR_26], Needs::MalformedWrites, of_axes,
-        "A write on the axis interface changes the variable of its axis place, and no other"),
+        "A write on the axis interface changes the variable of its axis index, and no other"),
 ];
 
-/// A variable, its initial value, and its expected value.
+/// A variable with its initial value (`start`), its expected value (`value`) and its values in each
+/// pass.
 struct WatchedVariable {
     channel: Channel,
     variable: Description,
     start: Vec<u8>,
     value: Vec<u8>,
-    /// Another address for writing the variable.
+    /// The address on the axis interface, for the case that writes at this address.
     at: Option<ValueAddress>,
     seen: Vec<ReadValue>,
 }
 
-/// The values of a variable at one time.
+/// The expected and the actual value of a variable after a pass of writes.
 struct ReadValue {
     expected: Vec<u8>,
     read: Vec<u8>,
@@ -52,7 +54,7 @@ impl WatchedVariable {
     }
 }
 
-/// All variables whose value does not change by itself, so that a change is the effect of a write.
+/// The variables whose value does not change by itself, so that a change is the effect of a write.
 fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
@@ -78,7 +80,8 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     Ok(steady)
 }
 
-/// A value that differs in every byte, if the type permits that.
+/// A value that differs from `value` in every byte, if the type permits such a value. Values with
+/// another `salt` usually differ.
 fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     let mixed = (0_usize..).zip(value).map(|(place, byte)| {
         let mixed = place.wrapping_mul(37).wrapping_add(salt.wrapping_mul(101)) & 0xFF;
@@ -111,7 +114,8 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     }
 }
 
-/// Writes all variables in order, or in reverse order if `backwards`, and then reads all of them.
+/// Writes the writable variables in order, or in reverse order if `backwards`, and then reads all
+/// variables. `by` is the address of the writes, `look` that of the reads.
 fn write_and_read_all(
     probe: &mut Probe<'_>,
     all: &mut [WatchedVariable],
@@ -139,7 +143,7 @@ fn write_and_read_all(
         let place = look(one);
         let read = probe.value_at(&place)?.unwrap_or_default();
         let evidence = probe.evidence().filter(|_| read != one.value);
-        // The value has begun to change by itself.
+        // A value that has begun to change by itself is not judged.
         if read != one.value && probe.moves(&place, false)? {
             continue;
         }
@@ -148,7 +152,8 @@ fn write_and_read_all(
     Ok(())
 }
 
-/// Whether a variable may be shared by channels: same name, and always the same value.
+/// Whether channels may share a variable: another channel has a variable with the same name that
+/// had the same initial value and the same value after each pass.
 fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
     let reads = |one: &WatchedVariable| -> Vec<Vec<u8>> {
         one.seen.iter().map(|seen| seen.read.clone()).chain([one.start.clone()]).collect()
@@ -161,7 +166,8 @@ fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
     all.iter().any(same)
 }
 
-/// Checks that each variable has the value written last.
+/// Checks that each variable had its expected value after each pass: the value written last, or the
+/// initial value.
 fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     for one in all {
         let wrong = one.seen.iter().filter(|seen| seen.expected != seen.read);
@@ -179,7 +185,7 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     }
 }
 
-/// Restores all values, by any address that accepts them.
+/// Restores all changed values, each at the first address that restores it.
 fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -> Step {
     for one in all.iter_mut().filter(|one| one.start != one.value) {
         let ways = [one.at.clone(), Some(one.by_handle()), Some(one.by_name())];
@@ -197,8 +203,9 @@ fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -
     Ok(())
 }
 
-/// Writes in both directions, to detect effects of a write on variables written earlier. Values
-/// written by one kind of address are read by the other.
+/// Writes all variables in two passes, the second in reverse order, to detect effects of a write on
+/// variables that were written earlier in the pass. `by` is the address of the writes, `look` that
+/// of the reads, which is of another kind.
 fn both_ways(
     probe: &mut Probe<'_>,
     rule: Rule,

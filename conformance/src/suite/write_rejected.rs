@@ -1,4 +1,4 @@
-//! Cases of invalid writes: a rejected write has no effect, and an accepted one is stored.
+//! Cases of invalid writes, each of which must be rejected and must have no effect.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
@@ -37,7 +37,8 @@ fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {
     first.or_not_applicable("no number may be written")
 }
 
-/// Calls a function for each address of every READ_ONLY variable.
+/// Calls a function for every READ_ONLY variable, for its address by name and for its address by
+/// handle, if the gate and the profile permit the write.
 fn each_read_only(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, &WriteCheck<'_>, &ValueAddress) -> Step,
@@ -61,7 +62,7 @@ fn each_read_only(
 fn read_only(probe: &mut Probe<'_>) -> Step {
     let sibling = first(probe)?.address();
     each_read_only(probe, |probe, write_check, address| {
-        probe.write_refused(write_check, address, Some(&sibling))
+        probe.write_rejected(write_check, address, Some(&sibling))
     })
 }
 
@@ -79,7 +80,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
         let expected = || format!("an error number for a write of {}", write_check.what);
         probe.check(VAR_6, rejected, expected, &exchange);
         let after = probe.value_at(address)?.unwrap_or_default();
-        // A value that changes by itself proves nothing.
+        // A value that changes by itself is not judged.
         if after != before && (moved || probe.moves(address, false)?) {
             return Ok(());
         }
@@ -91,7 +92,8 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Sends a write that must be rejected without an effect on `watched`, and then the valid one again.
+/// Sends the valid write, then the invalid write, which must be rejected without an effect on
+/// `watched`, and then the valid write again. Sends nothing if the invalid write cannot be encoded.
 fn rejected(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -135,8 +137,8 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let (channel, watched, value) = (known.channel, known.address(), &known.value);
     let variables = probe.variables(channel)?;
     let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
-    // The rejected write has another value, because a write of the current value to the watched variable
-    // would not be detected.
+    // The invalid write has another value than the current one: if the CNC wrote the current value
+    // to the watched variable, the case would not detect this effect.
     let other = changed_value(value, false);
     let valid = known.by_handle(U32List::EMPTY, value);
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
@@ -160,7 +162,8 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         let unknown: CncString = unknown.parse()?;
         let is_there =
             |one: &Description| one.name.text.as_bytes().eq_ignore_ascii_case(unknown.as_bytes());
-        // Whether names are case-sensitive is not stated.
+        // Upper and lower case count as equal, because no manual states whether names are
+        // case-sensitive.
         if variables.iter().any(is_there) {
             continue;
         }
@@ -181,7 +184,8 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     )
 }
 
-/// Writes to an element, an object and an axis variable of a channel that is not configured.
+/// Writes to a channel that is not configured: at most once with each function that writes an
+/// element, an object or an axis variable.
 fn to_absent_channel(probe: &mut Probe<'_>) -> Step {
     let absent = probe.target.profile.absent_channel;
     let absent = Channel::new(absent.or_not_applicable("no channel is known to be absent")?)?;
@@ -253,7 +257,8 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
 fn bad_requests(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
         let watched = known.address();
-        // A name without a NUL extends to the end of the data, so that the request contains no value.
+        // Without a NUL after the name, the name extends to the end of the data, so the request
+        // contains no value.
         let valid = known.by_name(&known.value);
         let call = RawCall::new(valid)?;
         let name: Vec<u8> = known.name().bytes().collect();

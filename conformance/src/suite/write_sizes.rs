@@ -1,4 +1,4 @@
-//! Cases of values with another size than the variable's.
+//! A case of writes of values whose size is not that of the variable.
 
 use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
@@ -50,8 +50,9 @@ fn write_addresses(
     Ok(all)
 }
 
-/// Writes wrong sizes to the first variable and the first array of each type, separately for axis
-/// variables and all other variables.
+/// Writes values of wrong sizes to the first writable variable without dimensions, and to the first
+/// writable array with one dimension, of each type; axis variables and other variables are separate
+/// in this selection.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut tried = Vec::new();
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
@@ -82,14 +83,15 @@ fn of_address(
         return Ok(());
     };
     let whole = ValueAddress::of_handle(channel, variable.handle);
-    // A number gets another first byte, so that a partial write is detected.
+    // The written number differs from the current one in its first byte, so that a partial write is
+    // detected.
     let other = if is_text { vec![b'x'; value.len()] } else { changed_value(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
     let one = size.unwrap_or(1);
     let longer = |more: usize| [&other[..], &vec![1; more]].concat();
     let shorter = |fewer: usize| other.get(..other.len().saturating_sub(fewer));
     let mut all = vec![longer(1), longer(one), longer(64)];
-    // Shorter data is a wrong size only for other types: a text may be shorter than its variable.
+    // Shorter data is not a wrong size for a text, which may be shorter than its variable.
     if !is_text {
         all.push(Vec::new());
         all.extend([1, one].into_iter().filter_map(shorter).map(<[u8]>::to_vec));
@@ -121,9 +123,9 @@ struct WrongSizeWrite<'a> {
 }
 
 impl WrongSizeWrite<'_> {
-    /// That the write is rejected is assumed. After an error, the value must be unchanged; after a
-    /// success, it must be the value sent, up to the size of the variable. The maximum length of a
-    /// text is documented online only.
+    /// Sends the write and checks its effect. That the write is rejected is assumed for numbers,
+    /// and documented online only for texts (VAR-25). After an error, the value must be unchanged.
+    /// After a success, the value that is read back must start with the value sent.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
         let Self { at, watched, is_text, value, other } = *self;
         let (invalid, valid) = (at.address.write(other), at.address.write(value));
@@ -145,7 +147,7 @@ impl WrongSizeWrite<'_> {
             let expected = || format!("an error, or {what} read back");
             probe.check(of_size, read.starts_with(other), expected, || Hex(read));
         } else {
-            // A value that changes by itself proves nothing.
+            // A value that changes by itself is not judged.
             if after != before && probe.moves(watched, false)? {
                 return probe.send(valid).map(drop);
             }

@@ -1,4 +1,4 @@
-//! Cases that write texts and restore them.
+//! A case that writes texts and restores them.
 
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::ids::*;
@@ -43,7 +43,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                 |probe| of_lengths(probe, id, &address, (&name, variable.size)),
                 |probe| {
                     probe.write_value(&address, &before)?;
-                    // Without a reply the value is unknown.
+                    // Without a successful read, the value is unknown.
                     let Some(after) = probe.value_at(&address)? else { return Ok(false) };
                     let passed = until_nul(&after) == until_nul(&before);
                     let expected = || format!("{} of {name}, restored", Hex(before.clone()));
@@ -67,7 +67,8 @@ fn of_lengths(
     for len in [size.saturating_sub(1), size.checked_div(2).unwrap_or(0), 1] {
         let mut value = vec![b'x'; len];
         value.push(0);
-        // Padded to the described size: that fewer bytes are accepted is assumed.
+        // The value is padded to the described size, because it is only assumed that the CNC
+        // accepts fewer bytes.
         value.resize(size.max(1), 0);
         let accepted = probe.write_value(address, &value)?;
         let expected = || format!("{name} accepts a text of {}", plural(len, "character"));
@@ -85,8 +86,9 @@ fn of_lengths(
     shorter(probe, id, address, (name, size))
 }
 
-/// Writes a text that is shorter than its variable; that the CNC accepts it is assumed. If the CNC
-/// accepts the text, the text that is read back must end at the same character.
+/// Writes a text of the maximum length, and then a shorter text without padding. That the CNC
+/// accepts the shorter text is assumed. If the CNC accepts it, exactly the shorter text must be
+/// read back.
 fn shorter(
     probe: &mut Probe<'_>,
     id: ClauseId,

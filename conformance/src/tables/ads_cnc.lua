@@ -1,12 +1,12 @@
 -- A dissector of AMS frames to and from a CNC, for Wireshark and tshark 4.0 or later. It shows the
 -- function, the requirement, the effect and each field, all usable in display filters.
 --
--- Printed by `ads-cnc wireshark`, version @VERSION@, from the tables of its codec. Copy it into the folder
--- shown by Wireshark under Help > About > Folders > Personal Lua Plugins, or:
+-- Printed by `ads-cnc wireshark`, version @VERSION@, from the tables of its codec. Copy this file into the
+-- folder that Wireshark shows under Help > About > Folders > Personal Lua Plugins, or run:
 --
 --   tshark -X lua_script:ads_cnc.lua -r capture.pcapng -Y "ads_cnc.effect == \"Write\""
 --
--- For another TCP port than 48898: Analyze > Decode As > ADS_CNC, or `tshark -d tcp.port==PORT,ads_cnc`.
+-- For a TCP port other than 48898, use Analyze > Decode As > ADS_CNC, or `tshark -d tcp.port==PORT,ads_cnc`.
 
 local tables = @TABLES@
 
@@ -60,10 +60,11 @@ local function has_group(groups, group)
     return false
 end
 
--- The tasks GEO and SDA count as the same task, because the classes are available at both ports.
+-- The tasks GEO (551) and SDA (552) count as the same task, because the classes, such as the decoder, are
+-- available at both ports.
 local function same_task(port, other) return (port == 553) == (other == 553) end
 
--- A copy of the row of a function for a call with a mistake, which the title of the copy contains.
+-- Copies the row of a function for a call with a mistake. The title of the copy states the mistake.
 local function mistaken(row, mistake)
     local copy = { mistake = mistake }
     for key, value in pairs(row) do copy[key] = value end
@@ -75,7 +76,8 @@ local function function_of(command, port, group, offset)
     for _, row in ipairs(tables.functions) do
         if same_task(row.port, port) and has_group(row.groups, group) and has_offset(row.offsets, offset) then
             if row.command == command then return row end
-            -- A Read may be meant for an element that has the same address as the function.
+            -- A Read of the function's address may be a read of an element that has the same address, so it
+            -- gets no function.
             if row.request ~= "content" and row.reply ~= "content" then
                 if command == 2 then return nil end
                 local copy = mistaken(row, "by another service than " .. row.service)
@@ -91,7 +93,7 @@ local function function_of(command, port, group, offset)
     end
 end
 
--- The length of a field at `at`; nil if the bytes end before it does.
+-- The length in bytes of a field that starts at offset `at`; nil if the bytes end before the field ends.
 local function length_of(field, range, at, count)
     local size, left = field.size, range:len() - at
     if size.kind == "items" then
@@ -152,8 +154,9 @@ local function walk(stream, range, tree)
     if at < range:len() then tree:add(fault_field, range(at), "bytes after the stream") end
 end
 
--- asked: the functions of requests by connection and invoke ID, for the first pass through the
--- capture. found: the functions of requests and replies by packet, for later passes.
+-- `asked`: the function of each request, by connection and invoke ID, with which the first pass through the
+-- capture finds the function of a reply. `found`: the function of each request and reply, by packet, for
+-- later passes.
 local asked, found = {}, {}
 
 function cnc.init() asked, found = {}, {} end
@@ -191,7 +194,7 @@ local function show(frame, range, pinfo, tree, place)
         found[visit] = row
     end
 
-    -- The offset of the data of the function, after the header of the service.
+    -- `start`: the offset at which the function's data starts, after the fields of the ADS service.
     local start, result = nil, 0
     if is_reply then
         start, stream = command == 3 and 4 or 8, row.reply
@@ -219,7 +222,7 @@ local function show(frame, range, pinfo, tree, place)
     end
 end
 
--- Wireshark's own dissector for AMS does not reassemble frames that TCP has split.
+-- The dissector `ams` of Wireshark does not reassemble frames that TCP has split, so `cnc.dissector` does.
 local ams = Dissector.get("ams")
 local FRAME_MAX = 0x400000
 

@@ -1,5 +1,5 @@
 //! The streams as a Kaitai Struct description, from which the Kaitai compiler generates readers in
-//! a dozen languages.
+//! several programming languages.
 
 use std::fmt::{self, Write};
 
@@ -19,11 +19,11 @@ doc: |
   codes that Windows-1252 leaves undefined.
 "#;
 
-/// The description, in YAML.
+/// Returns the Kaitai Struct description of all streams, in YAML.
 ///
 /// Each type checks that the stream is not longer than its maximum length, and that no bytes follow
-/// the last field. Kaitai Struct cannot express relations between values, such as the size of a
-/// variable and its dimensions.
+/// the last field. The description does not check relations between values, such as the relation
+/// between the size of a variable and its dimensions.
 pub fn kaitai_struct(tables: &Tables) -> String {
     let mut out = HEAD.replace("@VERSION@", tables.version);
     // Writing to a string does not fail.
@@ -95,7 +95,8 @@ fn fields(stream: &StreamTable, indent: &str, out: &mut String) -> fmt::Result {
     Ok(())
 }
 
-/// The texts as strings, which Kaitai converts on access.
+/// Writes an instance `NAME_text` for each STRING field: the field's bytes as a string, which the
+/// reader converts on access.
 fn texts(stream: &StreamTable, indent: &str, out: &mut String) -> fmt::Result {
     let mut texts = stream.fields.iter().filter(|field| field.ty == "STRING").peekable();
     if texts.peek().is_some() {
@@ -108,7 +109,7 @@ fn texts(stream: &StreamTable, indent: &str, out: &mut String) -> fmt::Result {
 }
 
 /// The type and length of a field in YAML; `count` is the name of the preceding field, which
-/// contains the number of items.
+/// contains the number of items if the field consists of items.
 fn attributes(field: &FieldTable, count: &str) -> Vec<String> {
     let number = |bytes: u32| match (field.ty.as_str(), bytes) {
         ("REAL64", 8) => "type: f8".to_owned(),
@@ -154,7 +155,8 @@ fn attributes(field: &FieldTable, count: &str) -> Vec<String> {
     }
 }
 
-/// The bytes after a text up to the end of the stream.
+/// The YAML for the bytes that follow a text, up to the end of the stream; `None` if the field is
+/// not such a text.
 fn tail(size: &SizeTable) -> Option<&'static [&'static str]> {
     match size {
         SizeTable::CString { .. } | SizeTable::OptionalNul { .. } => {
@@ -167,7 +169,7 @@ fn tail(size: &SizeTable) -> Option<&'static [&'static str]> {
     }
 }
 
-/// A string of YAML.
+/// Formats a text as a YAML string in double quotes.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

@@ -1,7 +1,8 @@
-//! The tables of the codec as data: streams with their fields, functions with their addresses.
+//! The tables of the codec as data: streams with their fields, and functions with their addresses.
 //!
-//! For code generators and other tools. `ads-cnc tables --json` prints [`Tables`]; the dissector for
-//! Wireshark and the description for Kaitai Struct are generated from it.
+//! The tables are meant for code generators and other tools. `ads-cnc tables --json` prints
+//! [`Tables`]; the dissector for Wireshark and the description for Kaitai Struct are generated from
+//! [`Tables`].
 //!
 //! ```
 //! use ads_cnc_conformance::tables::{SizeTable, Tables};
@@ -25,17 +26,18 @@ use serde::Serialize;
 pub use kaitai::kaitai_struct;
 pub use wireshark::dissector;
 
-/// All tables.
+/// The tables of all streams and functions.
 #[derive(Clone, Debug, Serialize)]
 pub struct Tables {
-    /// The version of the format.
+    /// The version of the JSON format of these tables.
     pub format: u32,
-    /// The version of this project.
+    /// The version of the package `ads-cnc-conformance`.
     pub version: &'static str,
     pub streams: Vec<StreamTable>,
-    /// A request calls the first function that matches its port, group and offset. If the command of
-    /// that function differs, the search continues only if the function has the stream `content`.
-    /// Ports 551 and 552 have the same functions.
+    /// A request calls the first function that matches its port, group and offset. If that function
+    /// has another command than the request, the search continues only if the request or reply of
+    /// the function is the stream `content`; otherwise, the request calls no function. Ports 551
+    /// and 552 have the same functions.
     pub functions: Vec<FunctionTable>,
 }
 
@@ -44,7 +46,7 @@ pub struct Tables {
 pub struct StreamTable {
     pub name: &'static str,
     pub title: &'static str,
-    /// The ID of the requirement that defines it.
+    /// The ID of the requirement that defines the stream.
     pub clause: &'static str,
     /// Maximum length in bytes.
     pub max_length: u32,
@@ -68,7 +70,7 @@ pub struct FieldTable {
     pub offset_per_item: u32,
     pub size: SizeTable,
     pub meaning: &'static str,
-    /// The ID of the requirement that defines it.
+    /// The ID of the requirement that defines the field.
     pub clause: &'static str,
 }
 
@@ -80,7 +82,7 @@ pub enum SizeTable {
     Fixed { bytes: u32 },
     /// A number of four bytes that must not be 0.
     NonZero { bytes: u32 },
-    /// Text in this many bytes, padded with NULs.
+    /// Text in a field of this many bytes. If the text is shorter, a NUL ends it.
     Padded { bytes: u32 },
     /// This many bytes. If the preceding field, which is a result, is not 0, this field and all
     /// following fields may be absent.
@@ -91,12 +93,13 @@ pub enum SizeTable {
     Items { each: u32, max: u32 },
     /// Text that includes its final NUL. Other fields follow.
     CStringPrefix { max: u32 },
-    /// Text up to the end of the stream, with at least one NUL at the end; may be empty if `optional`.
+    /// Text up to the end of the stream, with at least one NUL at the end; may be empty if
+    /// `optional`.
     CString { max: u32, optional: bool },
     /// Text up to the end of the stream, with or without NULs at the end.
     OptionalNul { max: u32 },
-    /// Text that ends at the first NUL or with the stream. The bytes after the NUL are not part of the
-    /// text.
+    /// Text that ends at the first NUL or with the stream. The bytes after the NUL are not part of
+    /// the text.
     TextAndTail { min: u32, max: u32 },
     /// An unsigned number of one, two or four bytes: the whole stream.
     UnsignedRest { max: u32 },
@@ -107,12 +110,13 @@ pub enum SizeTable {
 /// A function of the CNC.
 #[derive(Clone, Debug, Serialize)]
 pub struct FunctionTable {
-    /// Its name in the codec, such as `ReadByName`.
+    /// The name of the function in the codec, such as `ReadByName`.
     pub id: String,
     pub title: &'static str,
-    /// The ID of the requirement that defines it.
+    /// The ID of the requirement that defines the function.
     pub clause: &'static str,
-    /// Its section in both editions.
+    /// The section in `ads-en` 1.05 and `ads-de` 1.051 that describes the function, the section of
+    /// another document with the name of the document, or `online` for the vendors' help pages.
     pub section: &'static str,
     /// `Read`, `Write` or `ReadWrite`.
     pub service: String,
@@ -122,14 +126,14 @@ pub struct FunctionTable {
     pub task: String,
     /// The AMS port of the task.
     pub port: u16,
-    /// The index groups, as ranges with the first and the last group.
+    /// The index groups, as ranges `[first, last]` that include both groups.
     pub groups: Vec<[u32; 2]>,
     pub offsets: OffsetTable,
     /// The stream that is sent as data; `null` for none.
     pub request: Option<&'static str>,
     /// The stream that is returned as data; `null` for none.
     pub reply: Option<&'static str>,
-    /// `Query`, `Write`, or `Motion` if it may move an axis.
+    /// `Query`, `Write`, or `Motion` if the function may move an axis.
     pub effect: &'static str,
 }
 
@@ -254,10 +258,10 @@ impl OffsetTable {
     }
 }
 
-/// All index groups of the manuals are smaller.
+/// The end of the search for index groups: all index groups of the manuals are smaller.
 const GROUPS_END: u32 = 0x20_0000;
 
-/// The ranges of groups of a function.
+/// The index groups that a rule contains, as ranges `[first, last]`.
 fn groups(rule: GroupRule) -> Vec<[u32; 2]> {
     let mut ranges: Vec<[u32; 2]> = Vec::new();
     for group in 0..GROUPS_END {

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::Tables;
 
-/// The part of the dissector that uses the tables.
+/// The Lua program of the dissector, with the placeholders `@VERSION@` and `@TABLES@`.
 const PROGRAM: &str = include_str!("ads_cnc.lua");
 
 /// The dissector, including the tables, as a Lua script.
@@ -14,7 +14,8 @@ pub fn dissector(tables: &Tables) -> Result<String, serde_json::Error> {
     Ok(PROGRAM.replace("@VERSION@", tables.version).replace("@TABLES@", &literal))
 }
 
-/// Writes a value as Lua, with each row of a table on its own line, down to the second level.
+/// Writes a value as a Lua expression. Each item of an array that contains an object is on a
+/// separate line.
 fn to_lua(value: &Value, indent: &str, out: &mut String) {
     match value {
         Value::Null => out.push_str("nil"),

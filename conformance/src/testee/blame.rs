@@ -1,8 +1,8 @@
 //! Attributes a failed vector to the requirements of its wrong fields.
 //!
-//! A vector cites the requirements of all its fields, and general requirements about bytes and texts.
-//! If one field is wrong, the answer violates only some of these requirements; the others fail as a
-//! consequence of the violated ones.
+//! A vector cites the requirements of all its fields, and general requirements about bytes and
+//! texts. If one field is wrong, the answer violates only some of these requirements; the others
+//! fail as a consequence of the violated ones.
 
 use std::collections::BTreeSet;
 
@@ -27,8 +27,8 @@ impl WrongFields {
         Self { stream, is_wrong: vec![false; stream.layout().fields.len()], is_reversed: false }
     }
 
-    /// The wrong fields of a decoded value; `None` if the value has other fields than expected. Unless
-    /// `strict`, the testee may omit the bytes after a text.
+    /// The wrong fields of a decoded value; `None` if the value has other fields than expected.
+    /// Unless `strict`, the testee may omit the bytes after a text.
     pub(super) fn of_value(
         stream: Stream,
         expected: &Fields,
@@ -88,7 +88,8 @@ impl WrongFields {
                 self.add(name, is_reversed(expected, found))?;
                 continue;
             }
-            // The value is not a field of the table, but a record or a list of records with such fields.
+            // The value is not a field of the table, but a record or a list of records with such
+            // fields.
             match (expected, found.as_array()) {
                 (Value::Record(fields), _) => self.add_record(fields, found, strict)?,
                 (Value::List(items), Some(given)) if items.len() == given.len() => {
@@ -116,16 +117,17 @@ impl WrongFields {
         self.wrong().next().is_some() && self.wrong().all(are)
     }
 
-    /// Whether all fields from the first wrong field on are wrong, as if bytes were missing or inserted.
+    /// Whether all fields from the first wrong field on are wrong, as if bytes were missing or
+    /// inserted.
     fn is_shifted(&self) -> bool {
         let first = self.is_wrong.iter().position(|is_wrong| *is_wrong).unwrap_or_default();
         let from_first = self.is_wrong.get(first..).unwrap_or_default();
         from_first.len() > 1 && from_first.iter().all(|is_wrong| *is_wrong)
     }
 
-    /// The violated clause, as a consequence of which a requirement fails; `None` if the answer violates
-    /// the requirement itself. `cited` are the requirements of the vector, `broken` the clauses of the
-    /// wrong fields of all vectors.
+    /// The violated clause, as a consequence of which a requirement fails; `None` if the answer
+    /// violates the requirement itself, or no violated clause is in `cited` or `broken`. `cited`
+    /// are the requirements of the vector, `broken` the clauses of the wrong fields of all vectors.
     pub(super) fn cause_of(
         &self,
         requirement: &str,
@@ -150,8 +152,8 @@ impl WrongFields {
         } else {
             let layout = self.stream.layout();
             let is_assumed = clause(requirement).is_some_and(|one| one.level() == Level::Info);
-            // If a stream repeats its record, a wrong field may also violate the clause of the stream,
-            // which specifies the order of the fields.
+            // If a stream repeats its record, a wrong field may also violate the clause of the
+            // stream, which specifies the order of the fields.
             is_assumed
                 || layout.clause == requirement && !layout.repeats
                 || self.rows().any(|row| row.clause == requirement)
@@ -181,8 +183,8 @@ fn is_reversed(expected: &Value, found: &Json) -> bool {
 mod tests {
     use super::*;
 
-    /// A description: handle at offset 0, type at 4, access at 8, size at 12, no dimensions, and the
-    /// name "V.E.a".
+    /// A description: handle at offset 0, type at 4, access at 8, size at 12, no dimensions, and
+    /// the name "V.E.a".
     const BYTES: &[u8] = b"\x01\0\0\0\x06\0\0\0\x02\0\0\0\x04\0\0\0\0\0\0\0V.E.a\0";
     const CITED: &[&str] =
         &["VAR-4", "VAR-5", "VAR-6", "VAR-8", "GEN-1", "GEN-2", "GEN-3", "GEN-5", "VAR-24"];

@@ -14,7 +14,7 @@ pub struct ProtocolStepResult {
     pub what: String,
     pub sent: Option<String>,
     pub received: Option<String>,
-    /// What is wrong and what would be right; `None` if the step passed.
+    /// What is wrong and, for most steps, what is expected; `None` if the step passed.
     pub fault: Option<String>,
 }
 

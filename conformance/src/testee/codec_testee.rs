@@ -63,14 +63,15 @@ impl CodecTestee {
             "decode" => {
                 let bytes = hex.as_deref().ok_or_else(|| lacks("hex"))?;
                 let changed = self.changed(stream, bytes);
-                let decoded = codec::decode_stream(stream, &context, &changed).map_err(refusal)?;
+                let decoded =
+                    codec::decode_stream(stream, &context, &changed).map_err(rejection)?;
                 let error = |error| Answer::Error { message: format!("{error}") };
                 let value = serde_json::to_value(decoded.fields).map_err(error)?;
                 Ok(Output { value: Some(value), ..Output::default() })
             }
             "encode" => {
                 let fields = value.as_ref().ok_or_else(|| lacks("value"))?;
-                let bytes = codec::encode(stream, &context, fields).map_err(refusal)?;
+                let bytes = codec::encode(stream, &context, fields).map_err(rejection)?;
                 Ok(Output { hex: Some(self.changed(stream, &bytes)), ..Output::default() })
             }
             "packets" => split(hex.as_deref().ok_or_else(|| lacks("hex"))?),
@@ -93,8 +94,8 @@ fn unsupported(what: &str) -> Answer {
     Answer::Unsupported { what: what.to_owned() }
 }
 
-fn refusal(refused: CodecError) -> Answer {
-    match refused {
+fn rejection(rejected: CodecError) -> Answer {
+    match rejected {
         CodecError::Error(error) => Answer::Reject(Rejection {
             class: Some(codec::class(&error).to_owned()),
             at: Some(error.offset().into()),
@@ -140,7 +141,7 @@ fn split(text: &[u8]) -> Result<Output, Answer> {
 }
 
 /// Checks packets one after another by the rules of streaming, like a CNC that receives them. Rejects
-/// the packets with the first finding.
+/// the packets with the class and line of the first diagnostic.
 fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
     let mut checker = Checker::new();
     let mut found = None;

@@ -14,14 +14,15 @@ use crate::values::until_nul;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Difference {
     Other(String),
-    /// A text has the expected characters, but differs in its NUL or in the bytes after the NUL.
+    /// A text is equal up to its first NUL but differs after it or in the NUL itself; or a text
+    /// without NUL lacks only its last character.
     End(String),
     /// The answer does not say how a text ends: the fields `open` and `tail` are omitted.
     Omitted(String),
 }
 
 /// The most severe difference between the expected value and the value in the answer; the first of
-/// several.
+/// several that are equally severe.
 pub(super) fn compare(reference: &Fields, found: &Json) -> Option<Difference> {
     record("", reference, found)
 }

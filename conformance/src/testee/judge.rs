@@ -15,20 +15,23 @@ use crate::process::{interrupt, progress};
 /// After this many consecutive invalid or missing answers, no more questions are asked.
 const UNANSWERED_MAX: usize = 12;
 
-/// Maximum memory in bytes for all answers; if it is exceeded, no more questions are asked.
+/// Maximum estimated memory in bytes for all `ok` answers; if it is exceeded, no more questions are
+/// asked.
 const ANSWERS_MAX: usize = 32 << 20;
 
 #[derive(Debug)]
 pub struct JudgedTestee {
     pub hello: Option<TesteeHello>,
-    /// The outcomes of the cases, and of the case about the testee protocol.
+    /// The outcomes of the cases and, except for this project's codec, of the case about the testee
+    /// protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
-    /// How often the process was restarted.
+    /// Number of questions without an answer, because the process crashed, hung or could not be
+    /// started. The next question restarts the process.
     pub restarts: usize,
 }
 
-/// Asks a testee all questions of these cases and judges the answers.
+/// Asks a testee all questions of these cases that it claims to answer, and judges the answers.
 pub fn judge(
     testee: &mut dyn Testee,
     mut cases: Vec<Case>,

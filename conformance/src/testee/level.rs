@@ -12,7 +12,8 @@ use crate::judge::{Body, Verdict};
 use crate::values::until_nul;
 
 /// The level at which a wrong answer to a case is judged. If a rejection proves nothing because the
-/// accepted sibling failed (`Vacuous`), the weaker of the levels of the case and of the sibling.
+/// accepted sibling failed (`Vacuous`), this is the weaker of the levels of the case and of the
+/// sibling.
 pub(super) fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeReaction) -> Level {
     let (own, sibling) = match body {
         Body::Vector(one) if one.is_accepted() => (accepted_level(one, op, reaction), None),

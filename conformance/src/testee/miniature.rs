@@ -1,4 +1,5 @@
-//! Miniatures: small testees that misbehave, each of which the suite must detect, and three correct ones.
+//! Miniatures: testees that misbehave, each of which the suite must detect, and three correct
+//! testees. All are made of this project's codec.
 
 use super::CodecTestee;
 use crate::codec::message::{
@@ -8,15 +9,15 @@ use crate::text::named;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Miniature {
-    /// Accepts every input; input that must be rejected, with an empty value.
+    /// Accepts every input: returns an empty value for input that must be rejected.
     AcceptsAll,
     /// Rejects every input.
     RefusesAll,
     /// Returns the input of each question as the answer.
     Echoes,
-    /// Hangs at every fortieth case.
+    /// Hangs at every fortieth question.
     Hangs,
-    /// Crashes at every tenth case.
+    /// Crashes at every tenth question.
     Crashes,
     /// Claims streams that it does not implement.
     Boasts,
@@ -24,19 +25,19 @@ pub enum Miniature {
     KnowsAll,
     /// Reports an internal error instead of rejecting faulty input.
     Excuses,
-    /// Answers every tenth case with the number of the next case.
+    /// Answers every tenth question with the number of the next question.
     Miscounts,
-    /// Answers every tenth case with a line that is not JSON.
+    /// Answers every tenth question with a line that is not JSON.
     Mumbles,
-    /// Rejects every input after a hundred cases.
+    /// Rejects every input after a hundred questions.
     Tires,
     /// Does not exit after `bye`.
     Stays,
-    /// Writes much text to stderr. Correct.
+    /// Writes much text to stderr. This testee is correct.
     Noisy,
-    /// Implements and claims only `decode`. Correct.
+    /// Implements and claims only `decode`. This testee is correct.
     DecodesOnly,
-    /// Omits the parts of values that are not significant. Correct.
+    /// Omits the parts of values that are not significant. This testee is correct.
     Terse,
 }
 
@@ -74,7 +75,7 @@ impl Miniature {
         hello
     }
 
-    /// The reaction of the miniature to a line, which contains the case with the number `seq`.
+    /// The reaction of the miniature to a line, which contains the question with the number `seq`.
     pub fn act(self, own: &CodecTestee, line: &str, seq: u64) -> MiniatureAction {
         let Ok(TesteeCommand::Case { question, .. }) = serde_json::from_str(line) else {
             return MiniatureAction::Say(
@@ -95,7 +96,7 @@ impl Miniature {
     }
 
     fn answer(self, own: &CodecTestee, question: &Question, seq: u64) -> Answer {
-        let refused = || Answer::Reject(Rejection::default());
+        let rejected = || Answer::Reject(Rejection::default());
         let unsupported = |what: &str| Answer::Unsupported { what: what.to_owned() };
         let right = own.answer(question);
         match (self, right) {
@@ -104,7 +105,7 @@ impl Miniature {
             | (Self::AcceptsAll, Answer::Reject(_)) => {
                 Answer::Ok(Output { value: Some(serde_json::json!({})), ..Output::default() })
             }
-            (Self::RefusesAll, _) => refused(),
+            (Self::RefusesAll, _) => rejected(),
             (Self::Echoes, _) => Answer::Ok(Output {
                 value: question.value.as_ref().and_then(|value| serde_json::to_value(value).ok()),
                 hex: question.hex.clone(),
@@ -114,7 +115,7 @@ impl Miniature {
             (Self::Excuses, Answer::Reject(_)) => {
                 Answer::Error { message: "an exception".to_owned() }
             }
-            (Self::Tires, _) if seq > 100 => refused(),
+            (Self::Tires, _) if seq > 100 => rejected(),
             (Self::Terse, Answer::Ok(mut output)) => {
                 output.value.iter_mut().for_each(strip);
                 Answer::Ok(output)

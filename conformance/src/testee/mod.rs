@@ -1,7 +1,9 @@
-//! Tests other codecs: a command answers questions over stdin and stdout, each a line of JSON.
+//! Tests other codecs: a command answers questions over stdin and stdout. Each question and each
+//! answer is a line of JSON.
 //!
-//! `adapters/README.md` specifies the protocol. [`CodecTestee`] answers with this project's codec;
-//! [`TesteeProcess`] runs another codec. [`judge`] asks a testee all questions of the golden vectors.
+//! `conformance/adapters/README.md` specifies the protocol. [`CodecTestee`] answers with this
+//! project's codec; [`TesteeProcess`] runs another codec. [`judge`] asks a testee the questions that
+//! are made from the golden vectors and the sequences in `spec-vectors/data`.
 
 mod blame;
 mod check;
@@ -45,7 +47,7 @@ pub trait Testee {
         None
     }
 
-    /// The output of the codec to stderr.
+    /// The end of the codec's output to stderr.
     fn stderr(&self) -> String {
         String::new()
     }

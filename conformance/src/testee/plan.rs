@@ -10,8 +10,8 @@ use crate::judge::{Body, Case, order};
 pub(super) enum Purpose {
     /// To judge the case with this index.
     Case(usize),
-    /// To detect that an answer changes during the run: the question is asked at the start and at the
-    /// end.
+    /// To detect that an answer changes during the run: the question is asked at the start and at
+    /// the end.
     Sanity {
         case: usize,
         /// Whether the question is asked at the start; otherwise at the end.
@@ -28,11 +28,12 @@ pub(super) struct PlannedQuestion {
     pub(super) question: Question,
 }
 
-/// Number of questions that are asked at the start and again at the end.
+/// Maximum number of questions that are asked at the start and again at the end.
 const SANITY: usize = 6;
 
-/// All questions of these cases that the testee claims to answer, in random order, with sanity
-/// questions at the start and at the end, and two questions with nonexistent ops in between.
+/// All questions of these cases that the testee claims to answer, in the order of the seed, with
+/// the sanity questions at the start and at the end, and two questions with nonexistent ops in
+/// between.
 pub(super) fn plan(
     cases: &[Case],
     capabilities: &Capabilities,
@@ -54,7 +55,8 @@ pub(super) fn plan(
         }
         _ => 0,
     });
-    // Inserts a nonexistent op after two thirds of the questions, and another after one third.
+    // Inserts a question with a nonexistent op after two thirds of the questions, and another after
+    // one third.
     for part in [2, 1] {
         let place = planned.len().saturating_mul(part).checked_div(3).unwrap_or_default();
         planned.insert(place, made_up(order(seed, &part.to_string()), edition));
@@ -68,8 +70,8 @@ pub(super) fn plan(
     again(true).chain(planned).chain(again(false)).collect()
 }
 
-/// The sanity questions, as case and question: for different streams or ops, and one third of them for
-/// rejected vectors.
+/// The sanity questions, as case and question: for different streams or ops, and one third of them
+/// for rejected vectors.
 fn sanity(cases: &[Case], planned: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     let mut chosen: Vec<(usize, Question)> = Vec::new();
     for one in planned {
@@ -119,7 +121,8 @@ pub fn questions(case: &Case, edition: &str) -> Vec<Question> {
     }
 }
 
-/// The questions for a vector: `decode` with its bytes and, if it is accepted, `encode` with its value.
+/// The questions for a vector: `decode` with its bytes and, if it is accepted, `encode` with its
+/// value.
 pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
     let of = |op: &str| Question {
         context: QuestionContext::from(&vector.context),

@@ -45,7 +45,8 @@ impl TesteeProcess {
         self.process.stderr()
     }
 
-    /// The last line sent to the testee, and the last line received from it, each truncated.
+    /// The last line sent to the testee, and the answer to it, each truncated to 400
+    /// characters; `None` for a line that was not sent or received.
     pub fn last(&self) -> (Option<String>, Option<String>) {
         (self.sent.clone(), self.received.clone())
     }
@@ -115,7 +116,8 @@ impl Testee for TesteeProcess {
 /// Parses the answer to `hello`.
 ///
 /// # Errors
-/// If the line is not an answer to `hello`, or has another protocol version.
+/// If the line is not an answer to `hello`, has another protocol version, or claims an op, a stream
+/// or an edition that does not exist.
 pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
     let hello: TesteeHello = serde_json::from_str(line)
         .map_err(|error| TesteeReaction::Garbled(not_json(line, &error)))?;
@@ -128,9 +130,9 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
     }
 }
 
-/// Parses the line received for the case `seq`. Returns the reaction, and whether the next line can be
-/// attributed to the next case. It cannot after an answer to another case, because the next answer
-/// may be late too.
+/// Parses the line received for the question `seq`. Returns the reaction, and whether the next line
+/// can be attributed to the next question. It cannot after an answer with another `seq` or none,
+/// because the next answer may be late too.
 ///
 /// ```
 /// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};

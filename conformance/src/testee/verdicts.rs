@@ -24,7 +24,8 @@ pub struct JudgementOptions<'t> {
     pub seed: u32,
     /// The subject: this project's codec or a testee.
     pub subject: CaseSubject,
-    /// The edition that the user selected; `None` for the first edition that the testee claims.
+    /// The edition that the user selected. `None` for the first edition that the testee claims, or
+    /// en-1.05 if it claims none.
     pub edition: Option<&'t str>,
     /// Whether an answer that only contradicts an assumption fails too, as for this project's codec.
     pub strict: bool,
@@ -213,8 +214,8 @@ impl Verdicts<'_> {
         reaction: &TesteeReaction,
         verdict: Verdict,
     ) -> Level {
-        // Only an answer can be judged below level *must*; a crash or a missing answer is always a
-        // fault.
+        // Only `ok` and `reject` can be judged below level *must*. Any other answer, a crash and a
+        // missing answer are always faults.
         let answered =
             matches!(reaction, TesteeReaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;

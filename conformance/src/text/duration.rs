@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// Parses a duration such as `500ms`, `2s` or `1.5min`.
+/// Parses a duration of at most 24 hours, such as `500ms`, `2s` or `1.5min`.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     let invalid = || "expected a number with the unit ms, s or min, such as 500ms".to_owned();
     let end = text.find(|byte: char| !byte.is_ascii_digit() && byte != '.').ok_or_else(invalid)?;
@@ -18,7 +18,7 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(seconds).ok().filter(|time| *time <= MAX).ok_or_else(too_much)
 }
 
-/// Like [`duration`], but rejects zero.
+/// Like [`duration`], but rejects durations of less than 1 ms.
 pub(crate) fn some_time(text: &str) -> Result<Duration, String> {
     match duration(text)? {
         none if none < Duration::from_millis(1) => Err("the minimum is 1ms".to_owned()),
@@ -26,8 +26,8 @@ pub(crate) fn some_time(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// Formats a number of seconds with the largest unit that needs no fraction: `4 h`, `90 min`, `100
-/// s`.
+/// Formats a number of seconds in hours, minutes or seconds, with the largest unit that needs no
+/// fraction: `4 h`, `90 min`, `100 s`.
 pub(crate) fn shown_time(seconds: u64) -> String {
     match seconds {
         0 => "0 s".to_owned(),

@@ -1,11 +1,11 @@
 //! Escapes control characters.
 
-/// Escapes control and bidirectional characters.
+/// Escapes the characters for which [`is_escaped`] returns true.
 pub(crate) fn escape(text: &str) -> String {
     escape_unless(text, |_| false)
 }
 
-/// Like [`escape`], but keeps line ends and tabs.
+/// Like [`escape`], but keeps line feeds and tabs, and replaces CR LF by a line feed.
 pub(crate) fn escape_lines(text: &str) -> String {
     escape_unless(&text.replace("\r\n", "\n"), |one| matches!(one, '\n' | '\t'))
 }

@@ -1,5 +1,5 @@
-//! JSON that cannot control a terminal: DEL, C1 and bidirectional controls are also escaped. It
-//! parses to the same characters.
+//! Writes JSON that cannot control a terminal: DEL, C1, line separators and bidirectional controls
+//! are escaped too. The escaped JSON parses to the same characters.
 
 use std::io::{self, Write};
 

@@ -1,5 +1,5 @@
-//! Text: hex, escapes, durations, patterns of names, JSON. No I/O, and no imports from other modules of
-//! this crate.
+//! Text: hex, escapes, durations, points in time, patterns of names, JSON. This module opens no
+//! file or socket, and imports no other module of this crate.
 
 use std::fmt::Display;
 
@@ -33,8 +33,10 @@ pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
 
 pub(crate) const UTF16: &str = "the file is UTF-16; save it as UTF-8";
 
-/// The text of a file without the byte order mark of UTF-8. The error contains the position of the
-/// first bytes that are not UTF-8.
+/// The text of a file without the byte order mark of UTF-8.
+///
+/// # Errors
+/// If the file is UTF-16, or not UTF-8; the error contains the offset of the first invalid byte.
 pub(crate) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
     if is_utf16(&bytes) {
         return Err(UTF16.to_owned());

@@ -97,7 +97,8 @@ fn days(year: i64, month: i64, day: i64) -> Option<i64> {
     before.checked_add(day)?.checked_sub(1)?.checked_sub(719_468)
 }
 
-/// The date of a day. The estimated year is off by at most one.
+/// The year, month and day of a day, counted from 1970-01-01. The first estimate of the year is off
+/// by at most 1.
 fn date(day: i64) -> Option<(i64, i64, i64)> {
     let mut year = day.checked_mul(400)?.div_euclid(146_097).checked_add(1970)?;
     while days(year, 1, 1)? > day {

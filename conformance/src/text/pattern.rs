@@ -7,7 +7,8 @@
 ///
 /// let part = Pattern::part("single_block");
 /// assert!(part.matches("mc_active_single_block_r") && !part.matches("mc_program_stream_w"));
-/// // A star matches any characters, a question mark one; then the pattern must match the whole name.
+/// // A star matches any number of characters, and a question mark matches one character. A pattern
+/// // with a star or a question mark must match the whole name.
 /// assert!(Pattern::part("v.g.np[?].*").matches("V.G.NP[0].V"));
 /// assert!(!Pattern::part("single?block*").matches("mc_active_single_block_r"));
 /// assert!(Pattern::whole("COM channel 1").matches("COM channel 1"));
@@ -19,8 +20,8 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Creates a pattern that matches any name containing `text`; if `text` has a star or a question mark,
-    /// the pattern must match the whole name.
+    /// Creates a pattern that matches any name containing `text`; if `text` has a star or a
+    /// question mark, the pattern must match the whole name.
     pub fn part(text: &str) -> Self {
         if text.contains(['*', '?']) {
             Self::whole(text)
@@ -37,7 +38,8 @@ impl Pattern {
     pub fn matches(&self, name: &str) -> bool {
         let name: Vec<char> = folded(name).collect();
         let (mut pattern, mut rest) = (self.wanted.as_slice(), name.as_slice());
-        // Where to continue after a mismatch: after the last star, one character later.
+        // Where to continue after a mismatch: the pattern after the last star, and the name one
+        // character later than at the last attempt.
         let mut back: Option<(&[char], &[char])> = None;
         loop {
             match (pattern.split_first(), rest.split_first()) {

@@ -7,7 +7,7 @@ mod show;
 
 pub use json::value_of;
 pub use parse::{InvalidValue, parse};
-pub(crate) use show::number;
+pub(crate) use show::{indices, number};
 pub use show::{lines, plain, printable};
 
 use std::fmt;
@@ -17,7 +17,7 @@ use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
 use crate::text::{escape, plural};
 
-/// The text of a STRING, up to the first NUL.
+/// The bytes of a STRING before the first NUL.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or_default()
 }
@@ -65,8 +65,9 @@ impl Type {
         Self { name, data_type, dimensions: dimensions.iter().collect(), size: Some(size) }
     }
 
-    /// The type of the content of an object or an element. It is an array if the size of the
-    /// content is a multiple of the size of the type.
+    /// The type of the content of an object or an element, from the name of the type and the size
+    /// of the content in bytes. It is an array if the size of the content is twice the size of the
+    /// type, or a larger multiple.
     pub fn of_content(name: CncStr<'_>, size: u32) -> Self {
         let data_type = DataType::by_name(name);
         let ty =
@@ -87,7 +88,8 @@ impl Type {
         Self { name, data_type: Some(data_type), dimensions: Vec::new(), size: None }
     }
 
-    /// Sets the number of elements according to a length, if the type has no dimensions.
+    /// Makes a type without dimensions an array if the length of the value in bytes is twice the
+    /// size of an element, or a larger multiple. Also sets the size if it is unknown.
     #[must_use]
     pub fn fitted(mut self, len: u32) -> Self {
         let each = self.data_type.and_then(DataType::size);
@@ -132,12 +134,13 @@ impl Type {
         Ok(Self { size: shape.or(one.data_type.and_then(DataType::size)), ..one })
     }
 
-    /// Type, dimensions and size, if they agree.
+    /// The shape of the value; `None` if a part of it is unknown, or type, dimensions and size
+    /// disagree.
     fn shape(&self) -> Option<Shape<'_>> {
         Shape::new(self.data_type?, U32List::from(self.dimensions.as_slice()), self.size?).ok()
     }
 
-    /// The elements of a value; `None` if the type is unknown.
+    /// The elements of a value; `None` if the data type is unknown.
     ///
     /// # Errors
     /// If the bytes are not a value of this type.

@@ -14,9 +14,11 @@ use crate::text::plural;
 #[error("{0}")]
 pub struct InvalidValue(String);
 
-/// Parses a value: a number in decimal or with 0x, `TRUE` or `FALSE`, or a text. For an array, all
-/// elements are separated by commas or blanks, optionally in brackets, and the last index changes
-/// fastest. In an array of texts, a text with a comma is quoted, and quotes in it are doubled.
+/// Parses a value: an integer in decimal or, after 0x, in hexadecimal; a REAL in decimal; `TRUE`,
+/// `FALSE`, `1` or `0` for a BOOLEAN; or a text. The elements of an array of numbers are separated
+/// by commas or blanks, optionally in brackets. The elements of an array of texts are separated by
+/// commas; a text that contains a comma, or starts or ends with a blank, is quoted, and quotes in
+/// it are doubled. In both arrays, the last index changes fastest.
 ///
 /// A single text is taken literally. It is encoded with one NUL, and may be shorter than its
 /// variable.
@@ -120,7 +122,8 @@ fn within<T: std::fmt::Debug>(
     }
 }
 
-/// Checks the number of elements. Any number is accepted if the dimensions are unknown.
+/// Checks the number of elements, and returns the dimensions of the value. If the dimensions and
+/// the size of the type are unknown, any number is accepted.
 fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
     let count = to_u32(given);
     if ty.size.is_none() && ty.dimensions.is_empty() {
@@ -159,8 +162,8 @@ fn items<T: Scalar>(
     items.as_slice().value_to_vec().map_err(|error| InvalidValue(error.to_string()))
 }
 
-/// The elements of an array that has brackets for each dimension like JSON, without the brackets;
-/// `None` for any other text. The brackets must match the dimensions.
+/// The elements of a text that starts with `[[`, without the brackets; `None` for any other text.
+/// As in JSON, the text must have brackets for each dimension of the array.
 fn flat(ty: &Type, text: &str) -> Result<Option<String>, InvalidValue> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     if !text.starts_with("[[") {
@@ -216,7 +219,7 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, InvalidValue> {
     done.map_err(|error| InvalidValue(error.to_string()))
 }
 
-/// Splits texts at the commas.
+/// Splits a list of texts at the commas that are outside quotes.
 fn split(given: &str) -> Result<Vec<String>, InvalidValue> {
     let (mut all, mut rest) = (Vec::new(), given);
     loop {
@@ -235,7 +238,8 @@ fn split(given: &str) -> Result<Vec<String>, InvalidValue> {
     }
 }
 
-/// Splits off a text at its closing quote. Also returns the rest after the comma.
+/// Parses a quoted text; `given` starts after the opening quote. Also returns the rest after the
+/// comma that follows the closing quote; `None` if nothing follows.
 fn quoted_text(given: &str) -> Result<(String, Option<&str>), InvalidValue> {
     let (mut text, mut rest) = (String::new(), given);
     loop {

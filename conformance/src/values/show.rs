@@ -7,18 +7,19 @@ use super::Type;
 use crate::number::to_usize;
 use crate::text::escape;
 
-/// Maximum width of a line.
+/// Maximum width of the elements on a line in characters; a single element may be wider.
 const WIDTH: usize = 72;
-/// Maximum number of elements on a line.
+/// Maximum number of numbers on a line.
 const PER_LINE: usize = 10;
 
-/// A text with control characters escaped.
+/// Escapes the control and bidirectional characters of a text.
 pub fn printable(text: &str) -> String {
     escape(text)
 }
 
-/// Formats the whole value on one line, in the form that [`parse`](super::parse()) accepts; `None`
-/// if the type is unknown or the bytes do not match it.
+/// Formats the whole value on one line; `None` if the type is unknown or the bytes do not match it.
+/// [`parse`](super::parse()) accepts the line, except NaN and infinities, and parses escaped
+/// characters literally.
 pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let several = !ty.dimensions.is_empty();
@@ -30,7 +31,8 @@ pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     Some(items.collect::<Vec<_>>().join(","))
 }
 
-/// Formats a text in a list: quoted if it would be parsed as two texts.
+/// Formats a text in a list. A text that contains a comma or a quote, or starts or ends with a
+/// blank, is quoted.
 fn listed(text: &str) -> String {
     if text.contains([',', '"']) || text != text.trim() {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -39,7 +41,7 @@ fn listed(text: &str) -> String {
     }
 }
 
-/// Formats an element that is not a text, in the form that `parse` accepts.
+/// Formats an element that is not a text, in the form that `parse` accepts if the number is finite.
 pub(crate) fn number(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.is_true() => "TRUE".to_owned(),
@@ -58,8 +60,8 @@ pub(crate) fn number(element: Element<'_>) -> String {
     }
 }
 
-/// Formats an element for a reader. A STRING is quoted, and any text after its first NUL is added; a
-/// BOOLEAN other than 0 and 1 is followed by its byte.
+/// Formats an element for a reader. A STRING is quoted, and any text after its first NUL is added.
+/// For a BOOLEAN other than 0 and 1, its byte is added.
 fn display(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.0 > 1 => format!("TRUE ({})", flag.0),
@@ -82,8 +84,9 @@ fn display(element: Element<'_>) -> String {
     }
 }
 
-/// Formats the value on several lines. A single element has no indices; each line of an array
-/// contains as many elements as fit, after the indices of the first of them.
+/// Formats the value on one or more lines. A single element has no indices. Each line of an array
+/// starts with the indices of its first element, and contains one text, or as many numbers of the
+/// row as fit.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -117,8 +120,9 @@ pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
     Some(all.into_iter().map(|(label, items)| format!("{label:<width$}  {items}")).collect())
 }
 
-/// The indices of an element; the last index changes fastest (VAR-21, assumed).
-fn indices(at: usize, dimensions: &[u32]) -> String {
+/// The indices of the element at position `at`, in brackets; the last index changes fastest (VAR-21,
+/// assumed).
+pub(crate) fn indices(at: usize, dimensions: &[u32]) -> String {
     let (mut left, mut all) = (at, Vec::new());
     for &len in dimensions.iter().rev() {
         let len = to_usize(len);

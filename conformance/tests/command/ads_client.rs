@@ -13,14 +13,14 @@ const GEO: u16 = 551;
 const SDA: u16 = 552;
 const COM: u16 = 553;
 
-/// Index groups of variables: of channel 1, and below of the channels 1, 2 and 6 by rank and by number,
-/// each with the number of the channel.
+/// Index groups of variables: of channel 1; and of the channels 1, 2 and 6, by rank and by number,
+/// each with the number of its channel.
 const CHANNEL_1: u32 = 0x12_2301;
 const BY_RANK: [(u32, u8); 3] = [(0x02_2301, 1), (0x02_2302, 2), (0x02_2303, 6)];
 const BY_NUMBER: [(u32, u8); 3] = [(0x12_2301, 1), (0x12_2302, 2), (0x12_2306, 6)];
 
 impl Serve {
-    /// A client that uses the address of its socket as its own: 127.0.0.1.1.1.
+    /// A client that uses the IP address of its socket as its NetId: 127.0.0.1.1.1.
     fn client(&self) -> Client {
         Client::new(&*self.addr, Timeouts::new(Duration::from_secs(5)), Source::Auto).unwrap()
     }
@@ -134,27 +134,27 @@ fn a_rank_is_not_a_number() {
 fn invalid_requests_return_error_numbers() {
     with_cnc(&[], |client, net_id| {
         let (sda, com) = (port(client, net_id, SDA), port(client, net_id, COM));
-        let refused = |group, offset, data: &[u8]| ask(sda, group, offset, data).unwrap_err();
+        let rejected = |group, offset, data: &[u8]| ask(sda, group, offset, data).unwrap_err();
         // A group without functions, and channels that do not exist, by number and by rank.
         for group in [0xF005, 0x12_2303, 0x12_2305, 0x02_2304] {
-            assert_eq!(refused(group, 0x44, b"V.E\0"), 0x702, "{group:#x}");
+            assert_eq!(rejected(group, 0x44, b"V.E\0"), 0x702, "{group:#x}");
         }
-        // A group of names is read by Read, so ReadWrite is rejected.
-        assert_eq!(refused(0x12_2401, 0x44, b"V.E\0"), 0x701);
-        assert_eq!(refused(CHANNEL_1, 0x7FFF, b"V.E\0"), 0x703);
-        assert_eq!(refused(CHANNEL_1, 0x46, b"V.E.nobody\0"), 0x710);
-        assert_eq!(refused(CHANNEL_1, 0x48, b"V.E.nobody\0"), 0x710);
-        assert_eq!(refused(CHANNEL_1, 0x44, b"V.X\0"), 0x710);
-        assert_eq!(refused(CHANNEL_1, 0x45, b"\x7B\0\0\0V.E\0"), 0x706);
-        assert_eq!(refused(CHANNEL_1, 0x47, b"\xFF\xFF\xFF\x7F\0\0\0\0"), 0x706);
-        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x01\0\0\0\x05\0\0\0"), 0x706);
-        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x02\0\0\0\0\0\0\0\0\0\0\0"), 0x706);
-        assert_eq!(refused(CHANNEL_1, 0x48, b"V.E.test[5]\0"), 0x706);
+        // The group of the names of elements supports only Read, so ReadWrite is rejected.
+        assert_eq!(rejected(0x12_2401, 0x44, b"V.E\0"), 0x701);
+        assert_eq!(rejected(CHANNEL_1, 0x7FFF, b"V.E\0"), 0x703);
+        assert_eq!(rejected(CHANNEL_1, 0x46, b"V.E.nobody\0"), 0x710);
+        assert_eq!(rejected(CHANNEL_1, 0x48, b"V.E.nobody\0"), 0x710);
+        assert_eq!(rejected(CHANNEL_1, 0x44, b"V.X\0"), 0x710);
+        assert_eq!(rejected(CHANNEL_1, 0x45, b"\x7B\0\0\0V.E\0"), 0x706);
+        assert_eq!(rejected(CHANNEL_1, 0x47, b"\xFF\xFF\xFF\x7F\0\0\0\0"), 0x706);
+        assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x01\0\0\0\x05\0\0\0"), 0x706);
+        assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x02\0\0\0\0\0\0\0\0\0\0\0"), 0x706);
+        assert_eq!(rejected(CHANNEL_1, 0x48, b"V.E.test[5]\0"), 0x706);
         // Requests and read lengths of the wrong size.
-        assert_eq!(refused(CHANNEL_1, 0x44, b"V.E"), 0x705);
-        assert_eq!(refused(CHANNEL_1, 0x45, b"\x02\0\0"), 0x705);
-        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02"), 0x705);
-        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02\xFF\xFF\xFF\xFF"), 0x705);
+        assert_eq!(rejected(CHANNEL_1, 0x44, b"V.E"), 0x705);
+        assert_eq!(rejected(CHANNEL_1, 0x45, b"\x02\0\0"), 0x705);
+        assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02"), 0x705);
+        assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02\xFF\xFF\xFF\xFF"), 0x705);
         assert_eq!(ask_for(sda, CHANNEL_1, 0x44, b"V.E\0", 3), Err(0x705));
         assert_eq!(ask_for(sda, CHANNEL_1, 0x48, b"V.E.test\0", 19), Err(0x705));
         // Requests to COM with a wrong size or an unknown object.

@@ -54,8 +54,8 @@ fn a_run_of_a_client_ends_after_enough_failures() {
     assert_eq!(failed.count(), 2);
 }
 
-/// If a client does not answer hello, or misspells an action in its answer, the output is only a few
-/// lines.
+/// If a client or testee does not answer hello, or a client misspells an action in its answer, the
+/// output is only a few lines.
 #[test]
 fn a_failed_start_is_reported_briefly() {
     let hello = r#"{"protocol":1,"client":{"name":"x"},"actions":["read-by-nam"]}"#;
@@ -67,6 +67,13 @@ fn a_failed_start_is_reported_briefly() {
             ["exit status: 7", "its stderr ends with: \"gone\""],
         ),
         ("--testee", "echo gone >&2; exit 7".to_owned(), ["exit status: 7", "--check-protocol"]),
+        // The exit status decides the advice, whatever the command writes.
+        (
+            "--testee",
+            "echo no answer within 127.0.0.1 >&2; exit 7".to_owned(),
+            ["exit status: 7", "Check that the command runs by itself"],
+        ),
+        ("--client", "exit 127".to_owned(), ["exit status: 127", "Check that the shell finds"]),
     ] {
         let output = ads_cnc(&["run", option, &command]);
         let shown = String::from_utf8(output.stdout).unwrap();

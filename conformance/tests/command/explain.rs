@@ -6,7 +6,8 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
-/// The examples that the manuals print, with their bytes copied by hand.
+/// Examples that the manual of ADS access prints, copied by hand, with their sections; and frames
+/// with such examples.
 mod printed {
     /// A description of a variable: section 4.3.2.
     pub(crate) const DESCRIPTION: &str = "02 00 00 02  01 00 00 00  01 00 00 00  02 00 00 00 \
@@ -121,7 +122,7 @@ fn errors_are_marked() {
     }
 }
 
-/// Addresses whose parts have several meanings.
+/// Addresses of different kinds, such as functions, objects, elements and axes, and an unknown one.
 #[test]
 fn addresses() {
     let places = [

@@ -44,7 +44,7 @@ fn a_failure_of_a_device_is_shown_by_its_own_reply() {
 fn a_silent_target_is_not_a_success() {
     let listener = net::listen(loopback()).unwrap();
     let addr = listener.local_addr().unwrap().to_string();
-    // The run connects twice, in case the first connection was closed because it was idle.
+    // The thread accepts one connection, and keeps it open without a reply.
     let silent = thread::spawn(move || listener.incoming().take(1).map(Result::unwrap).collect());
     let args = ["run", "--target", &addr, "--net-id", "10.0.0.1.1.1", "--timeout", "20"];
     let output = ads_cnc(&args);
@@ -76,8 +76,8 @@ fn a_target_that_is_not_a_cnc_is_not_judged() {
     assert!(text(&output.stderr).contains("does not use AMS/TCP"), "{}", text(&output.stderr));
 }
 
-/// A device whose frames are all wrong is judged: only the requirement of frames fails, and the failure
-/// contains the bytes of a frame.
+/// A device whose frames are all wrong is judged: only the requirements of frames and services
+/// fail, and each failure contains the bytes of a frame.
 #[test]
 fn broken_frames_fail_the_rule_of_the_frame() {
     for (defect, clauses) in [
@@ -115,7 +115,7 @@ fn broken_frames_fail_the_rule_of_the_frame() {
     }
 }
 
-/// A wrong frame is a failure whatever cases are selected.
+/// A wrong frame is a failure with any selection of cases.
 #[test]
 fn broken_frames_fail_in_every_selection() {
     let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);

@@ -1,4 +1,5 @@
-//! Whatever the bytes of a frame are, the gate permits the frame only if it is allowed.
+//! For any bytes, the gate permits a frame only if the frame is a harmless query, or if a file for
+//! `--allow-write` allows it.
 
 use crate::common::harmless::{is_harmless, number};
 use ads_cnc_conformance::gate::{self, Allowed, Gate, Moment};
@@ -8,7 +9,8 @@ use proptest::sample::select;
 
 const NET_ID: [u8; 6] = [192, 0, 2, 7, 1, 1];
 
-/// A file for `--allow-write` with one entry of each kind.
+/// A file for `--allow-write` with entries for variables, an object, an element and the program
+/// stream.
 const FILE: &str = r#"
 target = "192.0.2.7.1.1"
 expires = 2026-05-04T17:30:00Z
@@ -215,14 +217,14 @@ fn the_strategy_covers_both_results() {
     use proptest::strategy::ValueTree as _;
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let gate = Gate::queries().with_allowed(Some(Allowed::from_toml(FILE).unwrap()));
-    let (mut queries, mut writes, mut refused) = (0, 0, 0);
+    let (mut queries, mut writes, mut rejected) = (0, 0, 0);
     for _ in 0..20_000 {
         let frame = frames().new_tree(&mut runner).unwrap().current();
         match gate.check(&frame, moment("2026-05-04T17:00:00Z")) {
             Ok(permit) if permit.is_repeatable() => queries += 1,
             Ok(_) => writes += 1,
-            Err(_) => refused += 1,
+            Err(_) => rejected += 1,
         }
     }
-    assert!(queries > 2000 && writes > 500 && refused > 5000, "{queries} {writes} {refused}");
+    assert!(queries > 2000 && writes > 500 && rejected > 5000, "{queries} {writes} {rejected}");
 }

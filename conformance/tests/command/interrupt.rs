@@ -166,7 +166,8 @@ fn ways() -> [(&'static str, String, &'static str); 4] {
 /// The data of the writes, and what the proxy did with each. The first write contains the original value.
 type Writes = Arc<Mutex<Vec<(Vec<u8>, FrameHandling)>>>;
 
-/// Starts a proxy that forwards the first two writes; `deed` decides about the following writes.
+/// Starts a proxy that forwards the first two writes. `handling` decides about the following
+/// writes, which are numbered from 0.
 fn hostile(
     bench: &Bench,
     handling: impl Fn(usize) -> FrameHandling + Send + 'static,
@@ -272,8 +273,8 @@ fn every_report_names_a_value_left_changed() {
         let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
         assert_eq!(output.status.code(), Some(6), "{what} {case}: {stderr_text}");
         let writes = writes.lock().unwrap();
-        // After two writes that change the value, the case tries once to restore it, and the run two
-        // times five times.
+        // The case writes twice (the original value, and another value), and tries once to restore
+        // the value. Then the run tries five times, and again five times at its end.
         assert_eq!(writes.len(), 2 + 1 + 5 + 5, "{what} {case}");
 
         let line = stderr_text.lines().last().unwrap();

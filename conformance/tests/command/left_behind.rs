@@ -7,9 +7,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::common::file::TestFile;
-use crate::common::signal;
+use crate::common::{runs, signal};
 
-/// Maximum time for which this test waits for anything.
+/// Maximum time for which this test waits for a process or a response.
 const WAIT_MAX: Duration = Duration::from_secs(30);
 
 fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
@@ -18,13 +18,6 @@ fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
         assert!(begun.elapsed() < WAIT_MAX, "{what}");
         thread::sleep(Duration::from_millis(10));
     }
-}
-
-/// Whether a process runs; a zombie counts as ended.
-fn runs(id: &str) -> bool {
-    let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
-    let state = String::from_utf8(shown.stdout).unwrap();
-    !state.trim().is_empty() && !state.trim_start().starts_with('Z')
 }
 
 /// Runs the suite with a testee or client that ignores stdin and signals and starts another process, and

@@ -1,4 +1,4 @@
-//! Tests that run the built command, or connect to it. They are one program, because linking a program
+//! Tests, most of which run the built command. They are one program, because linking a program
 //! takes longer than most of the tests.
 
 #[path = "../common/mod.rs"]

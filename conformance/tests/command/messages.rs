@@ -107,6 +107,27 @@ fn a_statement_has_one_of_the_known_formats() {
     }
 }
 
+/// A defect is listed by a part of its ID, but by a whole requirement, as the message says.
+#[test]
+fn defects_are_listed_by_a_whole_requirement() {
+    let (code, shown, _) = run_tool(&["serve", "--list-defects", "var-10"]);
+    assert!(code == Some(0) && !shown.is_empty());
+    let (code, _, error) = run_tool(&["serve", "--list-defects", "VAR-"]);
+    assert_eq!(code, Some(2));
+    assert!(error.contains("contains VAR- in its ID or violates the requirement VAR-"), "{error}");
+}
+
+/// A dynamic parameter is always a REAL64, so that another type is an error.
+#[test]
+fn another_type_of_a_parameter_is_rejected() {
+    for name in ["P1", "V.P.count"] {
+        let (code, _, error) = run_tool(&["get", name, "--type", "UNS32"]);
+        assert_eq!(code, Some(2), "{error}");
+        assert!(error.contains("always a REAL64, not a UNS32"), "{error}");
+        assert_eq!(run_tool(&["get", name, "--type", "REAL64"]).0, Some(0));
+    }
+}
+
 /// The short help of `run`, which most users read, fits on a screen.
 #[test]
 fn the_short_help_of_run_is_short() {

@@ -20,6 +20,10 @@ use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, LocalCnc, Model, NET_ID};
 use ads_cnc_conformance::suite;
+use tracing::Level;
+use tracing_subscriber::filter::Targets;
+use tracing_subscriber::fmt;
+use tracing_subscriber::layer::SubscriberExt as _;
 
 /// A simulated CNC, and a thread that reads its log.
 struct Logged {
@@ -50,7 +54,7 @@ impl Logged {
     }
 }
 
-/// Runs these cases, which write, with this file.
+/// Runs these cases, which write, with this file for `--allow-write`.
 fn run(addr: &str, file: &TestFile, cases: &[&str]) -> Output {
     let only: Vec<&str> = cases.iter().flat_map(|case| ["--only", case]).collect();
     let target = ["--target", addr, "--net-id", "127.0.0.1.1.1", "--timeout", "500"];
@@ -101,11 +105,10 @@ impl Write for Lines {
 fn written(model: Model, seed: &SeededDefect, named: &Named) -> BTreeSet<String> {
     let lines = Lines::default();
     let writer = lines.clone();
-    let log = tracing_subscriber::fmt()
-        .with_max_level(tracing::Level::DEBUG)
-        .with_ansi(false)
-        .with_writer(move || writer.clone())
-        .finish();
+    // The log of the client would be most of the work: the writes are in the log of the simulated CNC.
+    let simulator = Targets::new().with_target("ads_cnc_conformance::simulator", Level::DEBUG);
+    let lines_of_log = fmt::layer().with_ansi(false).with_writer(move || writer.clone());
+    let log = tracing_subscriber::registry().with(lines_of_log).with(simulator);
     tracing::subscriber::with_default(log, || {
         let cnc = Cnc::new(model).with_stopped_clock();
         let cnc = Arc::new(Faulty::new(cnc, Some(seed)));
@@ -382,7 +385,8 @@ fn a_value_that_is_not_restored_has_a_reason() {
     assert!(last.contains("(not restored: ") && last.ends_with(why), "{stderr_text}");
 }
 
-/// A list contains two objects with the same address: the write by name of the object is rejected.
+/// A list contains two objects with the same address: a write of an object that the file names is
+/// rejected.
 #[test]
 fn an_address_of_two_objects_is_not_written() {
     let cnc = Logged::start(&[]);

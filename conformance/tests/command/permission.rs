@@ -1,5 +1,5 @@
 //! The writes that a file for `--allow-write` permits, and the expiry of the file. The tests run the
-//! commands as a user does, and count the writes that the simulated CNC receives.
+//! commands as a user does.
 
 use std::collections::BTreeSet;
 use std::process::{Command, Output, Stdio};
@@ -74,10 +74,10 @@ fn other_entries_permit_nothing() {
     for table in &tables {
         let file = TestFile::allowing(table);
         let set = ["set", "V.E.vartest", "1", "--allow-write", file.path()];
-        let refused = against(&cnc.addr, &set);
+        let rejected = against(&cnc.addr, &set);
         // Some entries contain an invalid name, so that the whole file is rejected.
-        assert!(matches!(refused.status.code(), Some(2 | 4)), "{table}: {refused:?}");
-        assert!(!refused.stderr.is_empty(), "{table}");
+        assert!(matches!(rejected.status.code(), Some(2 | 4)), "{table}: {rejected:?}");
+        assert!(!rejected.stderr.is_empty(), "{table}");
         let value = against(&cnc.addr, &["get", "V.E.vartest"]);
         assert!(text(&value.stdout).contains("4711"), "{table}: {}", text(&value.stdout));
     }
@@ -104,7 +104,7 @@ fn a_missing_file_is_an_error() {
     }
 }
 
-/// `stream` ends in the second in which its file expires, and reports the lines that the CNC accepted.
+/// `stream` ends when its file expires, and reports the lines that the CNC accepted.
 #[test]
 fn a_stream_ends_when_its_file_expires() {
     let packets = Arc::new(Mutex::new(0));
@@ -114,7 +114,7 @@ fn a_stream_ends_when_its_file_expires() {
         thread::sleep(Duration::from_millis(400));
         Answer::Result(AdsError::NO_ERROR)
     });
-    // A program of 17 packets.
+    // A program of 16 packets.
     let program: String = (0..1000).map(|line| format!("N{line}0 G01 X{line}\n")).collect();
     let (program, file) = (TestFile::new(".nc", program.as_bytes()), expiring(STREAM, 3));
     let args = ["stream", program.path(), "--allow-write", file.path()];

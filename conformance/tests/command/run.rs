@@ -53,7 +53,7 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
     }
 }
 
-/// The JSON report contains the same facts as the output on the console.
+/// The run writes its report as JSON, with the device and the judged clauses.
 #[test]
 fn the_report_is_written_as_json() {
     let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
@@ -68,7 +68,7 @@ fn the_report_is_written_as_json() {
     let cases = report["cases"].as_array().unwrap();
     let of_target = cases.iter().filter(|case| case["subject"] == "target");
     assert!(of_target.count() > 40);
-    // The run judges every clause that its functions can violate.
+    // The run judges at least these clauses.
     let target = &report["subjects"][1];
     assert_eq!(target["subject"], "target");
     let judged: Vec<_> = target["areas"]
@@ -112,9 +112,9 @@ fn exchanges_are_logged() {
     assert!(read.contains(": 2 bytes sent=00 00 ") && read.ends_with(" 67 12"), "{read}");
 }
 
-/// Without a profile, a run judges all channels that it finds. It first prints how many requests it will
-/// send, and the report contains what was found. With a profile, it judges only the channels of the
-/// profile.
+/// Without a profile, a run judges all channels that it finds. It first prints about how many
+/// requests it will send, and the report contains the found channels. With a profile, it judges
+/// only the channels of the profile.
 #[test]
 fn a_run_without_a_profile_judges_found_channels() {
     let serve = Serve::start(&[]);
@@ -130,7 +130,7 @@ fn a_run_without_a_profile_judges_found_channels() {
     let channels = serde_json::json!([1, 2, 6]);
     assert_eq!(report["profile"]["claims"]["channels"], channels);
     assert_eq!(report["found"]["ports"], serde_json::json!([551, 552, 553]));
-    let found = "channel 1 with 3 axis places, 2 with 3 axis places, 6 with 3 axis places";
+    let found = "channel 1 with 3 axis indices, 2 with 3 axis indices, 6 with 3 axis indices";
     assert!(
         stderr_text.contains(found)
             && stderr_text.contains("about ")
@@ -144,7 +144,7 @@ fn a_run_without_a_profile_judges_found_channels() {
     std::fs::remove_file(&profile).unwrap();
     assert_eq!(report["profile"]["claims"]["channels"], serde_json::json!([6]));
     assert_eq!(report["found"]["ports"], serde_json::json!([]));
-    assert!(stderr_text.contains("channel 6 with 3 axis places;"), "{stderr_text}");
+    assert!(stderr_text.contains("channel 6 with 3 axis indices;"), "{stderr_text}");
 }
 
 /// A run reads only a sample of a long list, and the whole list with `--all`.
@@ -202,17 +202,17 @@ fn malformed_requests_need_a_file_that_permits_them() {
     std::fs::remove_file(&file).unwrap();
     let without =
         ads_cnc(&[&["run", "--malformed", "--target", &serve.addr], &net_id[..]].concat());
-    for (refused, why) in [
+    for (rejected, why) in [
         (named, "malformed = true"),
         (without, "malformed = true"),
         (other, "for the address 192.0.2.1, not for 127.0.0.1"),
     ] {
-        assert_eq!(refused.status.code(), Some(4), "{}", text(&refused.stderr));
-        assert!(text(&refused.stderr).contains(why), "{}", text(&refused.stderr));
+        assert_eq!(rejected.status.code(), Some(4), "{}", text(&rejected.stderr));
+        assert!(text(&rejected.stderr).contains(why), "{}", text(&rejected.stderr));
     }
 }
 
-/// An invalid file of `--allow-write` is an error even without a target.
+/// Without a target, a file for `--allow-write` is an error, and so is a file that does not exist.
 #[test]
 fn a_file_is_read_without_a_target() {
     let file = TestFile::allowing("");
@@ -226,7 +226,7 @@ fn a_file_is_read_without_a_target() {
     }
 }
 
-/// A device that rejects ReadDeviceInfo is judged nevertheless, and passes.
+/// A device that rejects ReadDeviceInfo or ReadState is judged nevertheless, and passes.
 #[test]
 fn device_information_is_optional() {
     for defect in ["device-info-reply.result.flip", "device-state-reply.result.flip"] {
@@ -242,7 +242,7 @@ fn device_information_is_optional() {
     }
 }
 
-/// A report that cannot be written has its own exit code.
+/// A run whose output cannot be written ends with exit code 70.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_lost_report_is_an_error() {
@@ -252,7 +252,7 @@ fn a_lost_report_is_an_error() {
     assert_eq!(status.code(), Some(70));
 }
 
-/// Each kind of failure has its exit code.
+/// An unreachable device has exit code 3, wrong usage exit code 2.
 #[test]
 fn exit_codes() {
     let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
@@ -307,7 +307,8 @@ fn reports_are_checked_before_the_run() {
     assert_eq!(ads_cnc(&["run", "--timeout", "0"]).status.code(), Some(2));
 }
 
-/// A rejection that proves nothing is listed with its sibling, which the testee should have accepted.
+/// A rejection that proves nothing is listed with its sibling, which the codec should have
+/// accepted.
 #[test]
 fn a_vacuous_rejection_follows_from_its_sibling() {
     let defect = ["run", "--defect", "read-write-reply.length.zero", "--only", "read-write-reply"];

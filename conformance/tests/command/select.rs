@@ -1,11 +1,8 @@
 //! The selection of cases, their order, and waivers.
 
-use crate::common::ads_cnc;
+use crate::common::file::TestFile;
+use crate::common::{Serve, ads_cnc};
 use std::collections::BTreeSet;
-use std::io::{BufRead as _, BufReader};
-use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
-use std::{env, fs, process};
 
 use serde_json::Value;
 
@@ -155,8 +152,8 @@ fn cases_are_listed_without_running() {
 /// The list for a device contains exactly the cases that a run against this device does not omit.
 #[test]
 fn the_list_of_a_device_contains_the_cases_of_a_run() {
-    let device = Device::start();
-    let target = ["--target", &device.addr, "--net-id", "127.0.0.1.1.1", "--seed", "5"];
+    let device = Serve::start(&[]);
+    let target = ["--target", &device.addr, "--net-id", &device.net_id, "--seed", "5"];
     let json = |args: &[&str]| -> Value {
         let output = ads_cnc(&[args, &target, &["--json", "-"]].concat());
         serde_json::from_slice(&output.stdout).unwrap()
@@ -176,50 +173,6 @@ fn the_list_of_a_device_contains_the_cases_of_a_run() {
     let run: BTreeSet<&str> = run.map(|case| case["id"].as_str().unwrap()).collect();
     assert_eq!(listed, run);
     assert!(listed.len() > 80, "{}", listed.len());
-}
-
-/// A simulated CNC in a separate process.
-struct Device {
-    serve: Child,
-    addr: String,
-}
-
-impl Device {
-    fn start() -> Self {
-        let mut serve = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-            .args(["serve", "--listen", "127.0.0.1:0"])
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(serve.stdout.take().unwrap()).read_line(&mut line).unwrap();
-        let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap();
-        Self { addr: addr.to_owned(), serve }
-    }
-}
-
-impl Drop for Device {
-    fn drop(&mut self) {
-        self.serve.kill().unwrap();
-        self.serve.wait().unwrap();
-    }
-}
-
-/// A temporary file of waivers that is removed when this value is dropped.
-struct File(PathBuf);
-
-impl File {
-    fn new(name: &str, text: &str) -> Self {
-        let file = env::temp_dir().join(format!("ads-cnc-{name}-{}.toml", process::id()));
-        fs::write(&file, text).unwrap();
-        Self(file)
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _gone = fs::remove_file(&self.0);
-    }
 }
 
 fn waiver(test: &str, requirement: &str, verdict: &str, expires: &str) -> String {
@@ -261,10 +214,10 @@ fn known_failures_are_waived_until_they_expire() {
         ),
     ];
     for (name, text, more, code, shown) in cases {
-        let file = File::new(name, &text);
+        let file = TestFile::new(".toml", text.as_bytes());
         let args =
             ["run", "--only", "var-descriptions", "--defect", "variable-description.size.flip"];
-        let args = [&args[..], &["--waivers", file.0.to_str().unwrap()], more].concat();
+        let args = [&args[..], &["--waivers", file.path()], more].concat();
         let output = ads_cnc(&args);
         let out = String::from_utf8(output.stdout).unwrap();
         assert_eq!(output.status.code(), Some(code), "{name}: {out}");
@@ -297,8 +250,8 @@ fn an_invalid_file_of_waivers_is_rejected_with_its_line() {
         ("twice", format!("{good}{good}"), "line 7: duplicate waiver of VAR-8 in a"),
     ];
     for (name, text, why) in cases {
-        let file = File::new(name, &text);
-        let output = ads_cnc(&["run", "--waivers", file.0.to_str().unwrap()]);
+        let file = TestFile::new(".toml", text.as_bytes());
+        let output = ads_cnc(&["run", "--waivers", file.path()]);
         let stderr_text = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{name}: {stderr_text}");
         assert!(

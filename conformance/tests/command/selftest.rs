@@ -1,4 +1,4 @@
-//! `ads-cnc selftest` with one trial of each kind; `.ci/run` runs all trials.
+//! `ads-cnc selftest` with one trial of each kind; the workflow `nightly.yml` runs all trials.
 
 use std::process::{Command, Output};
 

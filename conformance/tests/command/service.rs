@@ -7,6 +7,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::common::file::TestFile;
+#[cfg(unix)]
+use crate::common::runs;
 use crate::common::text;
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
@@ -22,7 +24,7 @@ use ads_cnc_conformance::simulator::{Cnc, Server};
 const ID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 const OTHER: &str = "19719079-BA06-4740-BC02-DE5215211751";
 
-/// Maximum time for which these tests wait for anything.
+/// Maximum time for which these tests wait for a process or a response.
 const WAIT_MAX: Duration = Duration::from_secs(30);
 
 /// A simulated CNC in this process, to which the tool in another process connects.
@@ -158,8 +160,8 @@ fn a_simulated_cnc_sends_requests() {
     assert_eq!(tool.output().unwrap().status.code(), Some(2));
 }
 
-/// The exit code is the response state, except that exit code 1 becomes another state, because state 1
-/// means success.
+/// The exit code of the command is the response state, except that 0 becomes 1, which means
+/// success, and 1 becomes 1001.
 #[test]
 fn an_exit_code_is_the_state() {
     let bench = Bench::start();
@@ -341,16 +343,8 @@ fn remaining_processes_do_not_delay_the_answer() {
     assert!(!runs(&response), "{response} runs");
 }
 
-/// Whether a process runs; a zombie counts as ended.
-#[cfg(unix)]
-fn runs(id: &str) -> bool {
-    let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
-    let state = text(&shown.stdout);
-    !state.trim().is_empty() && !state.trim_start().starts_with('Z')
-}
-
-/// A process that has created its own session is not ended. Each such process occupies a thread of the
-/// tool, and the number of these threads is limited.
+/// A process that has created a session (`setsid`) is not ended. Each such process occupies a
+/// thread of the tool, and the number of these threads is limited.
 #[cfg(target_os = "linux")]
 #[test]
 fn processes_in_own_sessions_are_limited() {

@@ -242,8 +242,8 @@ fn device_information_is_read() {
     }
 }
 
-/// Errors in the reply to ReadDeviceInfo: a result with or without the other fields (ADS-6), an AMS
-/// error, and invalid replies.
+/// Errors in the replies to ReadState and ReadDeviceInfo: a result with or without the other
+/// fields, an AMS error, and invalid replies (ADS-6).
 #[test]
 fn missing_device_information_is_an_error() {
     for data in [&[1, 7, 0, 0][..], &[1, 7, 0, 0, 0, 0, 0, 0]] {

@@ -117,8 +117,8 @@ fn retries_are_limited() {
 /// A packet that is rejected with an error other than "busy" is not sent again.
 #[test]
 fn another_error_ends_the_stream() {
-    let refused = Answer::Result(AdsError::INVALID_OFFSET);
-    let (addr, packets) = kept(move |_| refused);
+    let rejected = Answer::Result(AdsError::INVALID_OFFSET);
+    let (addr, packets) = kept(move |_| rejected);
     let allow = TestFile::allowing(STREAM_1);
     let output = stream(b"N10 G0 X0\nN20 M30\n", addr, &allow, &[]);
     let (shown, stderr_text) = (text(&output.stdout), text(&output.stderr));
@@ -189,7 +189,7 @@ fn an_invalid_program_is_not_sent() {
     assert_eq!(packets[..], [(1, b"N10 $FOR P1=0,10,1\r\nN20 M30\r\nN30 X1\r\n".to_vec())]);
 }
 
-/// The tool sends nothing to a device without an entry for the stream of the channel.
+/// Without an entry for the program stream of the channel, the tool sends nothing to a device.
 #[test]
 fn the_stream_needs_an_entry() {
     let (addr, packets) = kept(|_| OK);
@@ -246,7 +246,8 @@ fn a_program_may_come_from_stdin() {
     assert_eq!(packets.lock().unwrap()[..], [(1, b"N10 M30\r\n".to_vec())]);
 }
 
-/// After a signal while the tool waits, the summary states which lines were sent and which were not.
+/// After a signal while the tool waits, the summary states which lines were accepted and which were
+/// not.
 #[cfg(unix)]
 #[test]
 fn a_signal_ends_the_stream_with_a_summary() {

@@ -1,5 +1,5 @@
-//! Codecs over the testee protocol: this project's codec, with and without a defect, and miniatures, which
-//! misbehave in the same way in every case.
+//! Codecs over the testee protocol: this project's codec, with and without a defect, and
+//! miniatures, which are small testees, most of which misbehave in the same way in every case.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;

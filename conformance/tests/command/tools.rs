@@ -1,11 +1,10 @@
 //! `ads-cnc browse`, `get` and `set` as users call them.
 
 use std::fs;
-use std::path::PathBuf;
 use std::process::Output;
 
-use crate::common::Serve;
-use crate::common::{ads_cnc, text};
+use crate::common::file::TestFile;
+use crate::common::{Serve, ads_cnc, text};
 use serde_json::Value;
 
 /// The text of a snapshot: each call with its stdout, its stderr and its exit code.
@@ -37,28 +36,6 @@ impl Device {
         let output = self.call(&[&["get", "--plain"], args].concat());
         assert_eq!(output.status.code(), Some(0), "{args:?}: {}", text(&output.stderr));
         text(&output.stdout).trim_end().to_owned()
-    }
-}
-
-/// A temporary file that is removed when this value is dropped.
-struct Temporary(PathBuf);
-
-impl Temporary {
-    fn new(name: &str, content: &str) -> Self {
-        let file = format!("ads-cnc-tools-{}-{name}.toml", std::process::id());
-        let path = std::env::temp_dir().join(file);
-        fs::write(&path, content).unwrap();
-        Self(path)
-    }
-
-    fn path(&self) -> &str {
-        self.0.to_str().unwrap()
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        let _gone = fs::remove_file(&self.0);
     }
 }
 
@@ -245,9 +222,9 @@ fn writes_to_a_device_need_an_entry() {
     for (name, options, old, new) in cases {
         let get = [&[name], options].concat();
         let set = [&["set", name, new], options].concat();
-        let refused = device.call(&set);
-        let why = text(&refused.stderr);
-        assert_eq!(refused.status.code(), Some(4), "{name}: {why}");
+        let rejected = device.call(&set);
+        let why = text(&rejected.stderr);
+        assert_eq!(rejected.status.code(), Some(4), "{name}: {why}");
         assert_eq!(device.value(&get), old, "{name}");
 
         let (_, file) = why.split_once("--allow-write:\n\n").unwrap();
@@ -262,7 +239,7 @@ fn writes_to_a_device_need_an_entry() {
                     }
                 })
                 .collect();
-        let file = Temporary::new(&name.replace(['[', ']', '.'], "_"), &file.join("\n"));
+        let file = TestFile::new(".toml", file.join("\n").as_bytes());
         let with_file = [&set[..], &["--allow-write", file.path()]].concat();
         let output = device.call(&with_file);
         assert_eq!(output.status.code(), Some(0), "{name}: {}", text(&output.stderr));
@@ -281,9 +258,8 @@ fn writes_to_a_device_need_an_entry() {
 #[test]
 fn an_object_is_allowed_by_its_name() {
     let device = Device::start(&[]);
-    let file = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n\
-                [[object]]\nchannel = 1\nname = \"mc_command_single_block_w\"\n";
-    let file = Temporary::new("object", file);
+    let file =
+        TestFile::allowing("[[object]]\nchannel = 1\nname = \"mc_command_single_block_w\"\n");
     let set = ["set", "mc_command_single_block_w", "TRUE", "--allow-write", file.path()];
     let output = device.call(&set);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -303,7 +279,7 @@ fn a_file_applies_to_one_device_until_it_expires() {
             "target = \"{target}\"\nexpires = {expires}\n\
              [[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n"
         );
-        let file = Temporary::new(&format!("not-{}", &expires[..4]), &file);
+        let file = TestFile::new(".toml", file.as_bytes());
         let set = ["set", "V.E.vartest", "1", "--allow-write", file.path()];
         assert_eq!(device.call(&set).status.code(), Some(4));
         // A file also applies to the simulated CNC.
@@ -375,8 +351,8 @@ fn texts_of_a_device_are_escaped() {
     let value = "value = \"main.nc\"";
     assert!(model.contains(value));
     let model = model.replace(value, "value = \"@SUM(A1)\\u0090\\u007f\"");
-    let model = Temporary::new("hostile", &model);
-    let device = Device::start(&["--model", model.0.to_str().unwrap()]);
+    let model = TestFile::new(".toml", model.as_bytes());
+    let device = Device::start(&["--model", model.path()]);
     let shown = |format: &str| {
         let output =
             device.call(&["browse", "--filter", "example.", "--content", "--format", format]);

@@ -1,7 +1,6 @@
 //! By default, the tools change nothing on a target. A proxy in front of a CNC records every frame, and
 //! the test judges each frame only by its bytes, independent of the codec and the gate.
 
-use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::net::{SocketAddr, TcpStream};
 use std::process::{Command, Output};
@@ -9,12 +8,13 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 
 use crate::common::connect;
+use crate::common::file::TestFile;
 use crate::common::harmless::{is_harmless, number};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::{Cnc, Server};
 
 /// Calls without `--allow-write` of all commands that connect to a target, each with the exit code and
-/// whether the command sends queries before it is rejected. A new command must be added here.
+/// whether the command sends queries. A new command must be added here.
 const TOOLS: &[(&[&str], i32, bool)] = &[
     (&["run"], 0, true),
     // The license file serves as an NC program, because any ASCII text is one.
@@ -133,11 +133,10 @@ fn default_runs_of_every_tool_change_nothing() {
 #[test]
 fn a_rejection_needs_no_connection() {
     let addr = nobody().to_string();
-    let program = std::env::temp_dir().join(format!("ads-cnc-no-one-{}.nc", std::process::id()));
-    fs::write(&program, "M30\n").unwrap();
+    let program = TestFile::new(".nc", b"M30\n");
     for (code, args) in [
         (4, &["set", "V.E.Testvar[0]", "1"][..]),
-        (4, &["stream", program.to_str().unwrap()]),
+        (4, &["stream", program.path()]),
         (4, &["service", "--uuid", "560AACBF-6335-44a9-895A-8B27F3ED5E47", "--", "echo"]),
         (3, &["get", "V.E.Testvar[0]"]),
     ] {
@@ -146,7 +145,6 @@ fn a_rejection_needs_no_connection() {
         let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(&args).output().unwrap();
         assert_eq!(output.status.code(), Some(code), "{args:?}: {output:?}");
     }
-    fs::remove_file(&program).unwrap();
 }
 
 /// An address on this machine at which no program listens.
@@ -158,13 +156,12 @@ fn nobody() -> SocketAddr {
 /// Commands that only read write nothing, even with a file that allows writes.
 #[test]
 fn a_file_alone_changes_nothing() {
-    let file = AllowFile::new(
-        "alone",
+    let file = TestFile::allowing(
         "[[stream]]\nchannel = 1\n[[variable]]\nchannel = 1\nname = \"V.E.Testvar\"\n",
     );
     for tool in [&["browse"][..], &["get", "V.E.Testvar"]] {
         let tripwire = Tripwire::start();
-        let output = tripwire.call(&[tool, &["--allow-write", file.name()]].concat());
+        let output = tripwire.call(&[tool, &["--allow-write", file.path()]].concat());
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         let connections = tripwire.connections();
         assert!(connections.iter().flat_map(|bytes| frames(bytes)).all(is_harmless), "{tool:?}");
@@ -174,10 +171,10 @@ fn a_file_alone_changes_nothing() {
 /// The suite writes only the value that the file names, by name or by handle, and restores it.
 #[test]
 fn a_run_writes_only_named_values_and_restores_them() {
-    let file = AllowFile::new("run", "[[variable]]\nchannel = 1\nname = \"V.E.test\"\n");
+    let file = TestFile::allowing("[[variable]]\nchannel = 1\nname = \"V.E.test\"\n");
     let tripwire = Tripwire::start();
     let before = tripwire.call(&["browse", "--variables", "--content"]).stdout;
-    let output = tripwire.call(&["run", "--allow-write", file.name()]);
+    let output = tripwire.call(&["run", "--allow-write", file.path()]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let after = tripwire.call(&["browse", "--variables", "--content"]).stdout;
     assert!(before == after);
@@ -205,10 +202,10 @@ fn a_run_writes_only_named_values_and_restores_them() {
 #[test]
 fn a_run_streams_only_comments_and_answers_no_request() {
     let entries = "[[stream]]\nchannel = 1\n[[stream]]\nrank = 1\n[[service]]\nchannel = 1\n";
-    let file = AllowFile::new("stream", entries);
+    let file = TestFile::allowing(entries);
     let tripwire = Tripwire::start();
     let texts = ["REQUEST", "RESPONSE"].map(|name| tripwire.handle(&format!("V.G.SERVICE.{name}")));
-    let output = tripwire.call(&["run", "--allow-write", file.name()]);
+    let output = tripwire.call(&["run", "--allow-write", file.path()]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let connections = tripwire.connections();
     let all = connections.iter().flat_map(|bytes| frames(bytes));
@@ -237,29 +234,6 @@ fn a_run_streams_only_comments_and_answers_no_request() {
         }
     }
     assert!(streamed > 2 && answered > 3, "{streamed} packets, {answered} answers");
-}
-
-/// A temporary file for `--allow-write` that is removed when this value is dropped.
-struct AllowFile(std::path::PathBuf);
-
-impl AllowFile {
-    fn new(name: &str, entries: &str) -> Self {
-        let file = format!("ads-cnc-tripwire-{name}-{}.toml", std::process::id());
-        let file = std::env::temp_dir().join(file);
-        let head = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
-        fs::write(&file, format!("{head}{entries}")).unwrap();
-        Self(file)
-    }
-
-    fn name(&self) -> &str {
-        self.0.to_str().unwrap()
-    }
-}
-
-impl Drop for AllowFile {
-    fn drop(&mut self) {
-        let _gone = fs::remove_file(&self.0);
-    }
 }
 
 /// A dry run prints its requests and does not connect.
@@ -298,18 +272,13 @@ fn malformed_requests_without_a_file_need_no_connection() {
 /// An invalid file is rejected, with the number of the line, before anything is sent.
 #[test]
 fn nothing_is_sent_with_an_invalid_file() {
-    let file = std::env::temp_dir().join(format!("ads-cnc-bad-{}.toml", std::process::id()));
-    fs::write(&file, "target = \"127.0.0.1.1.1\"\nexpires = 2026-05-04T17:30:00Z\nwrite = true\n")
-        .unwrap();
+    let text = "target = \"127.0.0.1.1.1\"\nexpires = 2026-05-04T17:30:00Z\nwrite = true\n";
+    let file = TestFile::new(".toml", text.as_bytes());
     let tripwire = Tripwire::start();
-    let output = tripwire.call(&["run", "--allow-write", file.to_str().unwrap()]);
-    fs::remove_file(&file).unwrap();
+    let output = tripwire.call(&["run", "--allow-write", file.path()]);
     let why = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{why}");
-    assert!(
-        why.contains("ads-cnc-bad-") && why.contains("line 3") && why.contains("write"),
-        "{why}"
-    );
+    assert!(why.contains(file.path()) && why.contains("line 3") && why.contains("write"), "{why}");
     assert_eq!(tripwire.connections().len(), 0);
 }
 

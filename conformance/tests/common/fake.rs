@@ -27,7 +27,8 @@ pub(crate) enum Reaction {
 }
 
 /// Starts a fake CNC that replies to writes to the program stream as `answer` decides. It serves one
-/// connection after the other; any other request closes the connection. Returns its address.
+/// connection after the other; any other request ends the fake CNC with a panic. Returns its
+/// address.
 pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static) -> SocketAddr {
     reacting(move |frame| {
         let request = Call::from_frame(frame).unwrap().unwrap();

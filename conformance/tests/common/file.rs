@@ -1,6 +1,6 @@
-//! Temporary files of tests.
+//! Temporary files and folders of tests.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A temporary file that is removed when this value is dropped.
@@ -9,9 +9,7 @@ pub(crate) struct TestFile(pub(crate) PathBuf);
 impl TestFile {
     /// Creates a file whose name ends with `suffix`.
     pub(crate) fn new(suffix: &str, content: &[u8]) -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let path = std::env::temp_dir().join(format!("ads-cnc-test-{process}-{count}{suffix}"));
+        let path = unused(suffix);
         std::fs::write(&path, content).unwrap();
         Self(path)
     }
@@ -31,4 +29,41 @@ impl Drop for TestFile {
     fn drop(&mut self) {
         let _gone = std::fs::remove_file(&self.0);
     }
+}
+
+/// A temporary folder that is removed when this value is dropped.
+pub(crate) struct TestFolder(PathBuf);
+
+impl TestFolder {
+    pub(crate) fn new() -> Self {
+        let path = unused("");
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// The path of a file in the folder.
+    pub(crate) fn file(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.0.join(name)).unwrap()
+    }
+}
+
+impl Drop for TestFolder {
+    fn drop(&mut self) {
+        let _gone = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A temporary path that ends with `suffix`, and that no other test of this process uses.
+fn unused(suffix: &str) -> PathBuf {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+    std::env::temp_dir().join(format!("ads-cnc-test-{process}-{count}{suffix}"))
 }

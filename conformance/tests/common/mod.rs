@@ -79,6 +79,14 @@ pub(crate) fn connect(addr: std::net::SocketAddr) -> TcpStream {
     stream
 }
 
+/// Whether a process runs; a zombie counts as ended.
+#[cfg(unix)]
+pub(crate) fn runs(id: &str) -> bool {
+    let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
+    let state = text(&shown.stdout);
+    !state.trim().is_empty() && !state.trim_start().starts_with('Z')
+}
+
 /// Sends a signal by its name, such as `TERM`.
 #[cfg(unix)]
 pub(crate) fn signal(name: &str, process: u32) {

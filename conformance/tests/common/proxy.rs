@@ -27,8 +27,8 @@ pub(crate) enum FrameHandling {
     Reject,
 }
 
-/// Starts a proxy that forwards connections to a CNC one after the other and calls `deed` for each frame.
-/// Returns the address of the proxy.
+/// Starts a proxy that forwards connections to a CNC one after the other and calls `handling` for
+/// each frame. Returns the address of the proxy.
 pub(crate) fn proxy(
     cnc: SocketAddr,
     mut handling: impl FnMut(&FrameRef<'_>) -> FrameHandling + Send + 'static,

@@ -88,7 +88,7 @@ fn every_defect_breaks_a_judged_requirement() {
     }
 }
 
-/// Each scenario has a unique name, sends actions to a client, and judges the requirements it claims.
+/// Each scenario has a unique ID, and the requirements that it names exist.
 #[test]
 fn scenarios_are_distinct() {
     let all = scenarios();

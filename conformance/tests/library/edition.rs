@@ -130,8 +130,8 @@ fn versions_are_ordered_by_their_numbers() {
     assert!(ascending.map(version).is_sorted_by(|one, next| one < next));
 }
 
-/// The features of VAR-19 and SVC-11 for versions below, at and above each printed version, and for
-/// branches of versions that are not printed.
+/// The features for versions below, at and above each printed version, and for branches of versions
+/// that are not printed (VAR-19, VAR-28, SVC-11).
 #[test]
 fn versions_have_their_printed_features() {
     let cases: [(Feature, &str, &[_]); 3] = [
@@ -304,7 +304,8 @@ fn the_axis_interface_has_only_axis_variables() {
     }
 }
 
-/// `permits` ignores any number of NULs after a kind, as a server receives it, and the rest of a name.
+/// `permits` recognises the kind in a request with any number of NULs after the kind, and in a
+/// whole name.
 #[test]
 fn the_nuls_of_a_kind_are_ignored() {
     let request = VariableKindRef::decode(b"V.CYC\0\0\0").unwrap();

@@ -104,7 +104,7 @@ fn bytes() -> impl Strategy<Value = Vec<u8>> {
     proptest::collection::vec(word, 0..24).prop_map(|words| words.concat())
 }
 
-/// One to three complete frames, which are then truncated or changed at one offset.
+/// One to three complete frames, which may then be truncated and changed at one offset.
 fn frames() -> impl Strategy<Value = Vec<u8>> {
     let command = prop_oneof![4 => select(vec![2_u16, 3, 9]), 1 => any::<u16>()];
     let flags = prop_oneof![4 => 4..6_u16, 1 => any::<u16>()];
@@ -192,7 +192,7 @@ proptest! {
 #[test]
 fn explanations_agree_with_the_vectors() {
     let schema = schema();
-    let (mut seen, mut refused, mut same) = (0, 0, 0);
+    let (mut seen, mut rejected, mut same) = (0, 0, 0);
     for vector in vectors() {
         let Some(named) = Stream::by_name(&vector.stream) else { continue };
         if named == Stream::ProgramStream {
@@ -212,14 +212,14 @@ fn explanations_agree_with_the_vectors() {
             (Expect::Reject(reject), Some(fault)) => {
                 // The error class and the offset in a vector are advisory, but most equal those of the
                 // codec.
-                refused += 1;
+                rejected += 1;
                 same += usize::from((fault.class, fault.offset) == (&reject.class, reject.offset));
             }
             (_, fault) => panic!("{}: {fault:?}", vector.id),
         }
     }
-    println!("{seen} vectors, {refused} refused, {same} with the same class and offset");
-    assert!(seen > 100 && same * 10 > refused * 8, "{seen} {refused} {same}");
+    println!("{seen} vectors, {rejected} rejected, {same} with the same class and offset");
+    assert!(seen > 100 && same * 10 > rejected * 8, "{seen} {rejected} {same}");
 }
 
 /// The data of a reply without its request is shown, although the stream of the data is unknown.

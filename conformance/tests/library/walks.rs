@@ -20,8 +20,6 @@ fn default_cnc() -> Cnc {
 #[test]
 fn few_requests_find_everything() {
     let all = found(default_cnc(), &Options::default());
-    // Requests: COM 29, position controller 38, interpolator 74, decoder 95, HLD 49, path
-    // preparation 47, spindles 17.
     assert_eq!((all.objects.len(), all.lists, all.requests), (179, 60, 350));
     let exact = found(default_cnc(), &Options { exact: true, ..Options::default() });
     assert_eq!((exact.objects.len(), exact.requests), (179, 694));
@@ -36,7 +34,21 @@ fn few_requests_find_everything() {
     assert_eq!((one.objects.len(), one.lists), (28, 1));
 }
 
-/// With any defect of a field in replies, a walk over all items needs only few additional requests.
+/// A list ends after several consecutive rejections: the notes tell how many entries were requested.
+#[test]
+fn the_notes_of_a_list_with_a_gap_are_true() {
+    let defect = FieldDefect::by_id("element-count.count.swap").unwrap();
+    let cnc = Faulty::new(default_cnc(), Some(&defect.into()));
+    let lists = Some(Pattern::whole("HLD channel 1"));
+    let found = found(cnc, &Options { lists, ..Options::default() });
+    let notes = [
+        "HLD channel 1: the CNC rejects the requests for 8 of 10",
+        "HLD channel 1: only the first 10 of 33554432 were requested",
+    ];
+    assert!(found.notes.iter().eq(notes), "{:?}", found.notes);
+}
+
+/// With any defect of a field in replies, a walk over all items needs fewer than 4,000 requests.
 #[test]
 fn walks_with_wrong_replies_end() {
     let streams = [

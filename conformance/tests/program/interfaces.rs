@@ -77,8 +77,9 @@ fn a_too_long_response_is_rejected() {
     assert_eq!(program.step(), CallStep::Done { state: 1, response: CncStr::new("x").unwrap() });
 }
 
-/// The driver printed in the manual (`stream-en` 5) sends lines that do not fit into its buffer, and the
-/// last line, without a line end. The CNC detects this error when it reads.
+/// The driver that the manual of data streaming prints (`stream-en`, chapter 5) sends the last
+/// line, and each line that does not fit into its buffer, without a line end. The interface detects
+/// this error only when the CNC reads it.
 #[test]
 fn errors_of_the_printed_driver_are_detected_on_read() {
     let mut interface = StreamingInterface::new();
@@ -112,7 +113,7 @@ fn the_interface_holds_4094_bytes() {
     assert_eq!(interface.write(&line), Ack::Busy);
     assert_eq!(interface.write(&line[..room + 1]), Ack::Busy);
     assert_eq!(interface.write(&[b' '; STREAM_PACKET_MAX + 1]), Ack::Rejected);
-    assert_eq!(interface.len(), STREAM_MAX - room, "a refused write leaves nothing");
+    assert_eq!(interface.len(), STREAM_MAX - room, "a rejected write leaves nothing");
     assert_eq!(interface.write(&line[..room]), Ack::Accepted);
     assert_eq!((interface.write(b"X"), interface.write(b"")), (Ack::Busy, Ack::Rejected));
     interface.reset();

@@ -36,7 +36,7 @@ enum Phase {
     TimedOut,
 }
 
-/// A program's request, which each call compares with a model.
+/// A program's request, and a model of it. Each method calls both and compares them.
 pub(crate) struct CheckedCall {
     call: ServiceCall,
     values: [(ServiceVariable, Vec<u8>); 3],
@@ -103,8 +103,8 @@ impl CheckedCall {
         self.check();
     }
 
-    /// Lets the program read a value. The model gets `value` and `now`; the call gets `told`, which a test
-    /// of this comparison makes different.
+    /// Lets the program read a value. The model gets `value` and `now`; the request gets `told`,
+    /// which only a seeded defect makes different.
     pub(crate) fn read(&mut self, value: &[u8], now: Duration, told: (&[u8], Duration)) {
         let taken = self.call.read(told.0, told.1);
         let (phase, valid) = match (&self.phase, state(value)) {
@@ -135,7 +135,8 @@ impl CheckedCall {
     }
 }
 
-/// A Service Interface, which each call compares with a model of five byte strings.
+/// A Service Interface, and a model of it: five byte strings. Each method calls both and compares
+/// them.
 pub(crate) struct CheckedVariables {
     interface: ServiceInterface,
     clears: Clears,
@@ -156,8 +157,8 @@ impl CheckedVariables {
         &mut self.values[place.expect("it is one")]
     }
 
-    /// Writes a variable. The model gets `value`; the interface gets `told`, which a test of this
-    /// comparison makes different.
+    /// Writes a variable. The model gets `value`; the interface gets `told`, which only a seeded
+    /// defect makes different.
     pub(crate) fn write(&mut self, variable: ServiceVariable, value: &[u8], told: &[u8]) {
         let taken = self.interface.write(variable, told);
         let valid = if is_text(variable) { text(value).len() < 128 } else { value.len() == 4 };
@@ -191,7 +192,7 @@ impl CheckedVariables {
     }
 }
 
-/// A bug that is injected by replacing the calls of a streaming interface.
+/// A seeded defect: functions that are called instead of those of a streaming interface.
 #[derive(Clone, Copy)]
 pub(crate) struct InterfaceMutation {
     /// Called to write to the interface.
@@ -211,7 +212,8 @@ fn fault_of(error: LineError) -> TextFault {
     (error.line() as usize, error.column() as usize, error.kind())
 }
 
-/// A streaming interface, which each call compares with a vector of bytes.
+/// A streaming interface, and a model of it: a vector of bytes. Each method calls both and compares
+/// them.
 pub(crate) struct CheckedInterface {
     interface: StreamingInterface,
     buffered: Vec<u8>,

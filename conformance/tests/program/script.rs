@@ -40,7 +40,7 @@ fn script(wait: Wait, repeat: Repeat, pause: Duration) -> Script {
     Script::new(config(wait, repeat, pause)).unwrap()
 }
 
-/// Runs the built-in script and the manual's service for a minute.
+/// Runs the built-in script and the manual's service for a minute of simulated time.
 #[test]
 fn square_roots_are_requested_repeatedly() {
     let config = ScriptConfig::square_root().unwrap();
@@ -173,21 +173,21 @@ fn a_script_may_have_no_requests() {
 fn invalid_requests_are_rejected_with_their_index() {
     let good = request(Wait::Loop);
     let long = "x".repeat(128);
-    let refused = |request: ServiceRequest, kind: ErrorKind, text: &str| {
+    let rejected = |request: ServiceRequest, kind: ErrorKind, text: &str| {
         let requests = vec![good.clone(), request];
         let config = ScriptConfig { requests, ..config(PRINTED, Repeat::Endless, ZERO) };
         let error = Script::new(config).unwrap_err();
         assert_eq!((error.request, error.error.kind()), (1, kind));
         assert!(error.to_string().starts_with(text), "{error}");
     };
-    refused(
+    rejected(
         request(Wait::Cycle { p1: None, p2: Some(1), p3: None }),
         ErrorKind::Missing,
         "request 2 of the script: sys-service-wait: @P3",
     );
-    refused(ServiceRequest { state: 0, ..good.clone() }, ErrorKind::OutOfRange, "request 2");
+    rejected(ServiceRequest { state: 0, ..good.clone() }, ErrorKind::OutOfRange, "request 2");
     let text = CncString::from(CncStr::new(&long).unwrap());
-    refused(ServiceRequest { text, ..good.clone() }, ErrorKind::TooLong, "request 2");
+    rejected(ServiceRequest { text, ..good.clone() }, ErrorKind::TooLong, "request 2");
 }
 
 fn any_wait() -> impl Strategy<Value = Wait> {

@@ -10,8 +10,9 @@ use proptest::prelude::*;
 
 use crate::kept;
 
-/// Streams a text; `between` returns the time before each write, and whether the write is rejected
-/// before it reaches the interface.
+/// Streams a text, and returns the time of the last write. `between` gets the acknowledgement of
+/// the previous write; it returns the time before the next write, and whether this write is
+/// rejected as busy before it reaches the interface.
 fn stream(
     text: NcText<'_>,
     program: &mut StreamingProgram,
@@ -20,9 +21,9 @@ fn stream(
     let mut sender = Sender::new(text);
     let (mut now, mut last) = (Duration::ZERO, None);
     while let Some(packet) = sender.packet() {
-        let (wait, refused) = between(last);
+        let (wait, rejected) = between(last);
         now += wait;
-        let ack = if refused { Ack::Busy } else { program.write(packet, now) };
+        let ack = if rejected { Ack::Busy } else { program.write(packet, now) };
         assert_ne!(ack, Ack::Rejected);
         sender.acknowledge(ack).expect("a packet is out");
         last = Some(ack);
@@ -96,8 +97,8 @@ fn what_is_run_is_the_text(
     // The additional entry makes some writes succeed.
     let mut waits = waits.iter().chain([&(100, false)]).cycle();
     let now = stream(text, &mut program, |_| {
-        let &(wait, refused) = waits.next().unwrap();
-        (Duration::from_millis(wait + 1), refused)
+        let &(wait, rejected) = waits.next().unwrap();
+        (Duration::from_millis(wait + 1), rejected)
     });
     program.advance(now + Duration::from_secs(3600));
     prop_assert_eq!(program.state(), ProgramState::Dry);

@@ -32,11 +32,11 @@ pub(crate) enum Action {
     Restart(usize),
 }
 
-/// A request: the index of the service, and a number as text. There are only few texts, so that requests
-/// repeat.
+/// A request: the index of the service, and a number as text. The tests use only two numbers, so
+/// that requests repeat.
 pub(crate) type TestRequest = (usize, u8);
 
-/// A bug that is injected by replacing calls of the hosts and of the interface.
+/// A seeded defect: functions that are called instead of those of the hosts and of the interface.
 #[derive(Clone, Copy)]
 pub(crate) struct ServiceMutation {
     /// Called to report a failed step to a host.
@@ -217,7 +217,7 @@ impl<'s> World<'s> {
             }
             let same = before == (self.interface.clone(), self.served.clone());
             calm = if same { calm + 1 } else { 0 };
-            // A host that is not idle does not execute more reads than this without a write.
+            // A host that is not idle executes at most 12 reads without a write.
             if calm > 12 {
                 break;
             }
@@ -235,7 +235,7 @@ impl<'s> World<'s> {
         (self.strict, self.asked) = (true, self.served.clone());
     }
 
-    /// All participants execute steps in turn until the program has all responses.
+    /// Lets the program and the hosts execute steps in turn until the program has all responses.
     pub(crate) fn finish(&mut self, next: &mut impl Iterator<Item = TestRequest>) {
         let mut idle = 0;
         for _ in 0..2000 {

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::bench::root;
 
 /// Maximum number of imports in a chain of modules, so that a reader who follows imports from any module
-/// reaches the end after this number of modules.
+/// reaches the end after at most this number of imports.
 const IMPORTS_MAX: usize = 8;
 
 /// An import: a line of the module `from` imports another module.

@@ -46,8 +46,9 @@ pub(crate) fn words(call: &str) -> Vec<String> {
 }
 
 /// Whether the output matches the shown output line by line. A shown line with only … matches any number
-/// of lines, and a shown line that ends in … matches any longer line. Values that differ from run to run
-/// are ignored: ports that the system chooses, seeds, times, and numbers of polls.
+/// of lines, and a shown line that ends in … matches any line with the same beginning. Values that
+/// differ from run to run are ignored: ports that the system chooses, seeds, times, and the numbers
+/// of checks and frames.
 pub(crate) fn fits(shown: &str, output: &str) -> bool {
     let lines = |text: &str| text.lines().map(steady).collect::<Vec<_>>();
     all_fit(&lines(shown), &lines(output))

@@ -21,8 +21,8 @@ checks! {
     elements_have_the_attributes_of_their_contents,
 }
 
-/// Number of rounds with new values. Over this number of rounds, each BOOLEAN has another sequence of
-/// values.
+/// Number of rounds with new values. Over this number of rounds, each BOOLEAN has a different
+/// sequence of values.
 const ROUNDS: u32 = 6;
 /// Number of rounds in which contents other than BOOLEANs are read.
 const ROUNDS_OF_NUMBERS: u32 = 2;
@@ -31,8 +31,8 @@ fn is_bit(content: &StoredContent) -> bool {
     matches!(content.type_name, "BOOL" | "BOOLEAN")
 }
 
-/// The value of the content with this number, which is different in each round. All bytes of a numeric
-/// value differ, and REALs are finite.
+/// The value of the content with this number in a round. All bytes of a numeric value differ, and
+/// REALs are finite.
 fn value(content: &StoredContent, number: u32, round: u32) -> Vec<u8> {
     if is_bit(content) {
         return vec![u8::from(number >> round & 1 == 1)];

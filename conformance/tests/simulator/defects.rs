@@ -1,4 +1,5 @@
-//! The defects that no case of the suite detects, but the checks and the golden sequences do.
+//! Tests that the checks of the simulated CNC and the golden sequences detect the defects that no
+//! case of the suite detects.
 
 use std::collections::BTreeSet;
 use std::thread;
@@ -60,8 +61,8 @@ fn defects_that_no_case_detects_are_detected() {
     assert!(missed.is_empty(), "not found: {missed:?}");
 }
 
-/// Valid variants with which checks fail, because the variants have another model, or behave in another
-/// permitted way than the checks expect.
+/// Valid variants with which sequences, or checks other than `OF_THIS_CNC`, fail, because the
+/// variants have another model, or behave in another permitted way than the checks expect.
 const OTHERWISE: [&str; 15] = [
     "different.axes-move",
     "different.axis-handles",
@@ -80,8 +81,8 @@ const OTHERWISE: [&str; 15] = [
     "different.request-over-early",
 ];
 
-/// The check that compares replies with those of this simulated CNC; a valid variant may reply
-/// differently.
+/// The check that compares replies with those of the simulated CNC without a defect. A valid
+/// variant may reply differently.
 const OF_THIS_CNC: &str = "each_query_has_its_own_answer";
 
 #[test]

@@ -57,7 +57,8 @@ fn errors_have_their_numbers(target: &TestCnc) -> CheckResult {
     Ok(())
 }
 
-/// Queries of channel 6, which has the rank 3.
+/// Queries, most of them of channel 6, which has the rank 3; some of them of channel 2 or of no
+/// channel.
 #[rustfmt::skip]
 const QUERIES: [(AdsService, u32, u32, &[u8]); 18] = [
     (AdsService::Read, 0x13_0106, 0, b""),

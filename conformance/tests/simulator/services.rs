@@ -48,7 +48,7 @@ const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
 
-/// A value without the padding of a text.
+/// The value of a variable; for a text, up to and including its first NUL.
 fn value(target: &TestCnc, channel: u8, variable: ServiceVariable) -> CheckResult<Vec<u8>> {
     let mut value = read_variable(target, channel, variable)?;
     if !matches!(variable, ServiceVariable::RequestState | ServiceVariable::ResponseState) {
@@ -68,8 +68,8 @@ fn alone(target: &TestCnc, channel: u8, values: &[(ServiceVariable, &[u8])]) -> 
     Ok(())
 }
 
-/// Two requests one after the other: the response state of one ends its request, and a new request
-/// resets the response state.
+/// Two requests one after the other: the write of a response state ends the request, and a new
+/// request resets the response state.
 fn a_request_is_over_when_it_is_answered(target: &TestCnc) -> CheckResult {
     use ServiceVariable::{Request, RequestState, Response, ResponseState};
     alone(target, 1, &[])?;
@@ -110,7 +110,7 @@ fn each_variable_is_its_own(target: &TestCnc) -> CheckResult {
     Ok(())
 }
 
-/// NC programs in two channels have requests; a response in one channel does not change the variables
+/// Two channels have a request; writes to the variables of one channel do not change the variables
 /// of the other.
 fn an_answer_changes_no_other_channel(target: &TestCnc) -> CheckResult {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};

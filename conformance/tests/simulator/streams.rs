@@ -47,8 +47,8 @@ pub(crate) fn send(
     Ok(target.call(&call)?.map(drop))
 }
 
-/// Writes to a program stream and repeats the write while it is rejected, because the manuals do not
-/// state when a CNC rejects data although the interface has room.
+/// Writes to a program stream and repeats a rejected write up to seven times, because the manuals
+/// do not state when a CNC rejects data although the interface has room.
 pub(crate) fn send_until_taken(
     target: &TestCnc,
     channel: Channel,
@@ -149,7 +149,7 @@ fn each_channel_executes_its_own_stream(target: &TestCnc) -> CheckResult {
     Ok(())
 }
 
-/// Tests all printable ASCII characters and tabs. They are in comments, so that no word ends streaming.
+/// Tests tabs, and a comment with all printable ASCII characters except `()$#;%`.
 fn lines_are_executed_as_written(target: &TestCnc) -> CheckResult {
     let graphic: String =
         (b' '..=b'~').map(char::from).filter(|c| !"()$#;%".contains(*c)).collect();
@@ -171,7 +171,8 @@ fn lines_are_executed_as_written(target: &TestCnc) -> CheckResult {
     same("the state", stream.state()?, ProgramState::Dry)
 }
 
-/// Tests packets whose lengths are around multiples of 256.
+/// Tests packets of 3 bytes, around 128 bytes and multiples of 256 bytes, and of the maximum
+/// length.
 fn packets_of_any_length_are_executed(target: &TestCnc) -> CheckResult {
     let stream = first(target, Pace::Fast, Start::Once)?;
     let mut all = Vec::new();
@@ -398,7 +399,7 @@ fn comments_hide_words(target: &TestCnc) -> CheckResult {
         ] {
             ends_streaming(&text, false)?;
         }
-        // The word is after a comment or in the line after it, so it is not in the comment.
+        // In these texts, the word is not in a comment.
         for text in [
             format!("(x) {word}\r\n"),
             format!("(x\r\n{word}\r\n"),

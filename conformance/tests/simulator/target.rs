@@ -27,7 +27,7 @@ impl<E: Error> From<E> for Failed {
 
 pub(crate) type CheckResult<T = ()> = Result<T, Failed>;
 
-/// Fails unless both are the same.
+/// Fails unless the found value is equal to the expected value.
 pub(crate) fn same<T: PartialEq + fmt::Debug>(
     what: impl fmt::Display,
     found: T,

@@ -124,7 +124,7 @@ fn parameter(kind: DynamicKind, place: u32) -> (String, f64) {
     (name, value)
 }
 
-/// An NC program creates and deletes parameters in the last channel.
+/// Sets and deletes parameters in the last channel, as an NC program does.
 fn parameters_come_and_go(target: &TestCnc) -> CheckResult {
     let number = *target.channels().last().expect("a channel");
     let channel = Channel::new(number.into())?;

@@ -44,9 +44,9 @@ pub(super) fn captured() -> Vec<Seed> {
 /// entries of a file, and writes after replies.
 pub(super) fn sent() -> Vec<Seed> {
     let mut seeds = Vec::new();
-    // Entries of a file: a variable of channel 1, a variable of axis 1 of channel 2, the program
+    // Entries of a file: a variable of channel 1, a variable of axis 1 of channel 1, the program
     // stream of channel 1, and the element at 0x123301, 1.
-    let entries = b"\x04\x00\x01\x00\x01\x01\x02\x02\x06\x01\x02\x01\x33\x12\0\x01\0\0\0";
+    let entries = b"\x04\x00\x01\x00\x01\x01\x01\x04\x06\x01\x02\x01\x33\x12\0\x01\0\0\0";
     for sample in CALLS.iter().filter(|sample| sample.call.data.len() < 200) {
         let mut bytes = [&[2][..], entries].concat();
         bytes.extend(gate::write_call(3, &sample.call, &[]));
@@ -90,6 +90,14 @@ pub(super) fn sent() -> Vec<Seed> {
         [&begin[..], &[&[7], &writes[1..]].concat()].concat(),
     ));
     seeds.push(("by-name-later".to_owned(), [&[6][..], entries, &writes].concat()));
+    let on_axis =
+        Call { index_offset: IndexOffset::new(0x1_0006), data: b"V.A.\xC4\x7F\"\\\0\x01", ..write };
+    let on_axis = gate::write_call(3, &on_axis, &[]);
+    seeds.push(("by-name-on-an-axis".to_owned(), [&begin[..], &on_axis].concat()));
+    let response = Call { data: b"V.G.SERVICE.RESPONSE\0x\0", ..by_name };
+    let response = gate::write_call(3, &response, &[]);
+    // An entry for the service of channel 1.
+    seeds.push(("service".to_owned(), [&[2, 1, 7, 1][..], &response].concat()));
     // Calls that differ from a permitted call only in the case of a letter or in the channel.
     let small = Call { data: b"V.E.a\0\x01", ..by_name };
     let channel_2 = IndexGroup::new(0x12_2302);

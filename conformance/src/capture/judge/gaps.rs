@@ -1,4 +1,5 @@
-//! Handles gaps in a capture, and the requirements that are inconclusive because of them.
+//! Handles gaps in a capture, and makes the requirements inconclusive that cannot be judged because
+//! of a gap.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::AMS_HEADER_LEN;
@@ -38,7 +39,8 @@ impl TrafficJudge {
         self.lost.entry(direction.connection).or_default().gap = Some(span.last.packet);
     }
 
-    /// The side that sent the bytes, according to the ports.
+    /// The side that sent the bytes, according to a waiting request of the connection, otherwise
+    /// according to the ports.
     fn side(&self, direction: &SegmentDirection) -> Topic {
         let asks =
             self.waiting.range((direction.connection, 0)..=(direction.connection, u32::MAX)).next();
@@ -147,8 +149,8 @@ impl TrafficJudge {
                 self.unanswered(&request_frame, &lost, ending);
             }
         }
-        // If the beginning of the connection was not captured, these replies may belong to requests
-        // sent before the capture began.
+        // If the capture does not contain the beginning of the connection, these replies may belong
+        // to requests that were sent before the capture began.
         let unasked = lost.unasked.iter().filter(|_| !lost.joined && !lost.is_running);
         for reply in unasked {
             self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());

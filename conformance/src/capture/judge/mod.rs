@@ -20,7 +20,7 @@ use crate::exchange::{Exchange, ExchangeError, violations};
 use crate::judge::{CaseOutcome, Checks as _};
 use crate::rules::{RuleBook, Topic, service_clause};
 
-/// A reply after more than this time counts as missing.
+/// Time after a request after which a reply that was not captured counts as missing.
 const REPLY_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// A captured frame and its location.
@@ -37,14 +37,14 @@ struct CapturedFrame {
 /// The missing parts of a connection.
 #[derive(Debug, Default)]
 struct ConnectionLoss {
-    /// Whether the beginning of the connection was not captured.
+    /// Whether the beginning of the connection was not captured, or a waiting request was dropped.
     joined: bool,
     /// Whether requests may have been sent before the capture began, although all later frames were
     /// captured.
     is_running: bool,
-    /// The last packet after a gap.
+    /// The number of the last packet that follows a gap.
     gap: Option<u64>,
-    /// The first replies for which no request was captured.
+    /// The first few replies for which no request was captured.
     unasked: Vec<CapturedFrame>,
 }
 
@@ -69,17 +69,17 @@ pub(super) struct TrafficJudge {
     waiting_ids: BTreeSet<(u32, u64)>,
     /// For each connection, the numbers and invoke IDs of its waiting requests.
     waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
-    /// Memory of all waiting requests.
+    /// Memory of all waiting requests in bytes.
     waiting_bytes: usize,
     early: EarlyReplies,
     lost: BTreeMap<u64, ConnectionLoss>,
-    /// The last packet after a gap in any connection.
+    /// The number of the last packet that follows a gap in any connection.
     gap: Option<u64>,
     /// Whether a request and its reply were captured on different connections.
     is_crossed: bool,
     vectors: Option<Collector>,
     now: Option<Time>,
-    /// The last packet that completed a frame.
+    /// The highest number of a packet that completed a frame.
     newest: u64,
 }
 
@@ -115,7 +115,7 @@ impl TrafficJudge {
         self.rules.records.failed()
     }
 
-    /// The outcomes of all cases.
+    /// The outcomes of all cases, the tally, and the collected vectors.
     pub(super) fn finish(mut self) -> (Vec<CaseOutcome>, CaptureTally, Option<Collector>) {
         self.tally.unkept = self.rules.missed();
         for line in self.tally.lines().into_iter().skip(1) {
@@ -124,7 +124,7 @@ impl TrafficJudge {
         (self.rules.records.finish(), self.tally, self.vectors)
     }
 
-    /// Sets the time of the current packet.
+    /// Sets the time to that of the current packet, unless an earlier packet has a later time.
     pub(super) fn at(&mut self, time: Option<Time>) {
         self.now = time.max(self.now);
     }
@@ -226,8 +226,7 @@ impl TrafficJudge {
         self.is_crossed |= request_frame.direction.connection != reply.direction.connection;
         let Ok(Some((sent, _))) = FrameRef::split(&request_frame.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
-        // A request that does not belong to one of the services is not judged, and neither is its
-        // reply.
+        // Only requests of the services Read, Write and ReadWrite are judged with their replies.
         let Ok(Some(call)) = Call::from_frame(&sent) else { return };
         let exchange = Exchange {
             sent: request_frame.frame.clone(),
@@ -244,7 +243,7 @@ impl TrafficJudge {
         self.rules.reply(&observation, net_id, &call, &exchange, &violations);
         let Some(reply) = exchange.reply() else { return };
         if reply.success().is_none() {
-            count(&mut self.tally.refused);
+            count(&mut self.tally.rejected);
         }
         if !reply.ams_error.is_ok() {
             return;

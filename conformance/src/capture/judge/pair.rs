@@ -16,15 +16,16 @@ use crate::rules::{Topic, service_clause};
 const WAITING_MAX: usize = 4096;
 const WAITING_BYTES_MAX: usize = 0x100_0000;
 
-/// Maximum number and memory of the replies of all connections that wait for their requests.
+/// Maximum number, and maximum memory in bytes, of the replies of all connections that wait for
+/// their requests.
 const EARLY_MAX: usize = 4096;
 const EARLY_BYTES_MAX: usize = 0x100_0000;
 
 /// Maximum number of packets by which a reply may be captured before its request.
 pub(super) const REORDERED_MAX: u64 = 256;
 
-/// Maximum number of requests or replies with the same invoke ID that are compared. In a capture
-/// whose packets are out of order, fewer of them are affected.
+/// Maximum number of requests or replies with the same invoke ID that are compared. If packets were
+/// captured out of order, fewer requests and replies have to be compared.
 const ALIKE_MAX: usize = 512;
 
 /// Maximum number of replies without a request that are shown for a connection, and maximum number
@@ -48,7 +49,8 @@ impl EarlyReplies {
         Some(reply)
     }
 
-    /// The number of the first matching reply with this invoke ID.
+    /// The number of the first matching reply among the first `ALIKE_MAX` replies with this invoke
+    /// ID.
     fn find(&self, id: u32, matches: impl Fn(&CapturedFrame) -> bool) -> Option<u64> {
         let alike = self.ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
         let alike = alike.filter_map(|(_, number)| self.all.get(number));
@@ -65,11 +67,11 @@ impl EarlyReplies {
     }
 }
 
-/// Memory of a waiting request in addition to its bytes.
+/// Memory in bytes that a waiting request needs in addition to its frame.
 const WAITING_OVERHEAD: usize = 1280;
 
 impl CapturedFrame {
-    /// The memory of the frame while it waits.
+    /// The memory of the frame in bytes while it waits.
     fn memory(&self) -> usize {
         self.frame.len().saturating_add(WAITING_OVERHEAD)
     }
@@ -124,7 +126,8 @@ impl TrafficJudge {
         self.waiting.entry((connection, id)).or_default().push_back(captured);
     }
 
-    /// The invoke ID of the oldest waiting request of a connection; `None` if no limit is exceeded.
+    /// The invoke ID of the oldest waiting request of a connection, if a limit of waiting requests
+    /// is exceeded.
     fn oldest_beyond(&self, connection: u64) -> Option<u32> {
         let numbers = self.waiting_of.get(&connection)?;
         let is_full = numbers.len() > WAITING_MAX || self.waiting_bytes > WAITING_BYTES_MAX;
@@ -212,7 +215,8 @@ impl TrafficJudge {
         self.forget(key, index)
     }
 
-    /// Judges replies whose requests can no longer follow in the capture.
+    /// Judges replies whose requests can no longer follow in the capture, and the oldest replies if
+    /// too many replies wait for their requests.
     pub(super) fn judge_expired(&mut self, table: &ConnectionTable) {
         while let Some((&number, first)) = self.early.all.first_key_value() {
             let back = SegmentDirection {
@@ -230,7 +234,7 @@ impl TrafficJudge {
         }
     }
 
-    /// Judges the remaining replies of a connection.
+    /// Judges the replies of a connection that still wait for their requests.
     pub(super) fn judge_all_unmatched(&mut self, connection: u64) {
         while let Some(number) = self.early.first_of(connection) {
             let Some(reply) = self.early.remove(number) else { return };

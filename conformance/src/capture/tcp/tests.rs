@@ -45,7 +45,7 @@ fn segments_are_reassembled_in_any_order() {
             let parts = order.map(|offset: usize| parts[offset]);
             assert_eq!(joined(&mut begun(), &parts, false), "abcdefghi", "{start} {order:?}");
         }
-        // Retransmitted, split differently and overlapping.
+        // Segments are retransmitted, split differently, and overlap.
         let parts: [(u32, &[u8]); 7] = [
             (at(0), b"abc"),
             (at(0), b"abc"),
@@ -68,7 +68,7 @@ fn missing_bytes_are_a_gap() {
     assert_eq!(half.memory_size(), 0);
 }
 
-/// The other side has acknowledged the bytes: they were sent, but not captured.
+/// The other side has acknowledged the missing bytes: they were sent, but not captured.
 #[test]
 fn acknowledged_bytes_are_not_awaited() {
     let mut half = DirectionState::default();

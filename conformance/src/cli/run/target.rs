@@ -35,8 +35,8 @@ impl Run {
         let deadline = self.deadline.begin();
         let session = target.with_malformed(self.malformed).open()?;
         let mut session = session.with_deadline(deadline);
-        // A device must reply once before the cases run; afterwards each case judges a missing
-        // reply.
+        // The run ends if the device does not reply to a first query. Afterwards, each case judges
+        // a missing reply.
         match session.check_reachable(&profile) {
             Ok(()) => {}
             Err(ToolError::NotSent) => {
@@ -50,7 +50,7 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        // Without a profile, the device claims nothing.
+        // Without --profile, the report says that no profile was used.
         let name = self.profile.is_none().then_some("none (judged by what was found)".into());
         let profile = Profile { name: name.unwrap_or(profile.name), ..profile };
         let session = TargetState::new(client, profile);
@@ -76,7 +76,7 @@ impl Run {
         self.judge(plan, session, None, about)
     }
 
-    /// A profile filled in with the answers of the device.
+    /// The text of a profile that is filled in with the answers of the device.
     pub(super) fn profile_of_device(&self) -> Result<String, ToolError> {
         let deadline = self.deadline.begin();
         let mut session = self.target.open()?.with_deadline(deadline);
@@ -187,8 +187,8 @@ impl Run {
     }
 }
 
-/// Prints what the discovery found, and the expected number of requests of all cases. `about` is
-/// the text before this number: "about", or "at most about" if only some of the cases are run.
+/// Prints what the discovery found, and the expected number and duration of the queries of all
+/// cases. `about` is the text before the number: "about", or "at most about" with --only.
 fn print_forecast(discovery: &Discovery, about: &str) {
     let found = &discovery.found;
     print_error(format_args!("found {}", found.summary()));
@@ -210,13 +210,13 @@ fn print_forecast(discovery: &Discovery, about: &str) {
     print_error(format_args!("the queries of the cases: {about} {requests}{time}"));
 }
 
-/// Whether the case writes and has been executed.
+/// Whether the case writes and at least one of its verdicts is judged.
 fn has_written(outcome: &CaseOutcome) -> bool {
     let judged = |one: &RequirementVerdict| one.verdict.is_judged();
     outcome.case.needs == Needs::Writes && outcome.verdicts.iter().any(judged)
 }
 
-/// The device information; `None` if the target does not return it.
+/// The device information and the ADS state; `None` if the target returns no device information.
 fn of_itself(session: &mut session::Session) -> Option<DeviceReport> {
     let info = session.device_info(Task::Com).ok()?;
     let state = session.device_state(Task::Com).ok();

@@ -23,8 +23,8 @@ const GRACE: Duration = Duration::from_millis(500);
 /// Interval at which the command is polled.
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
-/// Maximum number of processes that may keep the stdout of an ended command open. Each such process
-/// occupies a thread of this tool. Only a process that started its own session can outlive the
+/// Maximum number of ended commands whose stdout a process still keeps open. Each such stdout
+/// occupies a thread of this tool. Only a process with its own process group can outlive the
 /// command.
 const HOLDERS_MAX: usize = 8;
 
@@ -40,7 +40,7 @@ pub(super) struct ServiceCommand<'s> {
 }
 
 impl ServiceCommand<'_> {
-    /// Runs the command for a request, up to the time limit.
+    /// Runs the command for a request, until it ends, the time limit is over or a signal arrives.
     pub(super) fn run(&self, uuid: ServiceId, request: CncStr<'_>, state: u32) -> ServiceResponse {
         let started = Instant::now();
         match self.start(uuid, state) {
@@ -48,19 +48,20 @@ impl ServiceCommand<'_> {
             Ok(child) => {
                 let stdout = CapturedOutput::start(&child, &self.readers);
                 if let Some(mut stdin) = child.take_stdin() {
-                    // This does not block: the request fits into the buffer of the pipe, also if the
-                    // command does not read stdin.
+                    // This does not block: the request fits into the buffer of the pipe, also if
+                    // the command does not read stdin.
                     let _unread = writeln!(stdin, "{}", utf8(request));
                 }
                 let ended = self.wait(&child, started);
                 let closed = !matches!(ended, CommandEnd::Exited(_)) || stdout.closes();
-                // This ends the child and all processes that it started.
+                // This ends the command and the processes that it started, except those with their
+                // own process group.
                 drop(child);
                 stdout.closes();
                 let mut answer = answer(&ended, &stdout.bytes());
                 if !closed {
                     let warning = "a process started by the command kept its stdout open; it was \
-                                   ended unless it has its own session";
+                                   ended unless it has its own process group";
                     answer.warnings.push(warning.to_owned());
                 }
                 answer
@@ -106,7 +107,7 @@ impl ServiceCommand<'_> {
     }
 }
 
-/// The beginning of a command's output.
+/// The first [`STDOUT_MAX`] bytes of a command's output.
 struct CapturedOutput {
     kept: Arc<Mutex<Vec<u8>>>,
     closed: mpsc::Receiver<()>,
@@ -132,7 +133,8 @@ impl CapturedOutput {
         Self { kept, closed }
     }
 
-    /// Waits until stdout is closed and all output is stored, for at most [`GRACE`].
+    /// Waits until stdout is closed and all output is stored, for at most [`GRACE`]. Returns
+    /// whether stdout is closed.
     fn closes(&self) -> bool {
         self.closed.recv_timeout(GRACE) != Err(RecvTimeoutError::Timeout)
     }
@@ -153,7 +155,7 @@ fn read(mut from: impl Read, keep: &Mutex<Vec<u8>>) {
     }
 }
 
-/// Converts a CP1252 text to UTF-8, the encoding of stdin.
+/// Converts a CP1252 text to UTF-8, in which the command receives the request.
 pub(super) fn utf8(text: CncStr<'_>) -> String {
     text.chars().collect()
 }

@@ -1,4 +1,5 @@
-//! `ads-cnc service`: serves the Service Interface by running a command for each request.
+//! `ads-cnc service`: answers requests at the Service Interface by running a command for each
+//! request.
 
 #![cfg_attr(
     not(test),
@@ -31,13 +32,13 @@ use crate::text::some_time;
 use command::ServiceCommand;
 use response::ServiceResponse;
 
-/// Maximum number of consecutive failed writes.
+/// After this many consecutive writes that the CNC rejects, the service ends with an error.
 const FAILED_WRITES_MAX: u32 = 5;
 
 /// Answer requests of NC programs by running a command (Service Interface)
 ///
 /// The command receives the request on stdin. Its stdout becomes the response, and its exit code
-/// the response state.
+/// determines the response state.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}\n\n{WHAT_MAY_BE_WRITTEN}"))]
 pub(super) struct ServiceArgs {
@@ -102,7 +103,8 @@ The response state
             their stdout
   With the states 1002 to 1004, an empty response is replaced by the reason.
 
-Processes that a command has started end with it, unless they have their own session.
+Processes that a command has started end with it, unless they have their own process group,
+as after setsid.
 
 An answer whose request no longer exists is dropped. SIGINT (Ctrl-C), SIGTERM and SIGHUP end the
 service; it ends a running command and answers its request. A second signal ends the service at
@@ -120,7 +122,7 @@ fn uuid(text: &str) -> Result<ServiceId, String> {
 }
 
 impl ServiceArgs {
-    /// Serves, and returns the exit code.
+    /// Answers requests, or in a dry run shows the ADS requests, and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let done = if self.target.is_dry() { self.show() } else { self.serve() };
         self.target.end(done.map(|()| Exit::Success), |_| None)
@@ -154,22 +156,22 @@ impl ServiceArgs {
                 other => other?,
             }
         }
-        let mut refused = None;
+        let mut rejected = None;
         for (variable, value) in
             [(Response, &b"\0"[..]), (RequestState, &[0; 4]), (ResponseState, &[1, 0, 0, 0])]
         {
             match session.call(&write(channel, variable, value)?).map(drop) {
-                Err(error @ ToolError::NotPermitted(_)) => refused = Some(error),
+                Err(error @ ToolError::NotPermitted(_)) => rejected = Some(error),
                 other => other?,
             }
         }
-        refused.map_or(Ok(()), Err)
+        rejected.map_or(Ok(()), Err)
     }
 
     fn serve(&self) -> Result<(), ToolError> {
         let channel = self.channel.channel;
-        // Check this before the first poll: an NC program would wait forever for an answer whose
-        // write is not allowed.
+        // Check the writes before the first poll: an NC program would wait forever for an answer
+        // that the gate does not allow.
         let check = |session: &Session| {
             use ServiceVariable::{RequestState, Response, ResponseState};
             let mut writes = [Response, RequestState, ResponseState].into_iter();
@@ -204,7 +206,8 @@ impl ServiceArgs {
         ));
         while answers.is_none_or(|answers| serving.answered < answers) {
             let is_idle = serving.step(&mut session)?;
-            // Exit only between two answers, so that an answer that was begun is completed.
+            // Exit only before a wait, so that the writes of an answer are completed unless the CNC
+            // rejects one of them.
             if is_idle && (serving.is_enough(answers) || interrupt.sleep(self.poll)) {
                 break;
             }
@@ -219,11 +222,11 @@ struct Serving<'s> {
     host: Host<'s>,
     command: ServiceCommand<'s>,
     channel: Channel,
-    /// The request being answered, as text; `None` once its outcome is known.
+    /// The request being answered and the response, as text; `None` once the outcome is printed.
     served: Option<String>,
     answered: u64,
     failed_writes: u32,
-    /// The last warning.
+    /// The last warning that `warn_once` printed.
     last_warning: String,
 }
 
@@ -289,7 +292,7 @@ impl Serving<'_> {
         }
     }
 
-    /// Prints the outcome of the last answer.
+    /// Prints the outcome of the last answer, unless it was printed before, and counts the answer.
     fn print_outcome(&mut self) -> Result<(), ToolError> {
         let Some(served) = self.served.take() else { return Ok(()) };
         match self.host.outcome() {

@@ -9,7 +9,7 @@ use ads_cnc::{CncStr, CncString};
 
 use crate::text::plural;
 
-/// Maximum number of stored bytes of stdout: more than a response needs, also in UTF-8.
+/// Maximum number of stored bytes of stdout, which is more than a response needs in UTF-8.
 pub(super) const STDOUT_MAX: usize = 1024;
 
 const SUCCESS: u32 = 1;
@@ -36,7 +36,7 @@ pub(super) enum CommandEnd {
     TimeOver(Duration),
     /// This process received a signal.
     Interrupted,
-    /// The command could not be started.
+    /// The command could not be started, or its state could not be queried.
     NotStarted(String),
 }
 
@@ -57,7 +57,7 @@ impl CommandEnd {
         }
     }
 
-    /// The reason, if the command did not exit by itself.
+    /// The text that replaces an empty response; `None` if the command exited by itself.
     fn reason(&self) -> Option<String> {
         match self {
             Self::Exited(status) if status.code().is_some() => None,
@@ -85,7 +85,7 @@ pub(super) fn answer(ended: &CommandEnd, stdout: &[u8]) -> ServiceResponse {
     if let Some(reason) = ended.reason().filter(|_| response.is_empty()) {
         response = reason.into_bytes();
     }
-    // The CNC appends the NUL.
+    // The written value also needs a byte for the NUL, which `Host` appends.
     let most = SERVICE_TEXT_MAX.saturating_sub(1);
     if response.len() > most {
         warnings.push(format!("the response is truncated to {}", plural(most, "byte")));
@@ -95,7 +95,8 @@ pub(super) fn answer(ended: &CommandEnd, stdout: &[u8]) -> ServiceResponse {
     ServiceResponse { response, state: ended.state(), warnings }
 }
 
-/// Converts the output of a command to CP1252 and removes the last line end.
+/// Converts the output of a command to CP1252, and removes its last line end and the bytes from the
+/// first NUL on. Output that is not UTF-8 is taken as CP1252.
 fn cp1252(stdout: &[u8], warnings: &mut Vec<String>) -> Vec<u8> {
     let mut bytes = match std::str::from_utf8(stdout) {
         Ok(text) => to_cp1252(text, warnings),
@@ -138,7 +139,7 @@ mod tests {
     use super::*;
 
     fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
-        // With `Interrupted`, `answer` adds nothing to stdout.
+        // With `Interrupted`, `answer` changes only an empty response.
         let ServiceResponse { response, warnings, .. } = answer(&CommandEnd::Interrupted, stdout);
         (response.as_bytes().to_vec(), warnings)
     }
@@ -155,7 +156,7 @@ mod tests {
         let (response, warnings) = of(b"a\0b");
         assert_eq!((&response[..], warnings.len()), (&b"a"[..], 1));
 
-        // The limit counts characters, because each is one byte in CP1252.
+        // The limit is 127 characters, because each character is one byte in CP1252.
         assert_eq!(of("ä".repeat(127).as_bytes()), (vec![0xE4; 127], vec![]));
         let (response, warnings) = of("ä".repeat(128).as_bytes());
         assert_eq!((response, warnings.len()), (vec![0xE4; 127], 1));

@@ -5,17 +5,18 @@ use std::io::{self, Write};
 use crate::text::plural;
 use ads_cnc::streaming::{LineError, NcText};
 
-/// Maximum number of messages shown, in case the file is not a text.
+/// Maximum number of messages that are printed; a file that is not a text would give many.
 const SHOWN_MAX: usize = 100;
 
-/// A text that can be sent.
+/// A text whose lines can all be sent.
 pub(super) struct CheckedText<'a> {
     pub(super) text: NcText<'a>,
-    /// Number of lines that would make the CNC end streaming.
+    /// Number of diagnostics about constructs that would end streaming.
     pub(super) ends: usize,
 }
 
-/// Checks a text and prints one line for each finding; returns `None` if a line cannot be sent.
+/// Checks a text and prints a line for each of the first [`SHOWN_MAX`] diagnostics. Returns `None`
+/// if a line cannot be sent.
 pub(super) fn check<'a>(
     bytes: &'a [u8],
     name: &str,
@@ -35,7 +36,7 @@ pub(super) fn check<'a>(
         let (line, column) = (finding.line, finding.column);
         let level = if finding.kind.ends_streaming() { "error" } else { "warning" };
         ends = ends.saturating_add(usize::from(finding.kind.ends_streaming()));
-        // Print the position in the format of compilers instead of the format of the finding.
+        // Print the position in the format of compilers instead of the format of the diagnostic.
         let whole = finding.to_string();
         let place = format!("line {line}, column {column}: ");
         let what = whole.strip_prefix(&place).unwrap_or(&whole);
@@ -92,7 +93,7 @@ mod tests {
         (String::from_utf8(out).unwrap(), ends)
     }
 
-    /// The line numbers are the same as in the errors of the codec.
+    /// The number of the first line is the same as in the error of the codec.
     #[test]
     fn every_line_that_cannot_be_sent_is_reported() {
         let long = [&b"\r"[..], &[b'X'; 991]].concat();

@@ -134,16 +134,16 @@ impl StreamArgs {
     fn show(&self, text: NcText<'_>) -> Result<Exit, ToolError> {
         let mut session = self.open()?;
         let mut sender = Sender::new(text);
-        let mut refused = None;
+        let mut rejected = None;
         while let Some(packet) = sender.packet() {
             let shown = session.call(&WriteProgramStream::new(self.channel.channel, packet));
             match shown.map(drop) {
-                Err(error @ ToolError::NotPermitted(_)) => refused = Some(error),
+                Err(error @ ToolError::NotPermitted(_)) => rejected = Some(error),
                 other => other?,
             }
             send::acknowledge(&mut sender, ads_cnc::streaming::Ack::Accepted)?;
         }
-        refused.map_or(Ok(Exit::Success), Err)
+        rejected.map_or(Ok(Exit::Success), Err)
     }
 
     fn send(&self, name: &str, text: NcText<'_>, lines: NonZeroUsize) -> Result<Exit, ToolError> {

@@ -1,4 +1,4 @@
-//! Progress on stderr.
+//! Shows the progress of streaming on stderr.
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -8,10 +8,11 @@ use ads_cnc::streaming::{self, NcText};
 use super::super::progress::{self, UPDATE_INTERVAL};
 use crate::text::plural;
 
-/// Time between two lines if stderr is not a terminal.
+/// Minimum time between two lines if stderr is not a terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
-/// Shows progress: one line that changes on a terminal, one every few seconds elsewhere.
+/// Shows the progress: on a terminal, a line that is overwritten; otherwise, a new line at most
+/// every [`LINE_INTERVAL`].
 pub(super) struct StreamProgress {
     lines: usize,
     bytes: usize,
@@ -37,7 +38,8 @@ impl StreamProgress {
         self.started.elapsed()
     }
 
-    /// If an update is due, shows how much was accepted and why the command waits.
+    /// If an update is due, shows how much the CNC has accepted and, if `waits` is set, why the
+    /// command waits.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
         let due = if !self.line.live {
             LINE_INTERVAL
@@ -76,7 +78,7 @@ impl fmt::Display for ByteCount {
     }
 }
 
-/// Bytes per time.
+/// Formats a number of bytes and the time in which they were accepted as bytes per second.
 pub(super) struct Rate(pub(super) usize, pub(super) Duration);
 
 impl fmt::Display for Rate {

@@ -1,4 +1,4 @@
-//! Sends packets and receives acknowledgements.
+//! Sends packets until the CNC has accepted all of them.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -13,7 +13,8 @@ use crate::process::interrupt::Interrupt;
 use crate::session::{Session, ToolError};
 use crate::text::plural;
 
-/// How often and when a packet is sent again that the CNC rejected as busy.
+/// How often a packet that the CNC rejected as busy is sent again, and the time before it is sent
+/// again.
 pub(super) struct Retry {
     pub(super) after: Duration,
     pub(super) times: u32,
@@ -25,11 +26,11 @@ pub(super) enum SendEnd {
     Done,
     /// A signal interrupted sending.
     Interrupted,
-    /// A packet was rejected as busy too often.
+    /// A packet was rejected as busy more often than `Retry::times`.
     GivenUp(AdsError),
     /// A packet was rejected with another error, or not sent.
     Stopped(ToolError),
-    /// A packet was sent, but without a reply it is unknown whether the CNC accepted it.
+    /// A packet was sent, but without a valid reply it is unknown whether the CNC accepted it.
     Unknown(ToolError),
 }
 
@@ -38,7 +39,7 @@ pub(super) struct Sending<'a> {
     pub(super) sender: Sender<'a>,
     pub(super) channel: Channel,
     pub(super) retry: Retry,
-    /// Number of times that a packet was rejected as busy.
+    /// Total number of times that the CNC rejected a packet as busy.
     pub(super) busy_rejections: u64,
     /// Number of lines in the last packet sent.
     pub(super) out: usize,
@@ -60,7 +61,8 @@ impl Sending<'_> {
             self.out = packet.iter().filter(|&&byte| byte == b'\n').count();
             let write = WriteProgramStream::new(self.channel, packet);
             let error = session.call(&write).err();
-            // Repeat a packet only after an ADS error of the CNC.
+            // An error without an ADS error number does not mean busy, so the packet is not
+            // repeated.
             let ack = match &error {
                 None => Ack::Accepted,
                 Some(error) => error.ads_error().map_or(Ack::Rejected, Ack::from_result),
@@ -82,7 +84,7 @@ impl Sending<'_> {
                         return SendEnd::Interrupted;
                     }
                 }
-                // The packet may have arrived.
+                // The CNC may have received and accepted the packet.
                 Some(
                     error @ (ToolError::NoReply(_) | ToolError::Reply(_) | ToolError::Frame(_)),
                 ) => {
@@ -116,11 +118,11 @@ impl Sending<'_> {
                 )
             }
         };
-        let refused = match self.busy_rejections {
+        let rejected = match self.busy_rejections {
             0 => String::new(),
             times => format!(", after {}", plural(times, "temporary rejection")),
         };
-        summary.push_str(&refused);
+        summary.push_str(&rejected);
         let mut next = sent.lines.saturating_add(1);
         if let SendEnd::Unknown(_) = end {
             let after = next.saturating_add(self.out);

@@ -286,8 +286,9 @@ fn content(object: &Descriptor) -> Type {
     Type::of_content(object.type_name(), object.size())
 }
 
-/// Executes an action on an element. The client calculates the address of the element for channels, axis
-/// places and spindles; for other instances it requests the address from the CNC.
+/// Executes an action on an element. The client requests the address of position controllers, of
+/// axes of the HLD and of instances of the platform from the CNC, and calculates all other
+/// addresses.
 fn element(
     wire: &mut Connection,
     action: &Action,

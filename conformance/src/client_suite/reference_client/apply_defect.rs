@@ -209,7 +209,8 @@ pub(super) fn apply_to_frame(fault: ClientFault, bytes: &mut Vec<u8>) {
     }
 }
 
-/// Makes the client skip a check of a reply, by correcting the field of the reply that the check reads.
+/// Makes the client skip a check of a reply, by correcting the field of the reply that the check
+/// reads; or makes the client crash on a length that is too large.
 pub(super) fn skip_check(fault: ClientFault, received: &mut [u8]) -> Result<(), ActionError> {
     let word = |received: &[u8], at: usize| {
         let bytes = received.get(at..at.checked_add(4)?)?;

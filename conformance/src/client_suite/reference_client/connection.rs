@@ -17,7 +17,7 @@ use crate::number::to_usize;
 use crate::simulator::DATA_MAX;
 use crate::text::plural;
 
-/// How long to wait for a reply.
+/// How long to wait for a connection, and for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);
 
 pub(super) struct Connection {

@@ -105,7 +105,7 @@ client_faults! {
     WriteNoCount "client.write-no-count" VAR_12 "omits the number of indices in writes if it is 0";
     NoSeparator "client.no-separator" VAR_13 "sends no NUL between name and value";
     ValueSwapped "client.value-swapped" GEN_1 "writes contents in big-endian";
-    // Defects in the checks of replies: the client accepts invalid replies.
+    // Defects in the handling of replies, and in the answers to the suite.
     AnyInvokeId "client.any-invoke-id" ADS_5 "accepts replies with any invoke ID";
     AnyCommand "client.any-command" ADS_5 "accepts replies with any command";
     AnyFlags "client.any-flags" ADS_5 "accepts requests as replies";

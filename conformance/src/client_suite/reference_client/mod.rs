@@ -54,8 +54,8 @@ impl ClientUnderTest for ReferenceClient {
     }
 }
 
-/// Executes an action. A crash or a hang of the client is only a value that is returned, so that this
-/// process continues.
+/// Executes an action. If a defect makes the client crash or hang, only the returned value says so,
+/// and this process continues.
 pub fn answer(
     fault: Option<ClientFault>,
     cnc_address: &CncAddress,

@@ -9,8 +9,8 @@ use crate::client_suite::Scenario;
 use crate::client_suite::scenario::{ExpectedAnswer, ExpectedRequest, ReadLength, read, write};
 use crate::client_suite::script::ScenarioScript;
 
-/// Number of objects of channel 1 in the default model: the objects of the channel with the program
-/// stream, those of the platform, and three objects for each of three axes.
+/// Number of objects in the list of channel 1 in the default model: 19 objects of the channel, 2 of
+/// the platform, and 3 for each of three axes.
 const COUNT: u32 = 30;
 
 fn content(offset: u32, size: u32) -> ExpectedRequest {

@@ -133,7 +133,7 @@ fn literal(example: &Vector) -> Option<Literal> {
     })
 }
 
-/// Printed examples that no action of the client protocol covers.
+/// Printed examples without a scenario.
 #[cfg(test)]
 const NOT_COVERED: &[&str] = &[
     // A name with a space, which one edition prints, and the content FALSE: the other printed name

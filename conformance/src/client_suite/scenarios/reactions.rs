@@ -1,5 +1,5 @@
-//! Scenarios with replies that are split, delayed or invalid: the client must return the right value or
-//! an error, never another value, and must not crash.
+//! Scenarios with replies that are split, repeated, late, missing or invalid: the client must
+//! return the right value or an error, never another value, and must not crash.
 
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ClauseId;
@@ -17,8 +17,9 @@ struct ReactionScenario {
     id: &'static str,
     action: &'static str,
     function: Function,
-    /// The requirement of the ADS service; the next field is the requirement of the data.
+    /// The requirement of the ADS service.
     service: ClauseId,
+    /// The requirement of the data in the reply.
     data: ClauseId,
     result: fn() -> Value,
 }
@@ -217,7 +218,8 @@ fn closed(scenario: &ReactionScenario) -> Vec<Scenario> {
         ),
         scenario.invalid_reply("closed-data", "closed before the last byte", Tamper::CutEnd, ADS_5),
     ];
-    // A scenario without a reply lasts as long as the timeout of the client, so it is run only once.
+    // A scenario without a reply lasts as long as the timeout of the client, so only this function
+    // has such a scenario.
     if scenario.function == Function::ReadByName {
         all.push(scenario.invalid_reply(
             "silence",

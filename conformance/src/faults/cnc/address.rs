@@ -22,14 +22,15 @@ fn by_index(call: &Call<'_>) -> bool {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.adr.logical-as-index", &[ADR_1], "a channel addressed logically is the one of that rank",
+    row("cnc.adr.logical-as-index", &[ADR_1],
+        "the CNC treats the channel number of logical addressing as the channel's rank",
         |cnc, call| if of_channel(call) {
             cnc.at(call, group(call) & !LOGICAL, offset(call))
         } else {
             cnc.answer(call)
         }),
     row("cnc.adr.rank-of-configured", &[ADR_11],
-        "by index a channel is addressed by its rank among all, those that are deactivated too",
+        "in addressing by index, the CNC counts deactivated channels in the rank of a channel",
         |cnc, call| {
             let rank = usize::try_from(group(call) & 0xFF).unwrap_or_default();
             let number = rank.checked_sub(1).and_then(|before| cnc.channels().get(before).copied());
@@ -41,7 +42,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 _ => cnc.answer(call),
             }
         }),
-    row("cnc.adr.spindle-from-1", &[ADR_2, GEN_6], "spindles are counted from 1",
+    row("cnc.adr.spindle-from-1", &[ADR_2, GEN_6],
+        "the CNC counts spindles in index groups from 1: 0x25301 is the first spindle",
         |cnc, call| match class(call) {
             Some(at) if at.class == Class::Spindle && at.instance > 0 => {
                 cnc.at(call, group(call).wrapping_sub(1), offset(call))
@@ -52,31 +54,34 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.adr.spindle-logical", &[ADR_2, ADR_5],
-        "spindles are addressed with the bit of logical addressing, and not without",
+        "the CNC accepts groups of spindles only with the bit of logical addressing: 0x125300",
         |cnc, call| match group(call) & 0xFF_F000 {
             0x02_5000 => Err(AdsError::INVALID_GROUP),
             0x12_5000 => cnc.at(call, group(call) & !LOGICAL, offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.spindle-first", &[ADR_2], "every group of a spindle is the first one's",
+    row("cnc.adr.spindle-first", &[ADR_2],
+        "the CNC treats the index group of every spindle as that of the first spindle",
         |cnc, call| match group(call) & 0xFF_F000 {
             0x02_5000 => cnc.at(call, group(call) & !0xFF, offset(call)),
             _ => cnc.answer(call),
         }),
     row("cnc.adr.platform-100-missing", &[ADR_3, COM_4],
-        "the platform has no group 0x120100, only 0x120101",
+        "the CNC rejects platform contents in group 0x120100; it has them only in 0x120101",
         |cnc, call| match group(call) & !LOGICAL {
             0x02_0100 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.platform-axis-from-0", &[ADR_3, GEN_6], "platform axes of COM are counted from 0",
+    row("cnc.adr.platform-axis-from-0", &[ADR_3, GEN_6],
+        "the CNC counts platform axes in groups of COM from 0: 0x120200 is the first axis",
         |cnc, call| match com_group(call) {
             Some(com) if com.table == ComTable::Axis && offset(call) < 0x1_0000 => {
                 cnc.at(call, group(call).wrapping_add(1), offset(call))
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.platform-axis-first", &[ADR_3, ADR_13], "every platform axis of COM is the first one",
+    row("cnc.adr.platform-axis-first", &[ADR_3, ADR_13],
+        "the CNC treats the COM group of every platform axis as that of the first platform axis",
         |cnc, call| match com_group(call) {
             Some(com) if com.table == ComTable::Axis && com.instance > 1 => {
                 cnc.at(call, group(call) & !0xFF | 1, offset(call))
@@ -84,27 +89,28 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.adr.object-access-added", &[ADR_4],
-        "0x30000 is added to 0x20000: objects are described at 0x150101",
+        "descriptors are in group 0x150101 (0x120101 + 0x30000) instead of group 0x130101",
         |cnc, call| match (group(call) & 0x0F_0000, com_group(call)) {
             (0x05_0000, _) => cnc.at(call, group(call).wrapping_sub(0x02_0000), offset(call)),
             (_, Some(com)) if com.access == Access::Object => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
     row("cnc.adr.object-access-is-content", &[ADR_4],
-        "0x30000 in place of 0x20000 makes no difference: content is read",
+        "a read of a descriptor (object access) returns the content at the same index offset",
         |cnc, call| match com_group(call) {
             Some(com) if com.access == Access::Object && offset(call) != 0 => {
                 cnc.at(call, group(call).wrapping_sub(0x01_0000), offset(call))
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.classes-swapped", &[ADR_5], "the HLD is at 0x124300, path preparation at 0x123300",
+    row("cnc.adr.classes-swapped", &[ADR_5],
+        "the HLD is in group 0x124300, and path preparation in group 0x123300",
         |cnc, call| match group(call) & 0xEF_F000 {
             0x02_3000 | 0x02_4000 => cnc.at(call, group(call) ^ 0x7000, offset(call)),
             _ => cnc.answer(call),
         }),
     row("cnc.adr.interpolator-is-position-controller", &[ADR_5],
-        "the bits of the class are counted from the interpolator on: it is at 0x120300",
+        "the interpolator is in group 0x120300, and the position controller in group 0x121300",
         |cnc, call| match (group(call) & 0xEF_F000, group(call) & 0xF00) {
             (0x02_0000, 0x300..=0x900) => {
                 cnc.at(call, group(call).wrapping_add(0x1000), offset(call))
@@ -112,14 +118,15 @@ pub(super) const ROWS: &[CncDefect] = &[
             (0x02_1000, _) => cnc.at(call, group(call).wrapping_sub(0x1000), offset(call)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.length-unit-swapped", &[ADR_6], "attribute 0x300 is the unit, 0x400 the length",
+    row("cnc.adr.length-unit-swapped", &[ADR_6],
+        "the attributes 0x300 (length) and 0x400 (unit) are exchanged",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x600) => cnc.at(call, group(call).wrapping_add(0x100), offset(call)),
             (Some(_), 0x700) => cnc.at(call, group(call).wrapping_sub(0x100), offset(call)),
             _ => cnc.answer(call),
         }),
     row("cnc.adr.attribute-of-first", &[ADR_6],
-        "attributes are those of the first element, whichever is asked for",
+        "name, type, length, unit and write flag of elements above 1 are those of element 1",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x400..=0x800) if offset(call) & 0xFFF > 1 => {
                 cnc.at(call, group(call), offset(call) & !0xFFF | 1)
@@ -127,12 +134,13 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.adr.attribute-of-next", &[ADR_6],
-        "attributes are counted from 0: they are those of the next element",
+        "name, type, length, unit and write flag of an element are those of the next element",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(_), 0x400..=0x800) => cnc.at(call, group(call), offset(call).wrapping_add(1)),
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.stride-1000", &[ADR_7], "an axis of SDA and GEO takes 0x1000 of the index offset",
+    row("cnc.adr.stride-1000", &[ADR_7],
+        "the CNC uses the stride 0x1000 instead of 0x10000 for the axes of SDA and GEO elements",
         |cnc, call| match class(call) {
             Some(at) if (at.class != Class::Hld || at.instance != 0) && !is(call, FUNCTIONS) => {
                 let (axis, element) = (offset(call) >> 12, offset(call) & 0xFFF);
@@ -140,7 +148,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.adr.axis-from-0", &[ADR_7, GEN_6], "axes in the index offset are counted from 0",
+    row("cnc.adr.axis-from-0", &[ADR_7, GEN_6],
+        "the CNC counts the axes in index offsets of SDA and GEO from 0: axis 1 is the second",
         |cnc, call| match class(call) {
             Some(_) if offset(call) > 0xFFFF => {
                 cnc.at(call, group(call), offset(call).wrapping_add(0x1_0000))
@@ -148,7 +157,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.adr.platform-axis-exchanged", &[ADR_13],
-        "axis exchange in channel 1 changes the addresses of platform axes too",
+        "a read of platform axis 1, 2 or 3 in COM returns the axis at this axis index of channel 1",
         |cnc, call| match com_group(call) {
             Some(com)
                 if com.table == ComTable::Axis
@@ -162,7 +171,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.adr.place-keeps-axis", &[ADR_13],
-        "a place of channel 1 stays that of its first axis: exchange does not show in COM",
+        "a read of axis index n of channel 1 in COM returns platform axis n, despite axis exchange",
         |cnc, call| match com_group(call) {
             Some(com)
                 if com.table == ComTable::Channel
@@ -178,7 +187,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
 ];
 
-/// Functions at index offsets of the decoder where other classes have elements.
+/// Functions of the decoder at index offsets that can also belong to elements. The stride of elements
+/// does not apply to them.
 const FUNCTIONS: &[Function] = &[
     Function::AxisHandleByName,
     Function::AxisReadByName,

@@ -1,4 +1,4 @@
-//! Defects at limits: at the first and the last index, at the maximum length, and one after the limit.
+//! Defects that occur only at or near a limit: the last index, the maximum length or the largest number.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
@@ -18,7 +18,7 @@ const UUID: &str = ServiceVariable::UUID;
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.adr.platform-axis-last", &[ADR_3],
-        "the contents of the last platform axis are rejected, its descriptors are not",
+        "the CNC has descriptors of the last platform axis, but rejects its contents",
         |cnc, call| {
             let next = cnc.read(call.port, (group(call) | 0x13_0000).wrapping_add(1), 0);
             if group(call) & 0xEF_FF00 == 0x02_0200 && instance(call) > 0 && next.is_err() {
@@ -28,19 +28,19 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     row("cnc.adr.axis-8-bit", &[ADR_7, SDA_5],
-        "of the axis in an index offset of SDA and GEO the lowest 8 bits count: axis 257 is axis 1",
+        "the CNC uses only 8 bits of the axis in an index offset of SDA and GEO: 257 is axis 1",
         |cnc, call| match group(call) & 0xF00 {
             0x300..=0x800 => cnc.at(call, group(call), offset(call) & 0xFF_FFFF),
             _ => cnc.answer(call),
         }),
     row("cnc.com.many-12", &[COM_3],
-        "there are 12 descriptors at most, as many as 1024 bytes have room for",
+        "a reply has at most 12 descriptors, as many as fit into 1024 bytes",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
             bytes.truncate(84 * 12);
             bytes
         })),
     on("cnc.com.many-to-last", &[COM_3],
-        "of several descriptors up to the last object that of the last object is missing",
+        "a reply with several descriptors lacks that of the last object of the list",
         DESCRIPTORS, |cnc, call| {
             let count = u32_at(&cnc.read(call.port, group(call), 0)?, 0).unwrap_or_default();
             cnc.answer(call).map(|mut bytes| {
@@ -53,14 +53,14 @@ pub(super) const ROWS: &[CncDefect] = &[
             })
         }),
     row("cnc.dyn.name-of-96", &[DYN_6],
-        "a name that takes 96 bytes with its NUL is rejected where a value is asked for by name",
+        "the CNC rejects a read of a parameter by a name of 96 bytes including NULs, the maximum",
         |cnc, call| if is(call, &[Function::DynamicValueByName]) && call.data.len() == 96 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
     on("cnc.var.index-one-digit", &[VAR_20],
-        "of an index in the name of an element the first digit counts: [12] is [1]",
+        "the CNC uses only the first digit of the index of an element in a name: [12] is [1]",
         &[Function::ReadByName], |cnc, call| {
             let (name, indices) = indexed(text(call.data));
             let first = |index: &u32| {
@@ -72,27 +72,28 @@ pub(super) const ROWS: &[CncDefect] = &[
             if indices.is_empty() { cnc.answer(call) } else { cnc.with(call, &with_indices(name, &indices)) }
         }),
     row("cnc.var.write-2048", &[VAR_12, VAR_13],
-        "a write of 2048 bytes, those before the value included, is rejected",
+        "the CNC rejects a write by handle or name with 2048 bytes of data, the maximum",
         |cnc, call| if is(call, &[Function::WriteByHandle, Function::WriteByName])
             && call.data.len() == 2048 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.read-2048", &[VAR_14], "a value of 2048 bytes is rejected by handle",
+    row("cnc.var.read-2048", &[VAR_14],
+        "the CNC rejects a read by handle of a value of 2048 bytes, the maximum",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), cnc.answer(call)) {
             (true, Ok(bytes)) if bytes.len() == 2048 => Err(AdsError::INVALID_SIZE),
             (_, answer) => answer,
         }),
     row("cnc.var.write-name-of-255", &[VAR_13],
-        "a value after the longest name, at offset 256, is rejected",
+        "the CNC rejects a write by name with a name of 255 characters, the maximum",
         |cnc, call| if is(call, &[Function::WriteByName]) && text(call.data).len() == 255 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
     row("cnc.var.dimensions-2", &[VAR_4, VAR_8],
-        "a description tells two dimensions at most: of three the last is left out",
+        "a description has only the first two dimensions of an array with more",
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (numbers, end) = dimensions(&bytes);
             if numbers.len() > 2 {
@@ -102,7 +103,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             bytes
         })),
     on("cnc.var.whole-first-row", &[VAR_14],
-        "of a whole array with more dimensions the first row is read by name",
+        "a read by name of a whole array of several dimensions returns only its first row",
         &[Function::ReadByName], |cnc, call| {
             let described = super::lookup::described(cnc, group(call), text(call.data));
             let numbers = dimensions(&described.unwrap_or_default()).0;
@@ -116,7 +117,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             })
         }),
     on("cnc.stm.room-4093", &[STM_3],
-        "the interface holds 4093 bytes: the write that would fill it is rejected for now",
+        "the CNC temporarily rejects the write that would fill the streaming interface to 4094 \
+         bytes",
         STREAM, |cnc, call| {
             let channel = u8::try_from(instance(call)).unwrap_or_default();
             let buffered =
@@ -128,13 +130,14 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     row("cnc.stm.length-8-bit", &[STM_2, STM_4],
-        "a packet whose length is a multiple of 256 is acknowledged and lost",
+        "the CNC acknowledges and discards a packet whose length is a multiple of 256 bytes",
         |cnc, call| if is(call, STREAM) && call.data.len() % 256 == 0 {
             Ok(Vec::new())
         } else {
             cnc.answer(call)
         }),
-    on("cnc.stm.lines-of-80", &[STM_20, STM_7], "of a line the first 80 characters are kept",
+    on("cnc.stm.lines-of-80", &[STM_20, STM_7],
+        "the CNC keeps only the first 80 characters of each line in a stream",
         STREAM, |cnc, call| {
             let kept: Vec<u8> = call
                 .data
@@ -146,7 +149,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 .collect();
             cnc.with(call, &kept)
         }),
-    row("cnc.svc.response-127", &[SVC_1], "a RESPONSE of 128 bytes, its NUL among them, is rejected",
+    row("cnc.svc.response-127", &[SVC_1],
+        "the CNC rejects a RESPONSE of 128 bytes including its NUL, the maximum",
         |cnc, call| {
             let name = ServiceVariable::RESPONSE.as_bytes();
             let is_response = is(call, &[Function::WriteByName]) && text(call.data) == name;
@@ -156,7 +160,7 @@ pub(super) const ROWS: &[CncDefect] = &[
                 cnc.answer(call)
             }
         }),
-    row("cnc.svc.uuid-35", &[SVC_1, SVC_2], "UUID is read without its 36th character",
+    row("cnc.svc.uuid-35", &[SVC_1, SVC_2], "a read of UUID returns only its first 35 characters",
         |cnc, call| if is(call, &[Function::ReadByName]) && text(call.data) == UUID.as_bytes() {
             within_length(
                 call,
@@ -168,6 +172,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.dyn.by-index-positive", &[DYN_4], "values by index have no sign",
+    on("cnc.dyn.by-index-positive", &[DYN_4],
+        "a read of a parameter by index returns its value without the sign",
         &[Function::DynamicValueByIndex], |cnc, call| number(cnc.answer(call), 4, |high| high & 0x7FFF_FFFF)),
 ];

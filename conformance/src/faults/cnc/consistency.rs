@@ -1,4 +1,4 @@
-//! Defects whose replies contradict each other (SDA, DYN).
+//! Defects with which replies to different requests contradict each other (SDA, DYN).
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{Call, Function};
@@ -15,7 +15,8 @@ const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The reply with the channel (offset 0) or the axis (offset 4) of a `FindInstance` request changed.
+/// The reply to a `FindInstance` request whose number at the offset `place` is changed by `other`: the
+/// channel at 0 or the axis at 4.
 fn with_number(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -41,7 +42,7 @@ fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyDat
     }
 }
 
-/// Repeats the first reply to a request forever.
+/// Answers a request for one of the functions `of` with the first reply to the same request.
 fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     if !is(call, of) {
         return cnc.answer(call);
@@ -56,8 +57,8 @@ fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     Ok(bytes)
 }
 
-/// Executes a write, and then the same write at another address, where it succeeds only if the content
-/// has the same length.
+/// Executes a write, and then the same write at another address, where it fails if the content has
+/// another length or is read-only.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
     let reply = cnc.answer(call);
     if reply.is_ok() {
@@ -69,10 +70,11 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> Repl
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.address-of-channel-1", &[SDA_1],
-        "whichever channel is asked for, the address is that of channel 1",
+        "the object address for every channel above 1 is that for channel 1",
         |cnc, call| with_number(cnc, call, 0, |channel| channel.min(1))),
     row("cnc.sda.address-of-channel", &[SDA_1],
-        "whichever axis is asked for, the address is that of the channel",
+        "object addresses of axes of interpolator, decoder and path preparation are those of the \
+         channel",
         |cnc, call| match group(call) & 0xF000 {
             0x1000 | 0x2000 | 0x4000 => with_number(cnc, call, 4, |_| 0),
             _ => cnc.answer(call),
@@ -80,39 +82,43 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.interpolator-no-axes", &[SDA_5],
         "axes of the interpolator are not found, those of the decoder are",
         |cnc, call| few_axes(cnc, call, 0x1000, 0)),
-    row("cnc.sda.decoder-one-axis", &[SDA_5], "the decoder has the first axis of a channel only",
+    row("cnc.sda.decoder-one-axis", &[SDA_5],
+        "the CNC finds only the first axis of each channel in the decoder",
         |cnc, call| few_axes(cnc, call, 0x2000, 1)),
-    row("cnc.sda.axis-24-bit", &[SDA_5, SDA_2], "of the axis asked for the lowest 24 bits count",
+    row("cnc.sda.axis-24-bit", &[SDA_5, SDA_2],
+        "the CNC uses only the lowest 24 bits of the axis in a request for an object address",
         |cnc, call| with_number(cnc, call, 4, |axis| axis & 0xFF_FFFF)),
-    row("cnc.sda.first-length", &[SDA_8], "the length of the number of elements is that of element 1",
+    row("cnc.sda.first-length", &[SDA_8], "the length of element 0 is that of element 1",
         |cnc, call| if is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
             cnc.at(call, group(call), offset(call) | 1)
         } else {
             cnc.answer(call)
         }),
     row("cnc.sda.write-every-channel", &[SDA_9, SDA_1],
-        "a write of an element of channel 2 is one of channel 1 too",
+        "a write to an element of channel 2 also changes the element of channel 1",
         |cnc, call| match (is(call, WRITE), group(call) & 0xFF) {
             (true, 2) => written(cnc, call, group(call) & !0xFF | 1, offset(call)),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.write-every-axis", &[SDA_9, SDA_1],
-        "a write of an element of an axis is one of the next axis too",
+        "a write to an axis in position controller or path preparation also changes the next axis",
         |cnc, call| match (is(call, WRITE), class(call).map(|at| at.class)) {
             (true, Some(Class::PathPreparation | Class::PositionController)) => {
                 written(cnc, call, group(call), offset(call).wrapping_add(0x1_0000))
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.dyn.count-8-bit", &[DYN_1], "of the number of parameters the lowest byte is told",
+    on("cnc.dyn.count-8-bit", &[DYN_1],
+        "the number of dynamic parameters has only its lowest 8 bits: 257 is 1",
         &[Function::CountDynamic], |cnc, call| number(cnc.answer(call), 0, |count| count & 0xFF)),
-    row("cnc.dyn.names-kept", &[DYN_2], "the name of an index is what it was when it was first asked for",
+    row("cnc.dyn.names-kept", &[DYN_2],
+        "a read of a parameter's name always returns the first name that the index had",
         |cnc, call| cached(cnc, call, NAME)),
     row("cnc.dyn.values-kept", &[DYN_3, DYN_4],
-        "a parameter has the value it had when it was first asked for",
+        "a read of a parameter always returns the value of the first read by this name or index",
         |cnc, call| cached(cnc, call, VALUES)),
     row("cnc.dyn.names-in-turn", &[DYN_2],
-        "names are returned one after the other, whatever the index of the request",
+        "names of parameters are returned one after the other, whatever the requested index",
         |cnc, call| {
             let known = is(call, NAME) && cnc.answer(call).is_ok();
             if !known {
@@ -127,7 +133,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 cnc.with(call, &[1, 0, 0, 0])
             })
         }),
-    row("cnc.dyn.by-name-8-characters", &[DYN_3], "of a name the first 8 characters are looked at",
+    row("cnc.dyn.by-name-8-characters", &[DYN_3],
+        "an unknown parameter name addresses a parameter with the same first 8 characters",
         |cnc, call| {
             let first = |name: &[u8]| text(name).get(..8).map(<[u8]>::to_vec);
             let (true, Err(_), Some(wanted)) =

@@ -15,14 +15,15 @@ const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicVal
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    on("cnc.dyn.count-one-more", &[DYN_1], "numbers of parameters are one more",
+    on("cnc.dyn.count-one-more", &[DYN_1], "the number of dynamic parameters is one too high",
         COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_add(1))),
-    row("cnc.dyn.index-0", &[DYN_5], "index 0 is taken for 1",
+    row("cnc.dyn.index-0", &[DYN_5], "the CNC treats index 0 of a dynamic parameter as index 1",
         |cnc, call| match (of_decoder(call), call.data) {
             (Some(0x1B..=0x26), [0, 0, 0, 0]) => cnc.with(call, &[1, 0, 0, 0]),
             _ => cnc.answer(call),
         }),
-    row("cnc.dyn.by-name-one-character", &[DYN_3], "the last character of a name is not looked at",
+    row("cnc.dyn.by-name-one-character", &[DYN_3],
+        "an unknown parameter name addresses the parameter whose name lacks the last character",
         |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
             (true, Err(_)) => {
                 let name = text(call.data);
@@ -31,7 +32,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             (_, answer) => answer,
         }),
-    row("cnc.dyn.name-of-97", &[DYN_6], "names of more than 96 bytes are cut and looked up",
+    row("cnc.dyn.name-of-97", &[DYN_6],
+        "the CNC cuts a parameter name of more than 96 bytes including NULs, and looks it up",
         |cnc, call| match of_decoder(call) {
             Some(0x1C | 0x1F | 0x22 | 0x25) if call.data.len() > 96 => {
                 let name = text(call.data);
@@ -40,12 +42,12 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.dyn.name-of-32", &[DYN_6],
-        "names of more than 32 bytes, NULs after them counted, are rejected",
+        "the CNC rejects a read of a parameter by a name of more than 32 bytes including NULs",
         |cnc, call| match of_decoder(call) {
             Some(0x1C | 0x1F | 0x22 | 0x25) if call.data.len() > 32 => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
-    row("cnc.dyn.p1-value", &[DYN_7], "the value of P1 is 4712",
+    row("cnc.dyn.p1-value", &[DYN_7], "the value of P1 is 4712 instead of 4711",
         |cnc, call| if is(call, VALUES) && offset(call) < 0x1E {
             cnc.answer(call).map(|bytes| match real(&bytes) {
                 4711.0 => 4712_f64.to_le_bytes().to_vec(),
@@ -54,7 +56,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.dyn.p1-name", &[DYN_2, DYN_7], "the name of P1 is V.P1, and it is found by that",
+    row("cnc.dyn.p1-name", &[DYN_2, DYN_7],
+        "names of P parameters begin with V. in requests and replies: V.P1 instead of P1",
         |cnc, call| match (is(call, NAME), is(call, BY_NAME), offset(call)) {
             (true, _, 0x1B) => {
                 within_length(call, cnc.whole(call).map(|bytes| [b"V.", bytes.as_slice()].concat()))
@@ -65,7 +68,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             },
             _ => cnc.answer(call),
         }),
-    row("cnc.dyn.p1-count", &[DYN_7], "the number of P is that of all kinds",
+    row("cnc.dyn.p1-count", &[DYN_7],
+        "the number of P parameters is that of P, V.L, V.P and V.S together",
         |cnc, call| if is(call, COUNT) && offset(call) == 2 {
             let mut sum = cnc.answer(call)?;
             for place in 3..=5 {

@@ -10,7 +10,8 @@ const FLAG: &[Function] = &[Function::ReadElementWriteFlag];
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.sda.types-of-com", &[SDA_7], "types are named as in COM: BOOL, DWORD, LREAL",
+    row("cnc.sda.types-of-com", &[SDA_7],
+        "types of elements have the names of COM types, such as BOOL, DWORD and LREAL",
         |cnc, call| reply(cnc, call, TYPE, |bytes| {
             let other: &[u8] = match text(&bytes) {
                 b"BOOLEAN" => b"BOOL\0",
@@ -26,13 +27,15 @@ pub(super) const ROWS: &[CncDefect] = &[
             };
             other.to_vec()
         })),
-    row("cnc.sda.types-short", &[SDA_7], "types of one digit are written without the 0: UNS8",
+    row("cnc.sda.types-short", &[SDA_7],
+        "types of elements with one digit are written without the 0: UNS8 instead of UNS08",
         |cnc, call| reply(cnc, call, TYPE, |mut bytes| {
             bytes.retain(|&byte| byte != b'0');
             bytes
         })),
     row("cnc.sda.flag-always", &[SDA_9], "the write flag is always TRUE",
         |cnc, call| reply(cnc, call, FLAG, |_| vec![1])),
-    row("cnc.sda.flag-text", &[SDA_9], "the write flag is a digit of text",
+    row("cnc.sda.flag-text", &[SDA_9],
+        "the write flag is the character 0 or 1 instead of a BOOLEAN",
         |cnc, call| reply(cnc, call, FLAG, |bytes| bytes.iter().map(|byte| byte | b'0').collect())),
 ];

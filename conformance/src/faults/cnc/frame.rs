@@ -18,7 +18,7 @@ pub(super) const RESULT: usize = 38;
 pub(super) const LENGTH: usize = 42;
 pub(super) const DATA: usize = 46;
 
-/// A row whose defect changes frames.
+/// A row whose defect changes the frames that the CNC sends.
 pub(super) const fn sent(
     id: &'static str,
     breaks: &'static [ClauseId],
@@ -54,14 +54,14 @@ pub(super) fn is(request: &FrameRef<'_>, commands: &[Command]) -> bool {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     sent("cnc.ads.invoke-id-of-before", &[ADS_5],
-        "the invoke ID of a response is that of the request before",
+        "a response has the invoke ID of the previous request",
         |cnc, request, bytes| {
             let mut memory = cnc.memory();
             let before = std::mem::replace(&mut memory.count, request.header().invoke_id);
             set(bytes, INVOKE_ID, &before.to_le_bytes())
         }),
     sent("cnc.ads.header-big-endian", &[ADS_5, GEN_1],
-        "data length, error and invoke ID have the most significant byte first",
+        "data length, error and invoke ID of the AMS header have the most significant byte first",
         |_, _, mut bytes| {
             for offset in [DATA_LENGTH, ERROR, INVOKE_ID] {
                 let number = u32_at(&bytes, offset).unwrap_or_default();
@@ -69,11 +69,13 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             bytes
         }),
-    sent("cnc.ads.error-always", &[ADS_5], "the AMS header has an error though the result says success",
+    sent("cnc.ads.error-always", &[ADS_5],
+        "the AMS header has the error 1 although the result in the reply is 0 (success)",
         |_, _, bytes| match result(&bytes) { 0 => set(bytes, ERROR, &[1, 0, 0, 0]), _ => bytes }),
     sent("cnc.ads.sent-twice", &[ADS_5], "each response is sent twice", |_, _, bytes| bytes.repeat(2)),
     sent("cnc.ads.late", &[ADS_5],
-        "each response is sent with the next request: the first request has the same twice",
+        "the CNC answers each request with the response to the previous one, and the first \
+         correctly",
         |cnc, _, bytes| {
             let mut memory = cnc.memory();
             let before = std::mem::replace(&mut memory.frame, bytes.clone());

@@ -61,10 +61,10 @@ fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.gen.numbers-big-endian", &[GEN_1],
-        "counts and handles are answered with the most significant byte first",
+        "a reply of one UNS32 (a count or a handle) has the most significant byte first",
         NUMBERS, |cnc, call| number(cnc.answer(call), 0, u32::swap_bytes)),
     row("cnc.gen.reals-big-endian", &[GEN_1],
-        "REAL64 of parameters is answered with the most significant byte first",
+        "the REAL64 of a dynamic parameter has the most significant byte first in replies",
         |cnc, call| match function(call) {
             Some(Function::DynamicValueByName | Function::DynamicValueByIndex) => {
                 cnc.answer(call).map(|mut bytes| {
@@ -75,7 +75,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.gen.reals-words-swapped", &[GEN_1],
-        "the two halves of a REAL64 of a variable stand in the other order",
+        "a variable's value of 8 bytes, such as a REAL64, has its two halves exchanged in replies",
         |cnc, call| match function(call) {
             Some(function) if VALUES.contains(&function) => {
                 let answer = cnc.answer(call)?;
@@ -87,7 +87,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.gen.requests-big-endian", &[GEN_1],
-        "indices in requests are read with the most significant byte first",
+        "the CNC reads the index at the start of a request with the most significant byte first",
         |cnc, call| match function(call) {
             Some(function) if first(function.spec().request) == b"index" => {
                 let mut data = call.data.to_vec();
@@ -98,7 +98,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.gen.description-aligned", &[GEN_2], "the name of a description is aligned to 8 bytes",
+    on("cnc.gen.description-aligned", &[GEN_2],
+        "the name in a description by index starts at an offset that is a multiple of 8",
         &[Function::DescribeByIndex], |cnc, call| within_length(
             call,
             cnc.whole(call).map(|mut bytes| {
@@ -110,7 +111,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }),
         )),
     on("cnc.gen.descriptor-access-wide", &[GEN_2],
-        "write access takes 4 bytes, and all after it in a descriptor 2 bytes more",
+        "the write access in a descriptor takes 4 bytes, so the fields from offset 12 on move by \
+         2 bytes",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|bytes| {
             let records = records(&bytes);
             let wide = |record: &[u8; 84]| {
@@ -120,18 +122,21 @@ pub(super) const ROWS: &[CncDefect] = &[
             };
             records.iter().flat_map(wide).collect()
         })),
-    row("cnc.gen.utf-8", &[GEN_3], "names are read and answered in UTF-8", |cnc, call| {
-        let outwards = |text: &[u8]| {
-            let text: String = text.iter().map(|&byte| cp1252_to_char(byte)).collect();
-            text.into_bytes()
-        };
-        let inwards = |text: &[u8]| {
-            let text = String::from_utf8_lossy(text).into_owned();
-            text.chars().map(|one| u8::try_from(one).unwrap_or(b'?')).collect()
-        };
-        texts(cnc, call, outwards, inwards)
-    }),
-    row("cnc.gen.ascii", &[GEN_3], "characters of names beyond ASCII are answered as question marks",
+    row("cnc.gen.utf-8", &[GEN_3],
+        "the CNC uses UTF-8 instead of CP1252 for names in requests and texts in replies",
+        |cnc, call| {
+            let outwards = |text: &[u8]| {
+                let text: String = text.iter().map(|&byte| cp1252_to_char(byte)).collect();
+                text.into_bytes()
+            };
+            let inwards = |text: &[u8]| {
+                let text = String::from_utf8_lossy(text).into_owned();
+                text.chars().map(|one| u8::try_from(one).unwrap_or(b'?')).collect()
+            };
+            texts(cnc, call, outwards, inwards)
+        }),
+    row("cnc.gen.ascii", &[GEN_3],
+        "names, types and units in replies have question marks in place of characters beyond ASCII",
         |cnc, call| {
             let outwards = |text: &[u8]| {
                 text.iter().map(|byte| if byte.is_ascii() { *byte } else { b'?' }).collect()
@@ -139,20 +144,24 @@ pub(super) const ROWS: &[CncDefect] = &[
             texts(cnc, call, outwards, <[u8]>::to_vec)
         }),
     row("cnc.gen.seven-bits", &[GEN_3],
-        "the highest bit of every character of a name in a request is dropped",
+        "the CNC ignores the highest bit of each character of a variable's name in a request",
         |cnc, call| texts(cnc, call, <[u8]>::to_vec, |text| text.iter().map(|&byte| byte & 0x7F).collect())),
-    row("cnc.gen.com-at-sda", &[GEN_4], "COM is served at the port 552, and not at 553",
+    row("cnc.gen.com-at-sda", &[GEN_4],
+        "the CNC serves the COM task at port 552 instead of port 553",
         |cnc, call| match (call.port, super::com_group(call)) {
             (AmsPort::COM, Some(_)) => Err(AdsError::INVALID_GROUP),
             (AmsPort::SDA, Some(_)) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.any-port", &[GEN_4], "each port answers for all tasks",
+    row("cnc.gen.any-port", &[GEN_4],
+        "the CNC serves all three tasks at each of their ports 551, 552 and 553",
         |cnc, call| match super::com_group(call) {
             Some(_) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
             None => cnc.answer(&Call { port: AmsPort::SDA, ..*call }),
         }),
-    row("cnc.gen.boolean-4-bytes", &[GEN_5], "a BOOLEAN variable takes 4 bytes",
+    row("cnc.gen.boolean-4-bytes", &[GEN_5],
+        "BOOLEAN variables are described with 4 bytes per element, and one element is read as 4 \
+         bytes",
         |cnc, call| match function(call) {
             Some(function) if DESCRIPTIONS.contains(&function) => {
                 cnc.answer(call).map(|mut bytes| {

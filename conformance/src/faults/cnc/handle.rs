@@ -35,10 +35,10 @@ fn with_handle(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Re
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.handle-not-understood", &[VAR_10],
-        "the handle by name is another than the one that is understood",
+        "the handle that the CNC returns for a name is one that it does not accept",
         |cnc, call| with_handle(cnc, call, |handle| handle ^ 0x5A00_0000)),
     row("cnc.var.handle-changes", &[VAR_10],
-        "the handle by name is another at each request; all of them are understood",
+        "each request for a handle by name returns another handle; all of them are valid",
         |cnc, call| match (function(call), parts(call.data)) {
             (Some(Function::HandleByName), _) => {
                 let mut answer = cnc.answer(call)?;
@@ -69,7 +69,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.handle-last-only", &[VAR_10], "with a new handle by name all others become invalid",
+    row("cnc.var.handle-last-only", &[VAR_10],
+        "a request for a handle by name makes all other handles invalid",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
                 cnc.memory().count = u32_at(bytes, 0).unwrap_or_default();
@@ -82,7 +83,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.handle-needs-name", &[VAR_10],
-        "the handle of a description is understood only after a handle by name",
+        "a handle is valid only after it was requested by name, even if a description states it",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
                 let handle = u32_at(bytes, 0).unwrap_or_default();
@@ -96,7 +97,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.handle-shared", &[VAR_10],
-        "the handle by name of every variable of V.G is that of the first asked for",
+        "the handle by name of every V.G variable is that of the V.G variable requested first",
         |cnc, call| match function(call) {
             Some(Function::HandleByName) if text(call.data).starts_with(b"V.G.") => {
                 let own = cnc.answer(call)?;
@@ -109,13 +110,13 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.var.handle-0-in-description", &[VAR_4], "the handle in a description is 0",
+    on("cnc.var.handle-0-in-description", &[VAR_4], "the handle in every description by index is 0",
         &[Function::DescribeByIndex], |cnc, call| number(cnc.answer(call), 0, |_| 0)),
     row("cnc.var.handle-of-axis", &[VAR_10],
-        "the handle of an axis variable belongs to the axis, not to its place",
+        "the handle of an axis variable belongs to the axis instead of the axis index",
         |cnc, call| {
-            // The number of the axis at a place of channel 1. Handles of the simulated CNC contain the
-            // place in their third byte; this defect replaces it by the axis number.
+            // The logical number of the axis at an axis index of channel 1. The third byte of the handle
+            // of an axis variable is the axis index; this defect replaces it by the axis number.
             let axis = |place: u32| {
                 let number = cnc.read(AmsPort::COM, 0x12_0101, place << 16 | 3);
                 number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)

@@ -13,17 +13,20 @@ const WRITE: &[Function] = &[Function::WriteByHandle];
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.var.handle-unknown", &[VAR_11], "a handle of no variable reads as 0",
+    row("cnc.var.handle-unknown", &[VAR_11],
+        "a read with an unknown handle returns four zero bytes instead of an error",
         |cnc, call| match (is(call, READ), cnc.answer(call)) {
             (true, Err(_)) if described(cnc, call).is_none() => within_length(call, Ok(vec![0; 4])),
             (_, answer) => answer,
         }),
-    row("cnc.var.indices-more", &[VAR_11], "bytes after the indices are ignored",
+    row("cnc.var.indices-more", &[VAR_11],
+        "the CNC ignores bytes after the indices in a read by handle",
         |cnc, call| match (of_decoder(call), parts(call.data)) {
             (Some(0x47), Some((handle, at, _))) => cnc.with(call, &joined(handle, &at, &[])),
             _ => cnc.answer(call),
         }),
-    row("cnc.var.indices-fewer", &[VAR_11], "indices that are missing after their number are taken for 0",
+    row("cnc.var.indices-fewer", &[VAR_11],
+        "the CNC treats indices that are missing at the end of a read by handle as 0",
         |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
             (Some(0x47), Some(count @ 1..=8)) if call.data.len() >= 8 => {
                 let mut data = call.data.to_vec();
@@ -34,7 +37,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.write-indices-beyond", &[VAR_12],
-        "a write by handle out of bounds succeeds and changes nothing",
+        "a write with an unknown handle or an index out of bounds succeeds and changes nothing",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => Ok(Vec::new()),
             (_, answer) => answer,

@@ -32,7 +32,11 @@ fn with_instance(
 
 /// Replies with the object address (0, 0) to requests for the instances for which `is_absent` returns
 /// true; its arguments are class, channel and axis.
-fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
+pub(in crate::faults) fn absent(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    is_absent: fn(u32, u32, u32) -> bool,
+) -> ReplyData {
     let numbers = (u32_at(call.data, 0), u32_at(call.data, 4));
     match (is(call, FIND), numbers) {
         (true, (Some(channel), Some(axis))) if is_absent(group(call) & 0xF000, channel, axis) => {
@@ -44,13 +48,14 @@ fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> b
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.sda.address-swapped", &[SDA_1], "an instance is answered as index offset and index group",
+    row("cnc.sda.address-swapped", &[SDA_1],
+        "an object address has the index offset before the index group",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             bytes.rotate_left(4);
             bytes
         })),
     row("cnc.sda.query-with-channel", &[SDA_1],
-        "instances are asked for at the group with channel 1, 0x123901, and not at 0x123900",
+        "the CNC accepts requests for object addresses only at groups with a channel: 0x123901",
         |cnc, call| match (class(call), group(call) & 0xF00) {
             (Some(of), 0x900) if of.class != Class::Spindle => match of.instance {
                 0 => Err(AdsError::INVALID_GROUP),
@@ -59,7 +64,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.sda.address-of-query", &[SDA_1],
-        "the index group of an instance is that of its object address, 0x123901",
+        "the index group in an object address is 0x600 too high: 0x123901 instead of 0x123301",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             match u32_at(&bytes, 0) {
                 Some(0) | None => {}
@@ -68,19 +73,21 @@ pub(super) const ROWS: &[CncDefect] = &[
             bytes
         })),
     row("cnc.sda.address-by-index", &[SDA_3],
-        "the index group of an instance lacks the bit of logical addressing",
+        "the index group in an object address lacks the bit of logical addressing",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             let group = u32_at(&bytes, 0).unwrap_or_default();
             set_u32(&mut bytes, 0, group & !LOGICAL);
             bytes
         })),
-    row("cnc.sda.address-16-bit", &[SDA_1], "the index group of an instance is its lower 16 bits",
+    row("cnc.sda.address-16-bit", &[SDA_1],
+        "the index group in an object address is cut to 16 bits: 0x3301 instead of 0x123301",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             let group = u32_at(&bytes, 0).unwrap_or_default();
             set_u32(&mut bytes, 0, group & 0xFFFF);
             bytes
         })),
-    row("cnc.sda.absent-answered", &[SDA_2], "an address is made of whatever is asked for, there or not",
+    row("cnc.sda.absent-answered", &[SDA_2],
+        "the CNC returns an object address even for an instance that does not exist",
         |cnc, call| reply(cnc, call, FIND, |mut bytes| {
             if bytes.iter().all(|byte| *byte == 0) {
                 let channel = u32_at(call.data, 0).unwrap_or_default() & 0xFF;
@@ -89,15 +96,18 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             bytes
         })),
-    row("cnc.sda.absent-ones", &[SDA_2], "an instance that is not there is answered as (-1, -1)",
+    row("cnc.sda.absent-ones", &[SDA_2],
+        "the object address of an instance that does not exist has the bytes FF instead of 00",
         |cnc, call| reply(cnc, call, FIND, |bytes| {
             if bytes.iter().all(|byte| *byte == 0) { vec![0xFF; 8] } else { bytes }
         })),
-    row("cnc.sda.absent-nothing", &[SDA_2], "an instance that is not there is answered without data",
+    row("cnc.sda.absent-nothing", &[SDA_2],
+        "a request for the address of an instance that does not exist succeeds without data",
         |cnc, call| reply(cnc, call, FIND, |bytes| {
             if bytes.iter().all(|byte| *byte == 0) { Vec::new() } else { bytes }
         })),
-    row("cnc.sda.hld-stride-10000", &[SDA_3], "platform axes of the HLD take 0x10000 of the index offset",
+    row("cnc.sda.hld-stride-10000", &[SDA_3],
+        "platform axes of the HLD have the stride 0x10000 instead of 0x1000",
         |cnc, call| match (is(call, FIND), group(call) & 0xEF_F0FF) {
             (true, 0x02_3000) => cnc.answer(call).map(|mut bytes| {
                 if u32_at(&bytes, 0) == Some(0x12_3300) {
@@ -114,14 +124,14 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.sda.channel-1-only", &[SDA_5],
-        "of interpolator, decoder, path preparation and HLD only channel 1 is found",
+        "the CNC finds no interpolator, decoder, path preparation or HLD of channels above 1",
         |cnc, call| absent(cnc, call, |class, channel, _| (0x1000..0x5000).contains(&class) && channel > 1)),
     row("cnc.sda.no-axes", &[SDA_5], "axes of interpolator, decoder and path preparation are not found",
         |cnc, call| absent(cnc, call, |class, _, axis| {
             matches!(class, 0x1000 | 0x2000 | 0x4000) && axis > 0
         })),
     row("cnc.sda.no-axis-0", &[SDA_5],
-        "channels of interpolator, decoder and path preparation are found with an axis only",
+        "the CNC finds no interpolator, decoder or path preparation of a channel with axis 0",
         |cnc, call| absent(cnc, call, |class, _, axis| {
             matches!(class, 0x1000 | 0x2000 | 0x4000) && axis == 0
         })),
@@ -138,7 +148,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         "the last axis of the position controller is not found",
         |cnc, call| absent(cnc, call, |class, _, axis| class == 0 && axis > 4)),
     row("cnc.sda.position-controller-axis-from-0", &[SDA_5, GEN_6],
-        "axes of the position controller are asked for from 0",
+        "the CNC counts axes of the position controller from 0 in requests for object addresses",
         |cnc, call| match group(call) & 0xF000 {
             0 => with_instance(cnc, call, |channel, axis| (channel, axis.wrapping_add(1))),
             _ => cnc.answer(call),
@@ -149,29 +159,32 @@ pub(super) const ROWS: &[CncDefect] = &[
             0 => with_instance(cnc, call, |_, axis| (0, axis)),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.channel-0", &[SDA_5, GEN_6], "channel 0 is taken for channel 1",
+    row("cnc.sda.channel-0", &[SDA_5, GEN_6],
+        "the CNC finds interpolator, decoder and path preparation of channel 1 with channel 0 too",
         |cnc, call| match group(call) & 0xF000 {
             0x1000 | 0x2000 | 0x4000 => with_instance(cnc, call, |channel, axis| (channel.max(1), axis)),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.channel-8-bit", &[SDA_5, SDA_2],
-        "of the channel asked for the lowest 8 bits count: 257 is channel 1",
+        "the CNC uses only 8 bits of the channel in a request for an object address: 257 is 1",
         |cnc, call| with_instance(cnc, call, |channel, axis| (channel & 0xFF, axis))),
-    row("cnc.sda.axis-16-bit", &[SDA_5, SDA_2], "of the axis asked for the lowest 16 bits count",
+    row("cnc.sda.axis-16-bit", &[SDA_5, SDA_2],
+        "the CNC uses only the lowest 16 bits of the axis in a request for an object address",
         |cnc, call| with_instance(cnc, call, |channel, axis| (channel, axis & 0xFFFF))),
     row("cnc.sda.hld-channel-missing", &[SDA_5], "the HLD of a channel is not found without an axis",
         |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel > 0 && axis == 0)),
     row("cnc.sda.hld-platform-missing", &[SDA_5], "the HLD of an axis is not found without a channel",
         |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel == 0 && axis > 0)),
-    row("cnc.sda.spindle-from-1", &[SDA_5, GEN_6], "spindles are asked for from 1",
+    row("cnc.sda.spindle-from-1", &[SDA_5, GEN_6],
+        "the CNC counts spindles from 1 in requests for object addresses",
         |cnc, call| match group(call) & 0xF000 {
             0x5000 => with_instance(cnc, call, |spindle, axis| (spindle.wrapping_sub(1), axis)),
             _ => cnc.answer(call),
         }),
-    row("cnc.sda.spindle-one-only", &[SDA_5], "the first spindle is the only one found",
+    row("cnc.sda.spindle-one-only", &[SDA_5], "the CNC finds only the first spindle",
         |cnc, call| absent(cnc, call, |class, spindle, _| class == 0x5000 && spindle > 0)),
     row("cnc.sda.hld-own-axes", &[SDA_13],
-        "the HLD of the first channel holds the axes of this channel alone",
+        "the HLD of channel 1 has only the axes of the channel, not those of the whole platform",
         |cnc, call| match (group(call) & 0xEF_FFFF, is(call, FIND)) {
             (0x02_3900, true) => absent(cnc, call, |_, channel, axis| channel == 1 && axis > 3),
             (0x02_3301..=0x02_38FF, _) if group(call) & 0xFF == 1 && offset(call) >= 0x4_0000 => {
@@ -187,8 +200,10 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.geo-missing", &[GEN_4], "nothing answers at the port 551", |cnc, call| match call.port {
-        AmsPort::GEO => Err(AdsError::TARGET_PORT_NOT_FOUND),
-        _ => cnc.answer(call),
-    }),
+    row("cnc.gen.geo-missing", &[GEN_4],
+        "the CNC rejects every Read, Write and ReadWrite at port 551 (GEO) as an unknown port",
+        |cnc, call| match call.port {
+            AmsPort::GEO => Err(AdsError::TARGET_PORT_NOT_FOUND),
+            _ => cnc.answer(call),
+        }),
 ];

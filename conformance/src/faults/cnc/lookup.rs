@@ -1,4 +1,4 @@
-//! Looks up channels, types and descriptions for defects.
+//! Looks up descriptors, descriptions, types, names and handles in the CNC without the defect.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::operation::{AdsService, Call};
@@ -15,7 +15,7 @@ pub(super) const fn one(number: u32) -> Key {
     (number, 0, Vec::new())
 }
 
-/// The text `old` after `new`, without a NUL, has overwritten its start.
+/// The text `old`, with its first bytes overwritten by `new`.
 pub(super) fn over(new: &[u8], old: &[u8]) -> Vec<u8> {
     [new, old.get(new.len()..).unwrap_or_default()].concat()
 }

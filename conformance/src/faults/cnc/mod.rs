@@ -39,12 +39,14 @@ mod write_sequence;
 pub(in crate::faults) use self::bytes::{
     after_nul, dimensions, fours, number, records, records_mut, set_u32, u32_at,
 };
+pub(in crate::faults) use self::content::empty_place;
 pub use self::faulty::Faulty;
 pub(in crate::faults) use self::handle::{joined, parts};
+pub(in crate::faults) use self::instance::absent;
 pub(in crate::faults) use self::lookup::{indexed, with_indices};
 pub(in crate::faults) use self::request::{
     DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
-    first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
+    first, function, functions, group, is, is_at, is_lookup, of_decoder, offset, value_at,
 };
 pub(crate) use self::row::CncFault;
 pub(in crate::faults) use self::row::{CncDefect, fault, on, program, row};

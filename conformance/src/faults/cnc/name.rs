@@ -19,26 +19,29 @@ const fn german(mut row: CncDefect) -> CncDefect {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.var.name-of-200", &[VAR_9], "names of more than 200 characters are rejected",
+    row("cnc.var.name-of-200", &[VAR_9],
+        "the CNC rejects names of variables with more than 200 characters",
         |cnc, call| if is(call, NAMED) && text(call.data).len() > 200 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.name-of-254", &[VAR_9], "names take 254 characters at most",
+    row("cnc.var.name-of-254", &[VAR_9],
+        "the CNC rejects names of variables with 255 characters, the maximum",
         |cnc, call| if is(call, NAMED) && text(call.data).len() > 254 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.name-of-256", &[VAR_9], "names of more than 255 characters are cut and looked up",
+    row("cnc.var.name-of-256", &[VAR_9],
+        "the CNC cuts a name of more than 256 bytes including NULs, and looks it up",
         |cnc, call| if is_lookup(call) && call.data.len() > 256 {
             let name = text(call.data);
             cnc.with(call, &[name.get(..255).unwrap_or(name), &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.name-not-ended", &[VAR_9], "names with a NUL are rejected",
+    row("cnc.var.name-not-ended", &[VAR_9], "the CNC accepts a name in a query only without a NUL",
         |cnc, call| if !is_lookup(call) {
             cnc.answer(call)
         } else if call.data.contains(&0) {
@@ -47,7 +50,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.with(call, &[call.data, &[0]].concat())
         }),
     row("cnc.var.name-one-character", &[VAR_9],
-        "an absent name is answered as the name with one character less",
+        "an unknown name addresses the variable whose name lacks the last character",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
             cnc.answer(call),
@@ -60,7 +63,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     row("cnc.var.name-unknown", &[VAR_9, VAR_20],
-        "a name that is not there has the handle 0 and the value 0",
+        "a request for the handle or the value of an unknown name returns four zero bytes",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
             cnc.answer(call),
@@ -69,7 +72,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     row("cnc.var.name-unknown-nothing", &[VAR_9, VAR_20],
-        "a name that is not there is answered without an error and without data",
+        "a request for the handle or the value of an unknown name succeeds without data",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
             cnc.answer(call),
@@ -77,7 +80,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.var.cycle-has-handle", &[VAR_18], "V.CYC has handles, by which it is read",
+    row("cnc.var.cycle-has-handle", &[VAR_18],
+        "the CNC returns handles for V.CYC variables and reads the variables by them",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) if text(call.data).starts_with(b"V.CYC.") => {
                 cnc.answer(&at(call, group(call), 0x48))
@@ -91,13 +95,15 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.cycle-refused", &[VAR_18], "V.CYC is not there at all",
+    row("cnc.var.cycle-refused", &[VAR_18],
+        "the CNC rejects the names of V.CYC variables as unknown",
         |cnc, call| if is(call, NAMED) && text(call.data).starts_with(b"V.CYC.") {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {
             cnc.answer(call)
         }),
-    german(row("cnc.var.dynamic-has-handle", &[VAR_18], "V.P, V.L and V.S have handles",
+    german(row("cnc.var.dynamic-has-handle", &[VAR_18],
+        "the CNC returns handles for the names of V.P, V.L and V.S",
         |cnc, call| match (function(call), call.data) {
             (Some(Function::HandleByName), [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => {
                 cnc.ask(group(call), 0x48, call.data)?;
@@ -106,13 +112,13 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         })),
     german(row("cnc.var.dynamic-refused", &[VAR_19],
-        "V.P, V.L and V.S are not reached through the channel interface",
+        "the CNC rejects the names of V.P, V.L and V.S on the channel interface",
         |cnc, call| match (is_at(call, NAMED), call.data) {
             (true, [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => Err(AdsError::SYMBOL_NOT_FOUND),
             _ => cnc.answer(call),
         })),
     german(row("cnc.var.dynamic-4-bytes", &[VAR_19],
-        "V.P, V.L and V.S are 4 bytes through the channel interface",
+        "a read of V.P, V.L or V.S on the channel interface returns 4 bytes instead of 8",
         |cnc, call| match (of_decoder(call), call.data) {
             (Some(0x48), [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => {
                 cnc.answer(call).map(|mut bytes| {
@@ -122,7 +128,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         })),
-    row("cnc.var.structure-answered", &[VAR_20], "the name of a structure is answered as its first element",
+    row("cnc.var.structure-answered", &[VAR_20],
+        "the name of a structure addresses the first V.E variable in the structure",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
             cnc.answer(call),
@@ -141,7 +148,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     on("cnc.var.path-index-ignored", &[VAR_20],
-        "an index within a name is ignored: V.G.NP[1].V is V.G.NP[0].V",
+        "the CNC treats each index before a dot in a name as 0: V.G.NP[1].V is V.G.NP[0].V",
         &[Function::ReadByName, Function::HandleByName], |cnc, call| {
             let name = text(call.data);
             let path = without_indices(name);
@@ -162,14 +169,14 @@ pub(super) const ROWS: &[CncDefect] = &[
                 .or_else(|_| cnc.answer(call))
         }),
     row("cnc.var.element-by-name-refused", &[VAR_20, VAR_14],
-        "names with an index of an element are rejected",
+        "the CNC rejects names that end with the index of an element",
         |cnc, call| if is(call, NAMED) && text(call.data).ends_with(b"]") {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {
             cnc.answer(call)
         }),
     row("cnc.var.leaves-without-structure", &[VAR_20, VAR_4],
-        "descriptions have the last part of a name alone: V.E.array_sgn32",
+        "names in descriptions lack structures: V.E.array_uns32 for V.E.struct.array_uns32",
         |cnc, call| super::reply(cnc, call, &[Function::DescribeByIndex], |bytes| {
             let (head, name) =
                 bytes.split_at_checked(super::dimensions(&bytes).1).unwrap_or_default();
@@ -179,7 +186,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             [head, kind, last, &[0]].concat()
         })),
     on("cnc.var.name-dashes", &[VAR_9, VAR_20],
-        "structures are divided by a colon, V.E.struct:array_uns32, not by a dot",
+        "the CNC expects a colon instead of the dot after a structure: V.E.struct:array_uns32",
         NAMED, |cnc, call| {
             let head = call.data.get(..4).unwrap_or_default();
             let name = text(call.data.get(4..).unwrap_or_default());
@@ -191,7 +198,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.with(call, &[head, &name, &[0], after_nul(call.data)].concat())
         }),
     row("cnc.var.by-name-unavailable", &[VAR_28],
-        "there is no description by name, though the version has it",
+        "the CNC rejects requests for a description by name (0x4C), although its version has it",
         |cnc, call| match of_decoder(call) {
             Some(0x4C) => Err(AdsError::INVALID_OFFSET),
             _ => cnc.answer(call),

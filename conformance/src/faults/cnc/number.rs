@@ -31,19 +31,21 @@ pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.var.sum-refused", &[VAR_1], "the empty kind is rejected",
+    row("cnc.var.sum-refused", &[VAR_1],
+        "the CNC rejects the empty kind, which requests the number of variables of all kinds",
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.sum-of-external", &[VAR_1], "the empty kind asks for V.E",
+    row("cnc.var.sum-of-external", &[VAR_1], "the CNC treats the empty kind as V.E",
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
             cnc.with(call, b"V.E\0")
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.sum-without-axes", &[VAR_1], "the sum of all kinds leaves out V.A",
+    row("cnc.var.sum-without-axes", &[VAR_1],
+        "the number of variables of all kinds does not count V.A",
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
             cnc.answer(call).map(|mut bytes| {
                 let sum = count(cnc, call, b"V.E").wrapping_add(count(cnc, call, b"V.G"));
@@ -53,20 +55,22 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.sum-0", &[VAR_1], "the sum of all kinds is 0",
+    row("cnc.var.sum-0", &[VAR_1], "the number of variables of all kinds is 0",
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
             cnc.answer(call).map(|_| vec![0; 4])
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.index-8-bit", &[VAR_2], "of an index the lowest byte counts",
+    row("cnc.var.index-8-bit", &[VAR_2],
+        "the CNC uses only the lowest byte of the index in a request for a description",
         |cnc, call| indexed(cnc, call, |index, kind| (index & 0xFF, kind.to_vec()))),
-    row("cnc.var.index-ignored", &[VAR_3], "the variable described is the first, whatever the index",
+    row("cnc.var.index-ignored", &[VAR_3],
+        "a description by index is that of the first variable of the kind, whatever the index",
         |cnc, call| indexed(cnc, call, |index, kind| {
             (if index < count(cnc, call, kind) { 0 } else { index }, kind.to_vec())
         })),
     row("cnc.var.index-reversed", &[VAR_3, VAR_15],
-        "the extended description is that of the variable as far from the end",
+        "extended descriptions are in reverse order: index 0 is the last variable",
         |cnc, call| match offset(call) {
             0x4B => indexed(cnc, call, |index, kind| {
                 let last = count(cnc, call, kind).wrapping_sub(1);

@@ -23,7 +23,7 @@ fn content(call: &Call<'_>) -> Option<ComGroup> {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.com.content-big-endian", &[GEN_1, COM_5],
-        "contents are read and written with the most significant byte first",
+        "contents of objects of up to 8 bytes have the most significant byte first",
         |cnc, call| match (is(call, READ), is(call, WRITE)) {
             (true, _) => cnc.answer(call).map(|mut bytes| {
                 if bytes.len() <= 8 {
@@ -37,7 +37,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.content-of-channel-1", &[COM_5], "contents of channels are those of channel 1",
+    row("cnc.com.content-of-channel-1", &[COM_5],
+        "the CNC reads and writes the objects of every channel in channel 1",
         |cnc, call| match content(call) {
             Some(com) if com.table == ComTable::Channel && com.instance > 1 => {
                 cnc.at(call, 0x12_0101, offset(call))
@@ -45,26 +46,29 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.com.write-read-only-accepted", &[COM_2],
-        "a write of what is read-only succeeds, and changes nothing",
+        "a write to a read-only object succeeds and changes nothing",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.com.write-read-only-done", &[COM_2], "what is read-only is written", |cnc, call| {
-        if let Some(kept) = cnc.memory().get(&key(call))
-            && is(call, READ)
-        {
-            return Ok(kept);
-        }
-        match (is(call, WRITE), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_ACCESS)) => {
-                cnc.memory().store(key(call), call.data.to_vec());
-                Ok(Vec::new())
+    row("cnc.com.write-read-only-done", &[COM_2],
+        "a write to a read-only object succeeds, and the written value is read from then on",
+        |cnc, call| {
+            if let Some(kept) = cnc.memory().get(&key(call))
+                && is(call, READ)
+            {
+                return Ok(kept);
             }
-            (_, answer) => answer,
-        }
-    }),
-    row("cnc.com.write-two", &[COM_5], "a write to an object of one axis is one to that of every axis",
+            match (is(call, WRITE), cnc.answer(call)) {
+                (true, Err(AdsError::INVALID_ACCESS)) => {
+                    cnc.memory().store(key(call), call.data.to_vec());
+                    Ok(Vec::new())
+                }
+                (_, answer) => answer,
+            }
+        }),
+    row("cnc.com.write-two", &[COM_5],
+        "a write to an object with an axis in its index offset also changes that of axes 1 to 3",
         |cnc, call| if is(call, WRITE) && offset(call) >= 0x1_0000 && offset(call) & 0xFFFF != 3 {
             let reply = cnc.answer(call);
             if reply.is_ok() {
@@ -76,7 +80,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.com.write-bit", &[COM_5], "a write of a BOOL inverts it",
+    row("cnc.com.write-bit", &[COM_5],
+        "a write to an object of 1 byte stores 0 for any value other than 0, and 1 for 0",
         |cnc, call| if is(call, WRITE) && call.data.len() == 1 {
             let data: Vec<u8> = call.data.iter().map(|byte| u8::from(*byte == 0)).collect();
             cnc.with(call, &data)
@@ -84,7 +89,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.com.axis-not-in-offset", &[COM_6],
-        "a platform axis is addressed by the group only: (0x120200, 0x10001) is rejected",
+        "the CNC rejects a platform axis in the offset, as in (0x120200, 0x10001)",
         |cnc, call| match content(call) {
             Some(com) if com.table == ComTable::Axis && com.instance == 0 => {
                 Err(AdsError::INVALID_OFFSET)
@@ -92,7 +97,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.com.command-elsewhere", &[COM_6],
-        "mc_command_single_block_w is at the offset 0x2, where its descriptor says it is",
+        "mc_command_single_block_w is at offset 0x2 instead of 0x1, as its descriptor states",
         |cnc, call| match (content(call), offset(call)) {
             (Some(com), 1) if com.table == ComTable::Channel => Err(AdsError::INVALID_OFFSET),
             (Some(com), 2) if com.table == ComTable::Channel && com.instance > 0 => {
@@ -108,7 +113,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 bytes
             }),
         }),
-    row("cnc.com.platform-elsewhere", &[COM_6], "platform data is at (0x120200, 0x251)",
+    row("cnc.com.platform-elsewhere", &[COM_6],
+        "the platform content at offset 0x251 is in group 0x120200 instead of 0x120100",
         |cnc, call| match (group(call) & !LOGICAL, offset(call)) {
             (0x02_0100 | 0x02_0101, 0x251) => Err(AdsError::INVALID_OFFSET),
             (0x02_0200, 0x251) => cnc.answer(&at(call, 0x12_0100, 0x251)),

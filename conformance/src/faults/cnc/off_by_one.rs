@@ -1,4 +1,5 @@
-//! Defects that use the next or another channel, axis, kind or index instead of the requested one.
+//! Defects that use another channel, axis, kind, record or index instead of the requested one, or in
+//! addition to it.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -31,13 +32,13 @@ fn run_on(records: &mut [[u8; 84]], field: usize) {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.adr.spindle-written-first", &[ADR_2, SDA_9],
-        "what is written to the second spindle is written to the first",
+        "a write to any spindle changes the first spindle",
         |cnc, call| match (is(call, WRITE), group(call)) {
             (true, 0x02_5301..=0x02_53FF) => cnc.at(call, 0x02_5300, offset(call)),
             _ => cnc.answer(call),
         }),
     row("cnc.adr.attributes-of-channel", &[ADR_6, ADR_7],
-        "type, length and unit of an axis's element are those of the channel's with the same number",
+        "type, length and unit of element i of an axis are those of element i of the channel",
         |cnc, call| if is(
             call,
             &[Function::ReadElementType, Function::ReadElementLength, Function::ReadElementUnit],
@@ -47,7 +48,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.com.many-access-stays", &[COM_2, COM_3],
-        "in a read of several descriptors, those after one with write access have it too",
+        "in a reply, the descriptors after one with write access have write access too",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
             let mut writable = false;
             for record in records_mut(&mut bytes) {
@@ -57,14 +58,14 @@ pub(super) const ROWS: &[CncDefect] = &[
             bytes
         })),
     row("cnc.com.many-types-run-on", &[COM_2, COM_3],
-        "of several descriptors a type shorter than the one before runs on with the rest of that",
+        "in a reply, a type shorter than that of the previous descriptor is followed by its rest",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
             let mut records = super::records(&bytes);
             run_on(&mut records, 52);
             records.concat()
         })),
     row("cnc.com.write-first-channel-too", &[COM_5],
-        "what is written to an object of channel 2 is written to that of channel 1 too",
+        "a write to an object of channel 2 also changes the object of channel 1",
         |cnc, call| {
             let reply = cnc.answer(call);
             if reply.is_ok()
@@ -76,7 +77,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             reply
         }),
     on("cnc.dyn.names-sorted", &[DYN_4, DYN_2],
-        "names by index are sorted by the alphabet, values by index are not",
+        "names of parameters by index are in alphabetical order, unlike the values by index",
         &[Function::DynamicNameByIndex], |cnc, call| {
             cnc.answer(call)?;
             let all = (1_u32..).map_while(|index| cnc.with(call, &index.to_le_bytes()).ok());
@@ -87,7 +88,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             super::within_length(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
         }),
     row("cnc.var.strings-127-apart", &[VAR_11, VAR_14],
-        "elements of an array of STRING, by handle, are a byte less apart than they are long",
+        "a read by handle of element i of a STRING array starts i bytes too early",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
             (true, Some((handle, indices, _))) if indices.len() == 1 => {
                 let correct = cnc.answer(call)?;
@@ -101,7 +102,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.sum-with-cycle", &[VAR_1], "the sum of all kinds counts V.CYC too",
+    row("cnc.var.sum-with-cycle", &[VAR_1], "the number of variables of all kinds counts V.CYC too",
         |cnc, call| if is(call, &[Function::CountVariables]) && text(call.data).is_empty() {
             let names = [&b"V.CYC.count\0"[..], b"V.CYC.matrix\0"];
             let there = names.iter().filter(|name| cnc.ask(group(call), 0x48, name).is_ok());
@@ -115,7 +116,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     on("cnc.stm.room-of-all", &[STM_3],
-        "what the interfaces of all channels hold counts against the 4094 bytes of each",
+        "the limit of 4094 bytes applies to the streaming interfaces of all channels together",
         STREAM, |cnc, call| {
             let total = |channel: u8| cnc.cnc.with_program(channel, |program| program.buffered());
             let total: usize = cnc.channels().into_iter().filter_map(|one| total(one).ok()).sum();
@@ -126,7 +127,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     row("cnc.var.axis-two-copies", &[VAR_26],
-        "what is written on the axis interface is read there, and not on the channel interface",
+        "a value written on the axis interface is read only there, not on the channel interface",
         |cnc, call| {
             let key = (group(call) & 0xFF, offset(call) >> 16, text(call.data).to_vec());
             match function(call) {

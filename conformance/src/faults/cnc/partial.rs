@@ -1,4 +1,4 @@
-//! Defects of one type or one way of access; all other requests are answered correctly.
+//! Defects that affect only one data type, or only one of several ways to access the same value.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -50,12 +50,13 @@ fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.adr.spindles-without-flag", &[ADR_6, ADR_5],
-        "spindles have no write flag: 0x25800 is rejected",
+        "the CNC rejects a read of the write flag of a spindle's element (0x25800)",
         |cnc, call| match group(call) & 0xFF_FF00 {
             0x02_5800 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
         }),
-    row("cnc.gen.real32-8-bytes", &[GEN_5, SDA_7, SDA_8], "a REAL32 of SDA and GEO is read as 8 bytes",
+    row("cnc.gen.real32-8-bytes", &[GEN_5, SDA_7, SDA_8],
+        "a read of a REAL32 element of SDA or GEO returns it as a REAL64 of 8 bytes",
         |cnc, call| if is(call, &[Function::ReadElement]) && element_is(cnc, call, b"REAL32") {
             within_length(
                 call,
@@ -68,7 +69,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.gen.rows-aligned", &[GEN_2, VAR_14],
-        "in a whole array of two dimensions, by name, each row begins at a multiple of 4 bytes",
+        "a read by name of a whole array of two dimensions pads each row to a multiple of 4 bytes",
         |cnc, call| if is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
             let whole = cnc.whole(call)?;
             let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
@@ -87,7 +88,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.gen.latin-1", &[GEN_3],
-        "values of STRING are Latin-1: what CP1252 has from 80 to 9F is read as a question mark",
+        "a read by name of a STRING returns question marks for the characters 80 to 9F",
         |cnc, call| if is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
             let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
             cnc.answer(call).map(|mut bytes| {
@@ -100,12 +101,14 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.gen.units-ascii", &[GEN_3, SDA_6], "characters of units beyond ASCII are left out",
+    row("cnc.gen.units-ascii", &[GEN_3, SDA_6],
+        "units in replies lack their characters beyond ASCII",
         |cnc, call| reply(cnc, call, &[Function::ReadElementUnit], |mut bytes| {
             bytes.retain(u8::is_ascii);
             bytes
         })),
-    row("cnc.com.string-size", &[COM_2], "the size of a STRING in its descriptor leaves out the NUL",
+    row("cnc.com.string-size", &[COM_2],
+        "the size of a STRING in its descriptor does not count the NUL",
         |cnc, call| reply(cnc, call, &[Function::ReadDescriptors], |mut bytes| {
             for record in records_mut(&mut bytes) {
                 if text(record.get(52..).unwrap_or_default()) == b"STRING" {
@@ -115,7 +118,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             bytes
         })),
-    row("cnc.com.lreal-written-narrow", &[COM_5], "an LREAL is written with the precision of a REAL",
+    row("cnc.com.lreal-written-narrow", &[COM_5],
+        "a write to an LREAL object stores the value with the precision of a REAL",
         |cnc, call| if is(call, &[Function::WriteObject]) && object_is(cnc, call, b"LREAL") {
             match call.data.first_chunk::<8>() {
                 Some(value) if call.data.len() == 8 => cnc.with(call, &rounded(*value)),
@@ -125,7 +129,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.com.read-only-by-index", &[COM_5, ADR_12],
-        "objects with write access are read, and not written, by index",
+        "the CNC rejects writes to COM objects in addressing by index",
         |cnc, call| {
             let by_index = is(call, &[Function::WriteObject]) && group(call) & LOGICAL == 0;
             if by_index && descriptor(cnc, call).is_some() && offset(call) != 0x90 {
@@ -135,7 +139,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     row("cnc.sda.length-of-text", &[SDA_8],
-        "the length of a STRING is that of the text it has now, its content has all bytes",
+        "the length of a STRING element is that of its current text instead of its content",
         |cnc, call| if is(call, &[Function::ReadElementLength]) && element_is(cnc, call, b"STRING") {
             let content = cnc.read(call.port, group(call) & !0xF00 | 0x300, offset(call))?;
             let len = u32::try_from(text(&content).len()).unwrap_or_default();
@@ -146,7 +150,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.sda.negative-written-0", &[SDA_7, SDA_9], "a negative number is written to an SGN16 as 0",
+    row("cnc.sda.negative-written-0", &[SDA_7, SDA_9],
+        "a write of a negative number to an SGN16 element stores 0",
         |cnc, call| if is(call, &[Function::WriteElement]) && element_is(cnc, call, b"SGN16") {
             match call.data {
                 [_, high] if *high >= 0x80 => cnc.with(call, &[0; 2]),
@@ -156,14 +161,14 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.sda.hld-axes-apart", &[SDA_13],
-        "what is written to a platform axis of the first channel's HLD is read there, and not as \
-         the platform axis's without a channel",
+        "a value written to an axis in the HLD of channel 1 is read only there, not in the other \
+         HLDs",
         hld_apart),
     on("cnc.dyn.value-six-digits", &[DYN_3, DYN_4],
-        "values of parameters have six digits after the point: 1e-300 is 0",
+        "values of parameters are rounded to six decimal places: 1e-300 is 0",
         BOTH, |cnc, call| cnc.answer(call).map(six_digits)),
     row("cnc.var.read-only-by-handle", &[VAR_6],
-        "what is READ_ONLY is written by its handle, and not by its name",
+        "a write by handle to a READ_ONLY variable succeeds, and reads by handle return the value",
         |cnc, call| match (function(call), parts(call.data)) {
             (Some(Function::WriteByHandle), Some((handle, indices, value))) => {
                 match cnc.answer(call) {
@@ -182,12 +187,13 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.var.strings-read-only", &[VAR_6], "a STRING is described as READ_ONLY, and written",
+    on("cnc.var.strings-read-only", &[VAR_6],
+        "STRING variables are described as READ_ONLY, although writes to them succeed",
         DESCRIPTIONS, |cnc, call| {
             let answer = cnc.answer(call)?;
             if is_string(&answer) { number(Ok(answer), 8, |_| 1) } else { Ok(answer) }
         }),
-    row("cnc.var.cycle-read-only", &[VAR_18], "V.CYC is read, and not written",
+    row("cnc.var.cycle-read-only", &[VAR_18], "the CNC rejects writes to V.CYC variables",
         |cnc, call| if is(call, &[Function::WriteByName]) && call.data.starts_with(b"V.CYC.") {
             Err(AdsError::INVALID_ACCESS)
         } else {

@@ -4,7 +4,9 @@ use ads_cnc::address::{ClassGroup, ComGroup, Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{AdsService, Call, Effect, Function, OffsetRule};
 
-/// A constant list of the functions whose row has a property.
+use super::{after_nul, parts};
+
+/// A constant list of the functions whose row in the function table has a property.
 macro_rules! functions {
     (|$spec:ident| $has:expr) => {{
         const FOUND: ([Function; Function::ALL.len()], usize) = {
@@ -112,7 +114,18 @@ pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool 
     of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))
 }
 
-/// Whether a call looks up a name: a ReadWrite at the offset of a function whose request has a name.
+/// Whether a call looks up a name on the channel interface: a ReadWrite at the offset of a function in
+/// `NAMED`.
 pub(in crate::faults) fn is_lookup(call: &Call<'_>) -> bool {
     is_at(call, NAMED) && call.service == AdsService::ReadWrite
+}
+
+/// The offset of the value in the data of a write.
+pub(in crate::faults) fn value_at(call: &Call<'_>) -> usize {
+    let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
+        b"name" => after_nul(call.data),
+        b"handle" => parts(call.data).map_or(&[][..], |(_, _, value)| value),
+        _ => call.data,
+    };
+    call.data.len().saturating_sub(value.len())
 }

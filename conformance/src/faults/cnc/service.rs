@@ -46,39 +46,43 @@ fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.svc.missing", &[SVC_1, SVC_11], "the variables of the Service Interface are not there",
+    row("cnc.svc.missing", &[SVC_1, SVC_11],
+        "the CNC rejects the names of the variables of the Service Interface as unknown",
         |cnc, call| if of_service(call) && super::of_decoder(call).is_some() {
             Err(AdsError::SYMBOL_NOT_FOUND)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.channel-1", &[SVC_1], "there is one Service Interface for all channels",
+    row("cnc.svc.channel-1", &[SVC_1], "all channels share the Service Interface of channel 1",
         |cnc, call| if of_service(call) && super::of_decoder(call).is_some() {
             cnc.at(call, 0x12_2301, offset(call))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-20", &[SVC_1], "RESPONSE takes 20 characters, and what is more is lost",
+    row("cnc.svc.response-20", &[SVC_1],
+        "the CNC stores only the first 20 characters of a RESPONSE",
         |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 21 {
             let response = after_nul(call.data).get(..20).unwrap_or_default();
             cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-64", &[SVC_1], "a RESPONSE of more than 64 bytes is rejected",
+    row("cnc.svc.response-64", &[SVC_1], "the CNC rejects a RESPONSE of more than 64 bytes",
         |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 64 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-129", &[SVC_1], "a RESPONSE of more than 128 bytes is cut and taken",
+    row("cnc.svc.response-129", &[SVC_1],
+        "the CNC accepts a RESPONSE of more than 128 bytes and stores its first 127 characters",
         |cnc, call| if writes(call, RESPONSE) && after_nul(call.data).len() > 128 {
             let response = after_nul(call.data).get(..127).unwrap_or_default();
             cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.request-64", &[SVC_1], "REQUEST is read as its first 63 characters",
+    row("cnc.svc.request-64", &[SVC_1],
+        "a read of REQUEST by name returns only its first 63 characters",
         |cnc, call| if reads(call, REQUEST) {
             cnc.answer(call).map(|mut bytes| {
                 bytes.truncate(64);
@@ -88,19 +92,21 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.texts-upper-case", &[SVC_1], "REQUEST is read in upper case",
+    row("cnc.svc.texts-upper-case", &[SVC_1],
+        "a read of REQUEST by name returns its text in upper case",
         |cnc, call| if reads(call, REQUEST) {
             cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-read-empty", &[SVC_1], "RESPONSE is written and not read back: it is empty",
+    row("cnc.svc.response-read-empty", &[SVC_1], "a read of RESPONSE by name returns an empty text",
         |cnc, call| if reads(call, RESPONSE) {
             cnc.answer(call).map(|bytes| vec![0; bytes.len()])
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.states-real", &[SVC_1], "the states are REAL64, as numbers of the NC program",
+    row("cnc.svc.states-real", &[SVC_1],
+        "REQUEST_STATE and RESPONSE_STATE are read as REAL64 instead of UNS32",
         |cnc, call| if reads(call, REQUEST_STATE) || reads(call, RESPONSE_STATE) {
             cnc.answer(call).map(|bytes| {
                 f64::from(u32_at(&bytes, 0).unwrap_or_default()).to_le_bytes().to_vec()
@@ -108,7 +114,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    on("cnc.svc.types-uns08", &[SVC_1], "UUID, REQUEST and RESPONSE are arrays of UNS08",
+    on("cnc.svc.types-uns08", &[SVC_1],
+        "descriptions of UUID, REQUEST and RESPONSE have the type UNS08 instead of STRING",
         &[Function::DescribeByIndex, Function::DescribeByName],
         |cnc, call| cnc.answer(call).and_then(|bytes| {
             let name = match function(call) {
@@ -121,20 +128,21 @@ pub(super) const ROWS: &[CncDefect] = &[
                 Ok(bytes)
             }
         })),
-    row("cnc.svc.read-only", &[SVC_1], "RESPONSE and RESPONSE_STATE are not written over ADS",
+    row("cnc.svc.read-only", &[SVC_1], "the CNC rejects writes to RESPONSE and RESPONSE_STATE",
         |cnc, call| if writes(call, RESPONSE) || writes(call, RESPONSE_STATE) {
             Err(AdsError::INVALID_ACCESS)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.uuid-and-request-swapped", &[SVC_1], "UUID reads as REQUEST, REQUEST as UUID",
+    row("cnc.svc.uuid-and-request-swapped", &[SVC_1],
+        "a read of UUID returns REQUEST, and a read of REQUEST returns UUID",
         |cnc, call| match (reads(call, UUID), reads(call, REQUEST)) {
             (true, _) => read(cnc, call, REQUEST),
             (_, true) => read(cnc, call, UUID),
             _ => cnc.answer(call),
         }),
     row("cnc.svc.request-state-resets-not", &[SVC_3],
-        "a write of REQUEST_STATE leaves RESPONSE_STATE as it is",
+        "a write to REQUEST_STATE does not set RESPONSE_STATE to 0",
         |cnc, call| {
             if reads(call, RESPONSE_STATE)
                 && let Some(kept) = cnc.memory().get(&key(call))
@@ -152,7 +160,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.svc.request-state-0-resets-not", &[SVC_3],
-        "a write of REQUEST_STATE resets RESPONSE to nothing in place of RESPONSE_STATE",
+        "a write to REQUEST_STATE empties RESPONSE instead of setting RESPONSE_STATE to 0",
         |cnc, call| {
             let mut empty = false;
             if writes(call, REQUEST_STATE) {
@@ -174,7 +182,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     row("cnc.svc.request-state-stays", &[SVC_4],
-        "REQUEST_STATE keeps its value after the service has finished",
+        "REQUEST_STATE does not become 0 when the service writes RESPONSE_STATE",
         |cnc, call| {
             if reads(call, REQUEST_STATE)
                 && let Some(kept) = cnc.memory().get(&key(call))
@@ -189,25 +197,29 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             cnc.answer(call)
         }),
-    row("cnc.svc.request-cleared", &[SVC_1, SVC_2], "REQUEST is empty as soon as REQUEST_STATE is set",
+    row("cnc.svc.request-cleared", &[SVC_1, SVC_2],
+        "a read of REQUEST returns an empty text while REQUEST_STATE is not 0",
         |cnc, call| if reads(call, REQUEST) && state(cnc, call, REQUEST_STATE) != 0 {
             cnc.answer(call).map(|bytes| vec![0; bytes.len()])
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.request-state-1", &[SVC_1], "a REQUEST_STATE that is not 0 is read as 1",
+    row("cnc.svc.request-state-1", &[SVC_1],
+        "a read of REQUEST_STATE returns 1 for every value other than 0",
         |cnc, call| if reads(call, REQUEST_STATE) {
             number(cnc.answer(call), 0, |state| state.min(1))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.response-state-8-bit", &[SVC_1], "of RESPONSE_STATE the lowest byte counts",
+    row("cnc.svc.response-state-8-bit", &[SVC_1],
+        "a read of RESPONSE_STATE returns only its lowest byte",
         |cnc, call| if reads(call, RESPONSE_STATE) {
             number(cnc.answer(call), 0, |state| state & 0xFF)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.svc.by-other-names", &[SVC_1], "the variables are called V.G.SERVICE_UUID and so on",
+    row("cnc.svc.by-other-names", &[SVC_1],
+        "the variables of the Service Interface are called V.G.SERVICE_UUID and so on",
         |cnc, call| {
             let name = text(call.data);
             match name.strip_prefix(b"V.G.SERVICE_") {
@@ -223,8 +235,9 @@ pub(super) const ROWS: &[CncDefect] = &[
         "the NC program reads RESPONSE without waiting for RESPONSE_STATE",
         Policy { awaits_response: false, ..Policy::DEFAULT }),
     program("cnc.svc.program-state-first", &[SVC_12],
-        "the NC program writes REQUEST_STATE before UUID and REQUEST",
+        "the NC program also writes REQUEST_STATE before UUID and REQUEST",
         Policy { state_first: true, ..Policy::DEFAULT }),
-    program("cnc.svc.program-waits-for-ever", &[SVC_8], "the cycle that waits does not end after @P2",
+    program("cnc.svc.program-waits-for-ever", &[SVC_8],
+        "the cycle SysServiceWait does not stop waiting after the time @P2",
         Policy { times_out: false, ..Policy::DEFAULT }),
 ];

@@ -1,4 +1,4 @@
-//! Defects whose replies depend on state that the CNC kept from an earlier request.
+//! Defects whose replies depend on earlier requests, and defects of replies to rejected requests.
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Function};
@@ -52,7 +52,8 @@ fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     }
 }
 
-/// Whether the axis place in the offset has an axis; `None` for calls that address no axis place.
+/// Whether the axis index in the offset has an axis; `None` for calls that do not address an axis of
+/// interpolator, decoder or path preparation by the channel's number.
 fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
     let channel = u8::try_from(instance(call)).ok()?;
     let place = u8::try_from(offset(call) >> 16).ok().filter(|place| *place > 0)?;
@@ -63,7 +64,7 @@ fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.sda.unit-runs-on", &[SDA_6],
-        "a unit that is shorter than the one read before it runs on with the rest of that",
+        "a unit that is shorter than the unit read before is followed by the rest of that unit",
         UNIT, |cnc, call| {
             let unit = cnc.whole(call)?;
             let before = cnc.memory().get(&one(1)).unwrap_or_default();
@@ -72,7 +73,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             within_length(call, Ok([&unit[..], &[0]].concat()))
         }),
     row("cnc.sda.absent-as-before", &[SDA_2],
-        "an instance that is not there is answered as the one that was found last",
+        "the object address of an instance that does not exist is the last one that was found",
         |cnc, call| {
             let answer = cnc.answer(call)?;
             match (is(call, FIND), answer.iter().all(|byte| *byte == 0)) {
@@ -84,7 +85,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 _ => Ok(answer),
             }
         }),
-    row("cnc.sda.blank-remains", &[SDA_11], "a place that its axis has left reads as it was read last",
+    row("cnc.sda.blank-remains", &[SDA_11],
+        "an axis index that its axis has left keeps the contents that were read there last",
         |cnc, call| match (is(call, &[Function::ReadElement]), occupied(cnc, call)) {
             (true, Some(true)) => {
                 let bytes = cnc.answer(call)?;
@@ -98,7 +100,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     on("cnc.dyn.count-never-falls", &[DYN_1],
-        "the number of parameters counts those that were there once and are gone",
+        "the number of dynamic parameters does not decrease when parameters are deleted",
         COUNT, |cnc, call| {
             let now = cnc.answer(call)?;
             let key = (group(call) & 0xFF, offset(call), Vec::new());
@@ -108,7 +110,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             Ok(most)
         }),
     on("cnc.dyn.index-remembered", &[DYN_4],
-        "a value by index is that of the parameter which was first read by the index",
+        "a value by index is always that of the parameter that had the index at the first read",
         BY_INDEX, |cnc, call| {
             let key = (group(call) & 0xFF, offset(call), call.data.to_vec());
             let known = cnc.memory().get(&key);
@@ -121,7 +123,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.at(&Call { data: &name, ..*call }, group(call), at)
         }),
     on("cnc.dyn.name-after-error", &[DYN_2],
-        "after a rejected index, the next name is that of the first parameter",
+        "after a rejected index, the next request for a name returns that of parameter 1",
         NAME, |cnc, call| {
             let answer = cnc.answer(call);
             let before = std::mem::replace(&mut cnc.memory().count, u32::from(answer.is_err()));
@@ -131,7 +133,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     on("cnc.var.extended-remains", &[VAR_16],
-        "the extended description of V.G and V.A is the one of V.E that was read before",
+        "the extended description of V.G and V.A is that of the V.E variable that was read last",
         &[Function::DescribeExtended], |cnc, call| {
             let bytes = cnc.answer(call)?;
             if !bytes.is_empty() {
@@ -141,11 +143,11 @@ pub(super) const ROWS: &[CncDefect] = &[
             within_length(call, Ok(kept))
         }),
     row("cnc.var.handle-slots", &[VAR_10],
-        "16 handles are known at a time: one more replaces the oldest, whose number is then a handle \
-         of its variable",
+        "the CNC keeps 16 handles by name: one more replaces the oldest, which then addresses the \
+         new variable",
         slots),
     row("cnc.var.handle-channel-of-last", &[VAR_10, VAR_11],
-        "a handle is looked for in the channel in which a handle was last asked for",
+        "a read by handle uses the channel in which a handle was last requested by name",
         |cnc, call| match function(call) {
             Some(Function::HandleByName) => {
                 cnc.memory().count = instance(call);
@@ -159,7 +161,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     sent("cnc.ads.target-of-first", &[ADS_5],
-        "the target of every response is the address that asked first",
+        "the target address of every response is that of the client that sent the first request",
         |cnc, _, bytes| {
             let source = bytes.get(TARGET..SOURCE).unwrap_or_default().to_vec();
             let mut memory = cnc.memory();
@@ -170,7 +172,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             set(bytes, TARGET, &first)
         }),
     sent("cnc.ads.result-stays", &[ADS_2, ADS_4],
-        "after a rejected Write, the next one is executed and has the same error number",
+        "a Write directly after a rejected request is executed, but returns the same error number",
         |cnc, request, bytes| {
             let result = u32_at(&bytes, RESULT).unwrap_or_default();
             let mut memory = cnc.memory();
@@ -185,14 +187,14 @@ pub(super) const ROWS: &[CncDefect] = &[
                 }
             }
         }),
-    sent("cnc.ads.refused-invoke-id-0", &[ADS_5], "a rejection has the invoke ID 0",
+    sent("cnc.ads.rejected-invoke-id-0", &[ADS_5],
+        "the invoke ID of a response with an error as the result is 0",
         |_, _, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) => set(bytes, INVOKE_ID, &[0; 4]),
             _ => bytes,
         }),
-    sent("cnc.ads.refused-data-length", &[ADS_5],
-        "the data length of a rejected Read or ReadWrite counts the result alone, and not the length \
-         after it",
+    sent("cnc.ads.rejected-data-length", &[ADS_5],
+        "the AMS header of a rejected Read or ReadWrite states a data length of 4 instead of 8",
         |_, request, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) if !frame::is(request, &[Command::WRITE]) && bytes.len() > LENGTH => {
                 set(bytes, frame::DATA_LENGTH, &[4, 0, 0, 0])
@@ -200,10 +202,10 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => bytes,
         }),
     row("cnc.ads.read-length-16-bit-wide", &[ADS_1, ADS_3, ADS_4],
-        "of the read length the lower 16 bits count: 0x10002 is 2",
+        "the CNC uses only the lowest 16 bits of the read length: 0x10002 is 2",
         |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call })),
     row("cnc.sda.found-not-read", &[SDA_5, ADR_7],
-        "of the position controller three axes are read, though all of them are found",
+        "the CNC finds all axes in the position controller, but rejects access to those above 3",
         |cnc, call| match group(call) & 0xFF_FFFF {
             0x12_0300..=0x12_08FF if offset(call) >= 0x4_0000 => Err(AdsError::INVALID_OFFSET),
             _ => cnc.answer(call),

@@ -1,7 +1,7 @@
 //! Defects in the writes of data streaming (STM).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function};
+use ads_cnc::operation::{AdsService, Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
@@ -12,7 +12,7 @@ use super::{
 fn stream(call: &Call<'_>) -> bool {
     group(call) & 0xEF_FF00 == 0x02_0100
         && offset(call) == 0x90
-        && call.service == ads_cnc::operation::AdsService::Write
+        && call.service == AdsService::Write
 }
 
 /// Changes the data of a write to a program stream with `other`.
@@ -22,7 +22,8 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> 
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.stm.object-renamed", &[STM_1], "the object of the stream is called mc_program_stream",
+    row("cnc.stm.object-renamed", &[STM_1],
+        "the name of the stream object is mc_program_stream instead of mc_program_stream_w",
         |cnc, call| {
             let mut answer = cnc.answer(call)?;
             if function(call) == Some(Function::ReadDescriptors) {
@@ -37,7 +38,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             Ok(answer)
         }),
     row("cnc.stm.object-moved", &[STM_1],
-        "the stream is written at the offset 0x91, as its descriptor says",
+        "the stream object is at offset 0x91 instead of 0x90, as its descriptor states",
         |cnc, call| match (stream(call), offset(call)) {
             (true, _) => Err(AdsError::INVALID_OFFSET),
             (_, 0x91) if group(call) & 0xEF_FF00 == 0x02_0100 => {
@@ -57,17 +58,26 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     row("cnc.stm.group-logical-only", &[STM_1, ADR_12],
-        "the stream is written at 0x120100 + channel, and not at 0x20100 + channel",
+        "the CNC accepts stream writes in group 0x120100 + channel, but not in 0x20100 + channel",
         |cnc, call| if stream(call) && group(call) & LOGICAL == 0 {
             Err(AdsError::INVALID_GROUP)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.by-read-write", &[STM_1], "the stream takes a ReadWrite, and no Write",
-        |cnc, call| if stream(call) { Err(AdsError::SERVICE_NOT_SUPPORTED) } else { cnc.answer(call) }),
-    row("cnc.stm.first-channel", &[STM_1], "what is written to the stream of any channel runs in channel 1",
+    row("cnc.stm.by-read-write", &[STM_1],
+        "the CNC accepts a ReadWrite to the stream object, but rejects a Write because of its service",
+        |cnc, call| {
+            let write = Call { service: AdsService::Write, ..*call };
+            match (stream(&write), call.service) {
+                (true, AdsService::Write) => Err(AdsError::SERVICE_NOT_SUPPORTED),
+                (true, AdsService::ReadWrite) => cnc.answer(&write),
+                _ => cnc.answer(call),
+            }
+        }),
+    row("cnc.stm.first-channel", &[STM_1],
+        "a write to the stream object of any channel reaches the streaming interface of channel 1",
         |cnc, call| if stream(call) { cnc.at(call, 0x12_0101, 0x90) } else { cnc.answer(call) }),
-    row("cnc.stm.packet-993", &[STM_2], "a write of up to 1024 bytes is taken",
+    row("cnc.stm.packet-993", &[STM_2], "the CNC accepts stream writes of 993 to 1024 bytes",
         |cnc, call| if stream(call) && (993..=1024).contains(&call.data.len()) {
             let (one, other) = call.data.split_at_checked(512).unwrap_or_default();
             cnc.with(call, one)?;
@@ -75,26 +85,27 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-cut", &[STM_2], "a write of more than 992 bytes is taken, and what is more is lost",
+    row("cnc.stm.packet-cut", &[STM_2],
+        "the CNC acknowledges a stream write of more than 992 bytes and discards the excess bytes",
         |cnc, call| if stream(call) && call.data.len() > 992 {
             cnc.with(call, call.data.get(..992).unwrap_or_default())
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-991", &[STM_2], "a write of 992 bytes is rejected",
+    row("cnc.stm.packet-991", &[STM_2], "the CNC rejects a stream write of 992 bytes, the maximum",
         |cnc, call| if stream(call) && call.data.len() == 992 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.packet-512", &[STM_2], "a write of more than 512 bytes is rejected",
+    row("cnc.stm.packet-512", &[STM_2], "the CNC rejects stream writes of more than 512 bytes",
         |cnc, call| if stream(call) && call.data.len() > 512 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
     row("cnc.stm.never-full", &[STM_3, STM_6],
-        "the interface is never full: what it has no room for is acknowledged and kept",
+        "the CNC accepts and keeps a write that does not fit into the streaming interface",
         |cnc, call| {
             let mut waiting = std::mem::take(&mut cnc.memory().later);
             while let Some(first) = waiting.first() {
@@ -118,12 +129,14 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.memory().later = waiting;
             answer
         }),
-    row("cnc.stm.full-lost", &[STM_6], "what the interface has no room for is acknowledged and lost",
+    row("cnc.stm.full-lost", &[STM_6],
+        "the CNC acknowledges and discards a write that does not fit into the streaming interface",
         |cnc, call| match (stream(call), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.stm.taken-refused", &[STM_6], "every fourth write is taken and acknowledged negatively",
+    row("cnc.stm.taken-refused", &[STM_6],
+        "the CNC takes the data of every fourth stream write, but acknowledges it negatively",
         |cnc, call| if stream(call) {
             let reply = cnc.answer(call);
             let mut memory = cnc.memory();
@@ -135,7 +148,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.full-for-good", &[STM_6], "once full, the interface takes nothing any more",
+    row("cnc.stm.full-for-good", &[STM_6],
+        "after the streaming interface was full once, the CNC rejects every stream write",
         |cnc, call| if !stream(call) {
             cnc.answer(call)
         } else if cnc.memory().count > 0 {
@@ -145,11 +159,12 @@ pub(super) const ROWS: &[CncDefect] = &[
                 cnc.memory().count = u32::from(*error == AdsError::INVALID_DATA);
             })
         }),
-    row("cnc.stm.one-line", &[STM_4], "of a write the first line is taken",
+    row("cnc.stm.one-line", &[STM_4], "the CNC takes only the first line of a stream write",
         |cnc, call| written(cnc, call, |data| {
             data.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default().to_vec()
         })),
-    row("cnc.stm.lines-merged", &[STM_4], "the lines of a write are taken as one",
+    row("cnc.stm.lines-merged", &[STM_4],
+        "the CNC joins the lines of a stream write to one line, with blanks between them",
         |cnc, call| written(cnc, call, |data| {
             let (lines, end) =
                 data.split_at_checked(data.len().saturating_sub(2)).unwrap_or_default();
@@ -157,7 +172,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 lines.iter().map(|byte| if b"\r\n".contains(byte) { b' ' } else { *byte });
             one.chain(end.iter().copied()).collect()
         })),
-    row("cnc.stm.lf-mended", &[STM_5], "a line that ends in LF alone is taken as one that ends in CR LF",
+    row("cnc.stm.lf-mended", &[STM_5],
+        "the CNC treats a streamed line that ends with LF alone like one that ends with CR LF",
         |cnc, call| written(cnc, call, |data| {
             let lines = data.split_inclusive(|byte| *byte == b'\n');
             lines
@@ -168,12 +184,14 @@ pub(super) const ROWS: &[CncDefect] = &[
                 })
                 .collect()
         })),
-    row("cnc.stm.end-mended", &[STM_5], "a last line without an end is given one",
+    row("cnc.stm.end-mended", &[STM_5],
+        "the CNC adds CR LF to a stream write that does not end with CR or LF",
         |cnc, call| written(cnc, call, |data| match data {
             [.., b'\r' | b'\n'] => data.to_vec(),
             data => [data, b"\r\n"].concat(),
         })),
-    row("cnc.stm.end-awaited", &[STM_5], "a line without an end is kept until the next write brings it",
+    row("cnc.stm.end-awaited", &[STM_5],
+        "the CNC keeps a last line without its end until another stream write completes it",
         |cnc, call| if stream(call) {
             let key = (group(call), 0, Vec::new());
             let before = cnc.memory().get(&key).unwrap_or_default();
@@ -188,11 +206,12 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.upper-case", &[STM_7], "the characters of a stream are made upper case",
+    row("cnc.stm.upper-case", &[STM_7], "the CNC converts streamed text to upper case",
         |cnc, call| written(cnc, call, <[u8]>::to_ascii_uppercase)),
-    row("cnc.stm.blanks-dropped", &[STM_7], "blanks in a stream are dropped",
+    row("cnc.stm.blanks-dropped", &[STM_7], "the CNC removes blanks from streamed text",
         |cnc, call| written(cnc, call, |data| data.iter().copied().filter(|byte| *byte != b' ').collect())),
-    row("cnc.stm.order-swapped", &[STM_15], "of two writes the second is taken before the first",
+    row("cnc.stm.order-swapped", &[STM_15],
+        "of each two stream writes, the CNC takes the second before the first",
         |cnc, call| if stream(call) {
             let before = std::mem::take(&mut cnc.memory().later);
             match before.first() {
@@ -209,18 +228,22 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.stm.taken-twice", &[STM_15], "every write is taken twice", |cnc, call| {
-        if stream(call) {
-            cnc.answer(call)?;
-        }
-        cnc.answer(call)
-    }),
-    row("cnc.stm.line-of-512", &[STM_20], "a line of more than 510 characters is rejected", |cnc, call| {
-        let long = |line: &[u8]| line.len() > 512;
-        if stream(call) && call.data.split_inclusive(|byte| *byte == b'\n').any(long) {
-            Err(AdsError::INVALID_SIZE)
-        } else {
+    row("cnc.stm.taken-twice", &[STM_15],
+        "the CNC takes the data of each stream write twice",
+        |cnc, call| {
+            if stream(call) {
+                cnc.answer(call)?;
+            }
             cnc.answer(call)
-        }
-    }),
+        }),
+    row("cnc.stm.line-of-512", &[STM_20],
+        "the CNC rejects a stream write with a line of more than 510 characters",
+        |cnc, call| {
+            let long = |line: &[u8]| line.len() > 512;
+            if stream(call) && call.data.split_inclusive(|byte| *byte == b'\n').any(long) {
+                Err(AdsError::INVALID_SIZE)
+            } else {
+                cnc.answer(call)
+            }
+        }),
 ];

@@ -17,20 +17,19 @@ pub(crate) struct Upstream<'a> {
     pub(super) memory: &'a Mutex<Memory>,
 }
 
-/// An address and a name.
+/// The key of stored bytes: usually an index group or channel, an index offset, and a name.
 pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
 
 /// The memory of a defect between requests.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
-    /// A number that the defect keeps: a count of requests, or a handle or invoke ID of an earlier
-    /// request.
+    /// A number that the defect keeps, such as a count of requests or the handle of an earlier request.
     pub(in crate::faults) count: u32,
-    /// Bytes that the defect stored, by address and name.
+    /// Bytes that the defect stored, with their keys.
     stored: Vec<(Key, Vec<u8>)>,
     /// Requests whose execution the defect delays.
     pub(in crate::faults) later: Vec<DelayedRequest>,
-    /// A response frame that the defect delays.
+    /// A response frame that the defect delays, or an AMS address of an earlier response.
     pub(in crate::faults) frame: Vec<u8>,
 }
 
@@ -75,7 +74,7 @@ impl Upstream<'_> {
         self.answer(&Call { data, ..*call })
     }
 
-    /// The correct reply to the same request with the maximum requested length.
+    /// The correct reply to the same request with the maximum read length.
     pub(in crate::faults) fn whole(&self, call: &Call<'_>) -> ReplyData {
         self.answer(&Call { read_length: u32::MAX, ..*call })
     }
@@ -137,14 +136,14 @@ pub(in crate::faults) fn later(call: &Call<'_>) -> DelayedRequest {
     }
 }
 
-/// Stores a write, and executes the write that the previous call stored.
+/// Stores a write, executes the write that the previous call stored, and replies with success.
 pub(in crate::faults) fn delay_write(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
     before.iter().for_each(|one| _ = cnc.late(one));
     Ok(Vec::new())
 }
 
-/// The reply; the error `INVALID_SIZE` if the reply is longer than the requested length.
+/// The reply; the error `INVALID_SIZE` if the reply is longer than the read length.
 pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> ReplyData {
     answer.and_then(|bytes| {
         if u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
@@ -155,7 +154,8 @@ pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> Re
     })
 }
 
-/// The reply, changed by `other` if the call requests one of these functions.
+/// The reply, changed by `other` if the call requests one of these functions; the error `INVALID_SIZE`
+/// if the changed reply is longer than the read length.
 pub(in crate::faults) fn reply(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -165,8 +165,8 @@ pub(in crate::faults) fn reply(
     if is(call, of) { within_length(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
 }
 
-/// The changed reply `answer`; the correct reply if `answer` is longer than the requested length or
-/// an error.
+/// The changed reply `answer`; the correct reply if `answer` is longer than the read length or an
+/// error.
 pub(in crate::faults) fn or_short(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -9,18 +9,20 @@ use super::{CncDefect, VALUES, function, group, is, on, reply, row, text, u32_at
 const EXTENDED: &[Function] = &[Function::DescribeExtended];
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.var.value-first", &[VAR_14], "a read by name without an index gives the first element",
+    row("cnc.var.value-first", &[VAR_14],
+        "a read by name of a whole array returns only its first element",
         |cnc, call| match (is(call, &[Function::ReadByName]), text(call.data).ends_with(b"]")) {
             (true, false) => first_element(cnc, call),
             _ => cnc.answer(call),
         }),
-    row("cnc.var.value-2048", &[VAR_14], "values are padded to 2048 bytes",
+    row("cnc.var.value-2048", &[VAR_14],
+        "values of variables in replies are padded with zeros to 2048 bytes",
         |cnc, call| reply(cnc, call, VALUES, |mut bytes| {
             bytes.resize(2048, 0);
             bytes
         })),
     row("cnc.var.value-by-handle-other", &[VAR_14, VAR_11],
-        "a value read by handle is the one of before the last write by name",
+        "a read by handle always returns the value of the first read with this handle and indices",
         |cnc, call| {
             let key = |call: &Call<'_>| (group(call), 0, call.data.to_vec());
             match function(call) {
@@ -36,7 +38,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 _ => cnc.answer(call),
             }
         }),
-    row("cnc.var.arrays-reversed", &[VAR_14], "elements of a whole array come in reverse order by name",
+    row("cnc.var.arrays-reversed", &[VAR_14],
+        "a read by name of a whole array returns its elements in reverse order",
         |cnc, call| if is(call, &[Function::ReadByName]) && !text(call.data).ends_with(b"]") {
             let len = described(cnc, call).map_or(0, |found| element(&found));
             cnc.answer(call).map(|bytes| match len {
@@ -46,19 +49,22 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.extended-of-global", &[VAR_16], "V.G has an extended description",
+    row("cnc.var.extended-of-global", &[VAR_16],
+        "V.G variables have an extended description: SYNCHRONIZED and GLOBAL",
         |cnc, call| if is(call, EXTENDED) && text(call.data.get(4..).unwrap_or_default()) == b"V.G" {
             within_length(call, cnc.answer(call).map(|_| vec![2, 0, 0, 0, 2, 0, 0, 0]))
         } else {
             cnc.answer(call)
         }),
-    row("cnc.var.extended-of-axis", &[VAR_16], "V.A has an extended description of zeros",
+    row("cnc.var.extended-of-axis", &[VAR_16],
+        "V.A variables have an extended description of 8 zero bytes",
         |cnc, call| if is(call, EXTENDED) && text(call.data.get(4..).unwrap_or_default()) == b"V.A" {
             within_length(call, cnc.answer(call).map(|_| vec![0; 8]))
         } else {
             cnc.answer(call)
         }),
-    on("cnc.var.string-cut", &[VAR_25], "a STRING is read as its first 8 bytes",
+    on("cnc.var.string-cut", &[VAR_25],
+        "a read of a STRING of at least 20 bytes returns only its first 8 bytes",
         VALUES, |cnc, call| {
             let is_text =
                 described(cnc, call).is_some_and(|found| u32_at(&found, 4) == Some(9));

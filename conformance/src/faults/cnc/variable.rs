@@ -70,7 +70,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             bytes
         })),
     row("cnc.var.description-largest-index", &[VAR_4, VAR_8],
-        "a description has the largest index of each dimension, not the number of elements",
+        "each dimension in a description is the largest index instead of the number of elements",
         |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (numbers, _) = dimensions(&bytes);
             let mut place = 20_usize;

@@ -1,14 +1,13 @@
-//! Defects with which functions return contradictory data about the same variable (VAR).
+//! Defects of variables that the replies of several functions, or of several requests, show (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::handle::parts;
 use super::number::count;
 use super::{
     CncDefect, NAMED, Upstream, WRITES, after_nul, dimensions, function, group, is, of_decoder,
-    offset, on, reply, row, text, u32_at, within_length,
+    offset, on, reply, row, text, u32_at, value_at, within_length,
 };
 
 /// Whether a call is a query that names a variable: its value, its handle or its description.
@@ -30,17 +29,6 @@ fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
     all.collect()
 }
 
-/// The offset of the value in the data of a write by handle or name.
-fn value_at(call: &Call<'_>) -> usize {
-    match function(call) {
-        Some(Function::WriteByHandle) => {
-            let len = parts(call.data).map_or(0, |(.., value)| value.len());
-            call.data.len().saturating_sub(len)
-        }
-        _ => call.data.len().saturating_sub(after_nul(call.data).len()),
-    }
-}
-
 /// The value that the address of a write has before the write.
 fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
     let head = call.data.get(..value_at(call)).unwrap_or_default();
@@ -54,7 +42,7 @@ fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.name-compared-8", &[VAR_9],
-        "names are compared by their first 8 characters if there is none that is the same",
+        "an unknown name addresses a variable whose name has the same first 8 characters",
         |cnc, call| match (is_query(call), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
                 let name = text(call.data);
@@ -65,7 +53,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     on("cnc.var.write-low-byte", &[VAR_12, VAR_13],
-        "of a written value the first byte counts, the others stay",
+        "a write to a variable changes only the first byte of the value",
         WRITES, |cnc, call| {
             let (at, old) = (value_at(call), old(cnc, call));
             let mut data = call.data.to_vec();
@@ -74,7 +62,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.with(call, &data)
         }),
     row("cnc.var.write-refused-done", &[VAR_12, VAR_13],
-        "a value of more bytes than the variable has is rejected, and its front written",
+        "the CNC rejects a value with more bytes than the variable, but stores the first of them",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let len = value_at(call).saturating_add(old(cnc, call).len());
@@ -84,7 +72,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     row("cnc.var.write-read-only-refused-done", &[VAR_6],
-        "a write of what is READ_ONLY is rejected, and its value read from then on",
+        "the CNC rejects a write by name to a READ_ONLY variable, but reads return the new value",
         |cnc, call| {
             let key = (group(call), 0, text(call.data).to_vec());
             match function(call) {
@@ -101,7 +89,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     on("cnc.var.text-keeps-rest", &[VAR_12, VAR_13, VAR_25],
-        "when a shorter text is written, the end of the old one stays after it",
+        "a shorter text that is written to a STRING variable keeps the rest of the old text",
         WRITES, |cnc, call| {
             let (at, old) = (value_at(call), old(cnc, call));
             let value = call.data.get(at..).unwrap_or_default();
@@ -114,7 +102,8 @@ pub(super) const ROWS: &[CncDefect] = &[
                 cnc.with(call, &[head, text, rest].concat())
             }
         }),
-    row("cnc.var.extended-swapped", &[VAR_15], "validity comes before synchronisation",
+    row("cnc.var.extended-swapped", &[VAR_15],
+        "an extended description has the validity before the synchronisation",
         |cnc, call| reply(cnc, call, &[Function::DescribeExtended], |mut bytes| {
             if bytes.len() == 8 {
                 bytes.rotate_left(4);
@@ -122,7 +111,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             bytes
         })),
     on("cnc.var.axis-write-all", &[VAR_26],
-        "a write on the axis interface is one to all axes of the channel",
+        "a write on the axis interface changes the variable of all axes of the channel",
         &[Function::AxisWriteByName], |cnc, call| {
             let reply = cnc.answer(call);
             for axis in (1..=3).filter(|_| reply.is_ok()) {
@@ -131,7 +120,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             reply
         }),
     row("cnc.var.axis-name-optional", &[VAR_26],
-        "on the channel interface a name without its axis is that of the first",
+        "on the channel interface, a V.A name without an axis addresses the first axis",
         |cnc, call| match (of_decoder(call), text(call.data)) {
             (Some(at @ (0x46 | 0x48)), name)
                 if name.starts_with(b"V.A.")
@@ -143,7 +132,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     on("cnc.var.value-cached", &[VAR_13, VAR_14],
-        "a value is read by name as it was when it was first read",
+        "a read by name always returns the value of the first read by this name",
         &[Function::ReadByName], |cnc, call| {
             let key = (group(call), 1, text(call.data).to_vec());
             let kept = cnc.memory().get(&key);
@@ -155,7 +144,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     row("cnc.var.count-8-bit-of-indices", &[VAR_11, VAR_24],
-        "of the number of indices the lowest byte counts",
+        "the CNC uses only the lowest byte of the number of indices in a read by handle",
         |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
             (Some(0x47), Some(count @ 0x100..)) => {
                 let mut data = call.data.to_vec();
@@ -165,7 +154,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.structure-index-beyond", &[VAR_20],
-        "an index within a name that is out of bounds is taken for 0",
+        "the CNC treats the first index in an unknown name as 0",
         |cnc, call| match (is_query(call), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
                 let name = String::from_utf8_lossy(text(call.data)).into_owned();

@@ -11,30 +11,32 @@ const BY_NAME: &[Function] = &[Function::WriteByName];
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.write-read-only-accepted", &[VAR_6],
-        "a write of what is READ_ONLY succeeds, and changes nothing",
+        "a write to a READ_ONLY variable succeeds and changes nothing",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
-    row("cnc.var.write-read-only-done", &[VAR_6], "what is READ_ONLY is written by name", |cnc, call| {
-        let key = (group(call), 0, text(call.data).to_vec());
-        match function(call) {
-            Some(Function::WriteByName) => match cnc.answer(call) {
-                Err(AdsError::INVALID_ACCESS) => {
-                    cnc.memory().store(key, after_nul(call.data).to_vec());
-                    Ok(Vec::new())
+    row("cnc.var.write-read-only-done", &[VAR_6],
+        "a write by name to a READ_ONLY variable succeeds, and reads by name return the value",
+        |cnc, call| {
+            let key = (group(call), 0, text(call.data).to_vec());
+            match function(call) {
+                Some(Function::WriteByName) => match cnc.answer(call) {
+                    Err(AdsError::INVALID_ACCESS) => {
+                        cnc.memory().store(key, after_nul(call.data).to_vec());
+                        Ok(Vec::new())
+                    }
+                    answer => answer,
+                },
+                Some(Function::ReadByName) => {
+                    let kept = cnc.memory().get(&key);
+                    kept.map_or_else(|| cnc.answer(call), Ok)
                 }
-                answer => answer,
-            },
-            Some(Function::ReadByName) => {
-                let kept = cnc.memory().get(&key);
-                kept.map_or_else(|| cnc.answer(call), Ok)
+                _ => cnc.answer(call),
             }
-            _ => cnc.answer(call),
-        }
-    }),
+        }),
     row("cnc.var.write-long-accepted", &[VAR_12, VAR_13],
-        "a value of more bytes than the variable has is cut and written",
+        "the CNC cuts a value that has up to 8 bytes too many, and stores it",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let mut data = call.data.to_vec();
@@ -49,7 +51,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     row("cnc.var.write-big-endian", &[GEN_1, VAR_13],
-        "values of 2 to 8 bytes are written with the most significant byte first",
+        "a write by name stores values of up to 8 bytes in reverse byte order",
         |cnc, call| if is(call, BY_NAME) && after_nul(call.data).len() <= 8 {
             let value: Vec<u8> = after_nul(call.data).iter().rev().copied().collect();
             cnc.with(call, &[text(call.data), &[0], &value].concat())
@@ -57,7 +59,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.var.write-other-channels", &[VAR_13],
-        "a write to a variable of channel 2 is one to that of channel 6 too",
+        "a write by name to a variable of channel 2 also changes the variable of channel 6",
         |cnc, call| if is(call, BY_NAME) && group(call) == 0x12_2302 {
             let reply = cnc.answer(call);
             if reply.is_ok() {
@@ -68,7 +70,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.var.write-unended", &[VAR_13],
-        "the name in a write ends before the last 4 bytes if there is no NUL",
+        "the CNC treats the last 4 bytes of a write by name without a NUL as the value",
         |cnc, call| match of_decoder(call) {
             Some(0x4A) if !call.data.contains(&0) && call.data.len() > 4 => {
                 let at = call.data.len().saturating_sub(4);

@@ -1,4 +1,4 @@
-//! Defects of writes that depend on earlier writes.
+//! Defects of writes that depend on earlier writes, or that execute only a part of a write.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -27,8 +27,8 @@ fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
     cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
-/// If `now`, executes a write that should reset RESPONSE_STATE; reads then return the old value until
-/// the next write of RESPONSE_STATE or REQUEST_STATE.
+/// If `now`, stores RESPONSE_STATE and executes a write, which sets RESPONSE_STATE to 0. If not `now`, a
+/// read of RESPONSE_STATE returns the stored value.
 fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     let key = (instance(call), 0x5C, Vec::new());
     if now {
@@ -37,9 +37,7 @@ fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyD
         cnc.memory().store(key, known);
         return cnc.answer(call);
     }
-    if writes(call, RESPONSE_STATE) || writes(call, REQUEST_STATE) {
-        cnc.memory().forget();
-    } else if reads(call, RESPONSE_STATE) {
+    if reads(call, RESPONSE_STATE) {
         let kept = cnc.memory().get(&key);
         return kept.map_or_else(|| cnc.answer(call), Ok);
     }
@@ -54,7 +52,7 @@ fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.com.string-runs-on", &[COM_5],
-        "a STRING that is written over a longer one runs on with the rest of that",
+        "a shorter text that is written to a STRING object keeps the rest of the old text",
         |cnc, call| if is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {
             let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
             let new = over(text(call.data), text(&old));
@@ -63,7 +61,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.com.refused-write-done", &[COM_5],
-        "a write of fewer bytes than a content has is rejected, and those bytes are written",
+        "the CNC rejects a write of too few bytes to an object, but stores these bytes",
         |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
@@ -75,7 +73,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     on("cnc.sda.written-once", &[SDA_9],
-        "an element is written once: from then on it is rejected, whatever its flag says",
+        "the CNC rejects every write to an element after the first successful one",
         &[Function::WriteElement], |cnc, call| {
             let key = (group(call), offset(call), Vec::new());
             if cnc.memory().get(&key).is_some() {
@@ -86,7 +84,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             Ok(reply)
         }),
     row("cnc.sda.blank-written", &[SDA_11],
-        "what is written at a place without an axis is taken and read there",
+        "a write at an axis index without an axis succeeds, and its content is read from then on",
         |cnc, call| {
             let key = (group(call), offset(call), Vec::new());
             match (function(call), cnc.answer(call)) {
@@ -104,7 +102,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
         }),
     on("cnc.var.write-after-error", &[VAR_13],
-        "after a rejected write by name, the next one is answered as a success and changes nothing",
+        "after a rejected write by name, the next write by name succeeds and changes nothing",
         BY_NAME, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
@@ -114,7 +112,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             reply
         }),
     on("cnc.stm.same-ignored", &[STM_4, STM_15],
-        "a packet that is the same as the one before is taken for its repetition and ignored",
+        "the CNC acknowledges and discards a packet that equals the previous one of the channel",
         STREAM, |cnc, call| {
             if cnc.memory().get(&one(instance(call))).as_deref() == Some(call.data) {
                 return Ok(Vec::new());
@@ -124,7 +122,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             Ok(reply)
         }),
     on("cnc.stm.again-lost", &[STM_6],
-        "after a write that was rejected for now, the next one is acknowledged and lost",
+        "after a temporarily rejected stream write, the CNC acknowledges and discards the next one",
         STREAM, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
@@ -134,7 +132,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             reply
         }),
     row("cnc.stm.full-in-part", &[STM_6],
-        "of a write that there is no room for the first line is taken, and the whole is rejected",
+        "the CNC temporarily rejects a stream write that does not fit, but takes its first line",
         |cnc, call| match (is(call, STREAM), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => {
                 let _ = cnc.with(call, lines(call.data).next().unwrap_or_default());
@@ -143,7 +141,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     on("cnc.stm.behind-end-lost", &[STM_10],
-        "the packet that is written after one with a program end is acknowledged and lost",
+        "the CNC acknowledges and discards the packet after a packet with M30",
         STREAM, |cnc, call| {
             if std::mem::take(&mut cnc.memory().count) == 1 {
                 return Ok(Vec::new());
@@ -154,7 +152,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             Ok(reply)
         }),
     row("cnc.svc.resets-once", &[SVC_3],
-        "the first write of REQUEST_STATE in a channel sets RESPONSE_STATE to 0, no other does",
+        "only the first write to REQUEST_STATE in a channel sets RESPONSE_STATE to 0",
         |cnc, call| if writes(call, REQUEST_STATE) {
             let key = (instance(call), 0x5D, Vec::new());
             let other = cnc.memory().get(&key).is_some();
@@ -181,7 +179,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             keep_response_state(cnc, call, false)
         }),
     row("cnc.svc.response-runs-on", &[SVC_1, SVC_5],
-        "a RESPONSE that is shorter than the one before runs on with the rest of that",
+        "a RESPONSE shorter than the previous one is followed by the rest of the previous one",
         |cnc, call| if writes(call, RESPONSE) {
             let old = read(cnc, group(call), RESPONSE)?;
             let new = over(text(after_nul(call.data)), text(&old));
@@ -190,7 +188,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("cnc.svc.finished-everywhere", &[SVC_4, SVC_1],
-        "an answer in one channel ends the requests of all: their REQUEST_STATE becomes 0",
+        "a write to RESPONSE_STATE in one channel sets REQUEST_STATE to 0 in all channels",
         |cnc, call| {
             let reply = cnc.answer(call)?;
             if writes(call, RESPONSE_STATE) {
@@ -206,7 +204,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             Ok(reply)
         }),
-    row("cnc.svc.request-by-handle-20", &[SVC_1], "REQUEST is read by its handle up to its 20th character",
+    row("cnc.svc.request-by-handle-20", &[SVC_1],
+        "a read of REQUEST by handle returns only its first 20 characters",
         |cnc, call| if by_handle(cnc, call, Function::ReadByHandle, REQUEST) {
             cnc.answer(call).map(|mut bytes| {
                 bytes.iter_mut().skip(20).for_each(|byte| *byte = 0);

@@ -20,7 +20,7 @@ pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Jso
     }
 }
 
-/// Changes every text; `change` receives and returns its bytes in Windows-1252.
+/// Changes every text; `change` receives and returns its bytes in CP1252.
 pub(super) fn texts(value: &mut Json, change: fn(Vec<u8>) -> Vec<u8>) {
     each(value, &mut |one| {
         if one.get("type").and_then(Json::as_str) == Some("STRING")
@@ -61,7 +61,7 @@ pub(super) fn lists(value: &mut Json, name: &str, change: fn(&mut Vec<Json>)) {
     }
 }
 
-/// Replaces each word in the text of a field by the other word of its pair.
+/// Replaces the value of a field by the other word of its pair; a value without a pair stays.
 pub(super) fn words(value: &mut Json, field: &str, pairs: &[(&str, &str)]) {
     let Some(Json::Object(one)) = value.get_mut(field) else { return };
     let word = one.get("value").and_then(Json::as_str).unwrap_or_default();

@@ -70,8 +70,8 @@ fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
     vectors
 }
 
-/// The codecs that omit a check: one for each pair of a stream and an error class for which a vector must be
-/// rejected.
+/// The defects that omit a check: one for each pair of a stream and an error class with which a vector
+/// must be rejected.
 fn forgotten_checks() -> Vec<SeededDefect> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
@@ -92,17 +92,15 @@ fn forgotten_checks() -> Vec<SeededDefect> {
             _ => None,
         };
         let called = those.iter().find_map(rejection)?;
-        let what = format!(
-            "{stream}: a stream that is rejected as {} is accepted",
-            class.replace('-', " ")
-        );
+        let what = format!("{stream}: the codec accepts input with an error of the class {class}");
         let id = format!("codec.accepts.{class}.{stream}");
         Some(seed(id, broken(those.into_iter()), what, CodecFault::Accepts(called, stream)))
     };
     pairs.into_iter().filter_map(each).collect()
 }
 
-/// The defects that reject a stream of maximum length: one for each stream that has such a vector.
+/// The defects that reject a stream of maximum length: one for each stream of variable length that has
+/// an accepted vector of this length.
 fn too_strict() -> Vec<SeededDefect> {
     let longest = |stream: &Stream| -> Vec<&'static Vector> {
         let layout = stream.layout();
@@ -118,7 +116,7 @@ fn too_strict() -> Vec<SeededDefect> {
         let name = stream.layout().name;
         let any = !stream.layout().is_fixed() && !those.is_empty();
         any.then(|| {
-            let what = format!("{name}: the longest there may be is rejected");
+            let what = format!("{name}: the codec rejects input of the maximum length");
             let id = format!("codec.refuses.longest.{name}");
             seed(id, broken(those.into_iter()), what, CodecFault::Longest(name))
         })
@@ -126,7 +124,8 @@ fn too_strict() -> Vec<SeededDefect> {
     Stream::all().filter_map(each).collect()
 }
 
-/// The defects that exchange two fields: one for each pair of adjacent fields of the same type.
+/// The defects that exchange two fields: one for each pair of adjacent fields of the same type in a
+/// stream without records.
 fn swapped() -> Vec<SeededDefect> {
     let fields = Stream::all().filter(|stream| !stream.layout().repeats).flat_map(|stream| {
         let layout = stream.layout();
@@ -150,7 +149,7 @@ fn swapped() -> Vec<SeededDefect> {
         .map(|(layout, one, other)| {
             let id = format!("codec.swaps.{}.{}-{}", layout.name, one.name, other.name);
             let what = format!(
-                "{}: {} is taken for {}, and it for that",
+                "{}: the codec exchanges the fields {} and {}",
                 layout.name, one.name, other.name
             );
             let mut clauses = vec![layout.clause, one.clause, other.clause];
@@ -161,15 +160,18 @@ fn swapped() -> Vec<SeededDefect> {
         .collect()
 }
 
-/// The codecs that read and write numbers with the most significant byte first: one for each stream with
-/// numbers of several bytes, except the list of object descriptors.
+/// The defects that read and write numbers with the most significant byte first: one for each stream
+/// with numbers of several bytes, except the list of object descriptors.
 fn turned() -> Vec<SeededDefect> {
     let each = |stream: Stream| {
         let layout = stream.layout();
         let all = FieldDefect::of_stream(stream);
         let any = all.iter().any(|one| one.change == FieldChange::SwapBytes && is_number(one));
         any.then(|| {
-            let what = format!("{}: numbers have the most significant byte first", layout.name);
+            let what = format!(
+                "{}: the codec reads and writes numbers with the most significant byte first",
+                layout.name
+            );
             let id = format!("codec.big-endian.{}", layout.name);
             seed(id, vec![GEN_1.as_str(), layout.clause], what, CodecFault::BigEndian(stream))
         })

@@ -1,4 +1,4 @@
-//! Defects in splitting NC text into packets, and in parsing packets (STM).
+//! Defects in splitting NC text into packets (STM).
 
 use ads_cnc_vectors::ids::*;
 
@@ -21,9 +21,10 @@ fn packed(packets: &[Vec<u8>], most: usize) -> Vec<Vec<u8>> {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecDefect] = &[
-    row("codec.nc.cut-992", &[STM_4], "NC text is cut every 992 bytes, wherever that is",
+    row("codec.nc.cut-992", &[STM_4],
+        "the codec splits NC text every 992 bytes, even within a line",
         CodecFault::Packets(|packets| packets.concat().chunks(992).map(<[u8]>::to_vec).collect())),
-    row("codec.nc.cut-in-line-end", &[STM_4], "packets end between CR and LF",
+    row("codec.nc.cut-in-line-end", &[STM_4], "the codec ends packets between CR and LF",
         CodecFault::Packets(|mut packets| {
             let mut carried: Option<u8> = None;
             for packet in &mut packets {
@@ -35,55 +36,66 @@ pub(super) const ROWS: &[CodecDefect] = &[
             packets.extend(carried.map(|byte| vec![byte]));
             packets
         })),
-    row("codec.nc.packets-993", &[STM_2], "packets take 993 bytes",
+    row("codec.nc.packets-993", &[STM_2],
+        "the codec splits NC text into packets of up to 993 bytes",
         CodecFault::Packets(|packets| packed(&packets, 993))),
-    row("codec.nc.packets-4094", &[STM_2], "packets take 4094 bytes",
+    row("codec.nc.packets-4094", &[STM_2],
+        "the codec splits NC text into packets of up to 4094 bytes",
         CodecFault::Packets(|packets| packed(&packets, 4094))),
-    row("codec.nc.lf-alone", &[STM_4, STM_5], "lines end in LF alone", CodecFault::Packets(|packets| {
-        let lf = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b'\r').collect();
-        packets.into_iter().map(lf).collect()
-    })),
-    row("codec.nc.cr-alone", &[STM_4, STM_5], "lines end in CR alone", CodecFault::Packets(|packets| {
-        let cr = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b'\n').collect();
-        packets.into_iter().map(cr).collect()
-    })),
-    row("codec.nc.lf-cr", &[STM_4, STM_5], "lines end in LF CR", CodecFault::Packets(|packets| {
-        let turned = |packet: Vec<u8>| {
-            packet
-                .into_iter()
-                .map(|byte| match byte {
-                    b'\r' => b'\n',
-                    b'\n' => b'\r',
-                    byte => byte,
-                })
-                .collect()
-        };
-        packets.into_iter().map(turned).collect()
-    })),
-    row("codec.nc.last-line-open", &[STM_4, STM_5], "the last line has no end",
+    row("codec.nc.lf-alone", &[STM_4, STM_5],
+        "the codec ends lines with LF alone",
+        CodecFault::Packets(|packets| {
+            let lf = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b'\r').collect();
+            packets.into_iter().map(lf).collect()
+        })),
+    row("codec.nc.cr-alone", &[STM_4, STM_5],
+        "the codec ends lines with CR alone",
+        CodecFault::Packets(|packets| {
+            let cr = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b'\n').collect();
+            packets.into_iter().map(cr).collect()
+        })),
+    row("codec.nc.lf-cr", &[STM_4, STM_5],
+        "the codec ends lines with LF CR",
+        CodecFault::Packets(|packets| {
+            let turned = |packet: Vec<u8>| {
+                packet
+                    .into_iter()
+                    .map(|byte| match byte {
+                        b'\r' => b'\n',
+                        b'\n' => b'\r',
+                        byte => byte,
+                    })
+                    .collect()
+            };
+            packets.into_iter().map(turned).collect()
+        })),
+    row("codec.nc.last-line-open", &[STM_4, STM_5], "the codec omits CR LF after the last line",
         CodecFault::Packets(|mut packets| {
             if let Some(last) = packets.last_mut() {
                 last.truncate(last.len().saturating_sub(2));
             }
             packets
         })),
-    row("codec.nc.empty-packet", &[STM_4], "a packet of no bytes comes last",
+    row("codec.nc.empty-packet", &[STM_4], "the codec adds an empty packet at the end",
         CodecFault::Packets(|mut packets| {
             packets.push(Vec::new());
             packets
         })),
-    row("codec.nc.packets-reversed", &[STM_15], "packets come in reverse order",
+    row("codec.nc.packets-reversed", &[STM_15], "the codec returns the packets in reverse order",
         CodecFault::Packets(|packets| packets.into_iter().rev().collect())),
-    row("codec.nc.last-packet-missing", &[STM_4], "the last packet is missing",
+    row("codec.nc.last-packet-missing", &[STM_4], "the codec omits the last packet",
         CodecFault::Packets(|mut packets| {
             packets.pop();
             packets
         })),
-    row("codec.nc.nul-behind", &[STM_7], "a NUL ends each packet", CodecFault::Packets(|mut packets| {
-        packets.iter_mut().for_each(|packet| packet.push(0));
-        packets
-    })),
-    row("codec.nc.length-first", &[STM_7], "each packet has its length in front",
+    row("codec.nc.nul-behind", &[STM_7],
+        "the codec adds a NUL at the end of each packet",
+        CodecFault::Packets(|mut packets| {
+            packets.iter_mut().for_each(|packet| packet.push(0));
+            packets
+        })),
+    row("codec.nc.length-first", &[STM_7],
+        "the codec writes the length of each packet before its text",
         CodecFault::Packets(|mut packets| {
             for packet in &mut packets {
                 let len = u32::try_from(packet.len()).unwrap_or_default();
@@ -91,21 +103,24 @@ pub(super) const ROWS: &[CodecDefect] = &[
             }
             packets
         })),
-    row("codec.nc.upper-case", &[STM_7], "NC text is written in upper case",
+    row("codec.nc.upper-case", &[STM_7], "the codec converts NC text to upper case",
         CodecFault::Packets(|packets| packets.iter().map(|packet| packet.to_ascii_uppercase()).collect())),
-    row("codec.nc.blanks-dropped", &[STM_7], "blanks of NC text are dropped",
+    row("codec.nc.blanks-dropped", &[STM_7], "the codec removes blanks from NC text",
         CodecFault::Packets(|packets| {
             let dense = |packet: Vec<u8>| packet.into_iter().filter(|byte| *byte != b' ').collect();
             packets.into_iter().map(dense).collect()
         })),
-    row("codec.nc.empty-lines-dropped", &[STM_4], "empty lines are dropped", CodecFault::Packets(|packets| {
-        let text = lines(&packets.concat(), |line| match line {
-            b"\r\n" => Vec::new(),
-            line => line.to_vec(),
-        });
-        packed(&[text], 992)
-    })),
-    row("codec.nc.comments-dropped", &[STM_7], "comments in parentheses are dropped",
+    row("codec.nc.empty-lines-dropped", &[STM_4],
+        "the codec removes empty lines from NC text",
+        CodecFault::Packets(|packets| {
+            let text = lines(&packets.concat(), |line| match line {
+                b"\r\n" => Vec::new(),
+                line => line.to_vec(),
+            });
+            packed(&[text], 992)
+        })),
+    row("codec.nc.comments-dropped", &[STM_7],
+        "the codec removes comments in parentheses from NC text",
         CodecFault::Packets(|packets| {
             let mut open = false;
             let text = packets.concat().into_iter().filter(|byte| {
@@ -114,13 +129,15 @@ pub(super) const ROWS: &[CodecDefect] = &[
             });
             packed(&[text.collect()], 992)
         })),
-    row("codec.nc.takes-cp1252", &[STM_7], "characters beyond ASCII are written as they are",
+    row("codec.nc.takes-cp1252", &[STM_7], "the codec accepts NC text with characters beyond ASCII",
         CodecFault::Around(|correct, question| accepts(correct, question, "packets", "not-ascii"))),
-    row("codec.nc.takes-nul", &[STM_7], "NULs in NC text are written as they are",
+    row("codec.nc.takes-nul", &[STM_7], "the codec accepts NC text with a NUL",
         CodecFault::Around(|correct, question| accepts(correct, question, "packets", "nul"))),
-    row("codec.nc.takes-long-lines", &[STM_20], "lines of more than 990 characters are written as they are",
+    row("codec.nc.takes-long-lines", &[STM_20],
+        "the codec accepts NC text with lines of more than 990 characters",
         CodecFault::Around(|correct, question| accepts(correct, question, "packets", "too-long"))),
-    row("codec.nc.cuts-long-lines", &[STM_20], "a line of 990 characters is rejected",
+    row("codec.nc.cuts-long-lines", &[STM_20],
+        "the codec rejects NC text with a line of 990 characters, the maximum",
         CodecFault::Around(|correct, question| {
             let text = question.hex.as_deref().unwrap_or_default();
             let long =

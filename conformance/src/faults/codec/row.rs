@@ -14,7 +14,7 @@ pub(super) type CorrectAnswer<'a> = &'a dyn Fn(&Question) -> Answer;
 pub(crate) enum CodecFault {
     /// Accepts input that the correct codec rejects; arguments are the error class and the stream.
     Accepts(&'static str, &'static str),
-    /// Rejects this stream if it has its maximum length.
+    /// Rejects this stream, when it is decoded, if it has its maximum length.
     Longest(&'static str),
     /// Exchanges two fields of a stream; arguments are the stream and the names of the fields.
     Swaps(&'static str, &'static str, &'static str),
@@ -22,11 +22,11 @@ pub(crate) enum CodecFault {
     BigEndian(Stream),
     /// Changes values after decoding and before encoding; arguments are the stream and the value.
     Value(fn(&str, &mut Json)),
-    /// Changes the bytes of a stream; arguments are the stream and its bytes.
+    /// Changes the bytes of a stream after encoding; arguments are the stream and its bytes.
     Bytes(fn(&str, Vec<u8>) -> Vec<u8>),
-    /// Changes packets of NC text.
+    /// Changes the packets into which the correct codec has split NC text.
     Packets(fn(Vec<Vec<u8>>) -> Vec<Vec<u8>>),
-    /// Changes NC text before it is processed.
+    /// Changes NC text before the correct codec splits or checks it.
     Text(fn(&[u8]) -> Vec<u8>),
     /// Any other change; arguments are the correct codec and the question.
     Around(fn(CorrectAnswer<'_>, &Question) -> Answer),
@@ -95,7 +95,7 @@ impl CodecFault {
     }
 }
 
-/// An answer that accepts any input.
+/// The answer that accepts the input; its value is empty.
 pub(super) fn accepted() -> Answer {
     let value = Some(Json::Object(serde_json::Map::default()));
     Answer::Ok(Output { value, ..Output::default() })

@@ -5,7 +5,7 @@ use ads_cnc_vectors::ids::*;
 use super::row::{CodecDefect, CodecFault, CorrectAnswer, rejected, row};
 use crate::codec::message::{Answer, Question};
 
-/// The UNS32 at an offset of the first input.
+/// The UNS32 at an offset of the stream in the question.
 fn at(question: &Question, offset: usize) -> Option<u32> {
     let bytes = question.hex.as_deref()?.get(offset..)?.first_chunk::<4>()?;
     Some(u32::from_le_bytes(*bytes))
@@ -27,32 +27,34 @@ fn strict(
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecDefect] = &[
-    row("codec.refuses.elementary", &[VAR_7], "a description without dimensions is rejected",
+    row("codec.refuses.elementary", &[VAR_7], "the codec rejects a description without dimensions",
         CodecFault::Around(|correct, question| {
             strict(correct, question, "variable-description", |question| at(question, 16) == Some(0))
         })),
-    row("codec.refuses.arrays", &[VAR_4], "a description of more than one dimension is rejected",
+    row("codec.refuses.arrays", &[VAR_4],
+        "the codec rejects a description with more than one dimension",
         CodecFault::Around(|correct, question| {
             strict(correct, question, "variable-description", |question| {
                 at(question, 16).is_some_and(|m| m > 1)
             })
         })),
-    row("codec.refuses.whole", &[VAR_11], "a read by handle without indices is rejected",
+    row("codec.refuses.whole", &[VAR_11], "the codec rejects a read by handle without indices",
         CodecFault::Around(|correct, question| {
             strict(correct, question, "variable-handle-read", |question| at(question, 4) == Some(0))
         })),
-    row("codec.refuses.extended-empty", &[VAR_16], "an extended description without data is rejected",
+    row("codec.refuses.extended-empty", &[VAR_16],
+        "the codec rejects an extended description without data",
         CodecFault::Around(|correct, question| {
             strict(correct, question, "variable-extended-description", |question| {
                 question.hex.as_ref().is_some_and(Vec::is_empty)
             })
         })),
-    row("codec.refuses.absent-instance", &[SDA_2], "the object address (0, 0) is rejected",
+    row("codec.refuses.absent-instance", &[SDA_2], "the codec rejects the object address (0, 0)",
         CodecFault::Around(|correct, question| {
             strict(correct, question, "object-address", |question| at(question, 0) == Some(0))
         })),
     row("codec.refuses.result-alone", &[ADS_6],
-        "a reply that ends after a result that is not 0 is rejected",
+        "the codec rejects the reply to a Read or ReadWrite that ends after an error number",
         CodecFault::Around(|correct, question| {
             let alone = question.hex.as_ref().is_some_and(|hex| hex.len() == 4);
             if question.op == "decode" && alone && question.stream.ends_with("read-reply") {
@@ -61,12 +63,15 @@ pub(super) const ROWS: &[CodecDefect] = &[
                 strict(correct, question, "read-write-reply", |_| alone)
             }
         })),
-    row("codec.refuses.sum", &[VAR_1], "the empty kind is rejected", CodecFault::Around(|correct, question| {
-        strict(correct, question, "variable-kind", |question| {
-            question.hex.as_deref() == Some(&[0])
-        })
-    })),
-    row("codec.refuses.empty-packet", &[STM_2, STM_4], "a packet of more than one line is rejected",
+    row("codec.refuses.sum", &[VAR_1],
+        "the codec rejects the empty kind",
+        CodecFault::Around(|correct, question| {
+            strict(correct, question, "variable-kind", |question| {
+                question.hex.as_deref() == Some(&[0])
+            })
+        })),
+    row("codec.refuses.empty-packet", &[STM_2, STM_4],
+        "the codec rejects a packet of more than one line",
         CodecFault::Around(|correct, question| {
             strict(correct, question, "program-stream", |question| {
                 question

@@ -8,53 +8,64 @@ use super::row::{CodecDefect, CodecFault, row};
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CodecDefect] = &[
-    row("codec.element.flag-inverted", &[SDA_9], "the write flag is inverted",
+    row("codec.element.flag-inverted", &[SDA_9], "the codec inverts the write flag of an element",
         CodecFault::Value(|stream, value| {
             if stream == "element-write-flag" {
                 numbers(value, &["BOOLEAN"], |number| i128::from(number == 0));
             }
         })),
-    row("codec.element.length-one-byte", &[SDA_8], "of an element's length the first byte counts",
+    row("codec.element.length-one-byte", &[SDA_8],
+        "the codec uses only the lowest byte of the length of an element",
         CodecFault::Value(|stream, value| {
             if stream == "element-length" {
                 numbers(value, &["UNS32", "UNS16", "UNS08"], |number| number & 0xFF);
             }
         })),
-    row("codec.list.indices-reversed", &[VAR_11, VAR_12], "indices come in reverse order",
+    row("codec.list.indices-reversed", &[VAR_11, VAR_12],
+        "the codec reverses the order of the indices in requests by handle",
         CodecFault::Value(|stream, value| {
             if stream != "variable-path" {
                 lists(value, "indices", |items| items.reverse());
             }
         })),
-    row("codec.list.indices-first", &[VAR_11, VAR_12], "of several indices there is the first",
+    row("codec.list.indices-first", &[VAR_11, VAR_12],
+        "the codec keeps only the first index in requests by handle",
         CodecFault::Value(|stream, value| {
             if stream != "variable-path" {
                 lists(value, "indices", |items| items.truncate(1));
             }
         })),
-    row("codec.list.indices-none", &[VAR_11], "indices are left out", CodecFault::Value(|stream, value| {
-        if stream == "variable-handle-read" {
-            lists(value, "indices", Vec::clear);
-        }
-    })),
-    row("codec.list.dimensions-reversed", &[VAR_4], "dimensions come in reverse order",
+    row("codec.list.indices-none", &[VAR_11],
+        "the codec omits the indices in a read by handle",
+        CodecFault::Value(|stream, value| {
+            if stream == "variable-handle-read" {
+                lists(value, "indices", Vec::clear);
+            }
+        })),
+    row("codec.list.dimensions-reversed", &[VAR_4],
+        "the codec reverses the order of the dimensions in a description",
         CodecFault::Value(|_, value| lists(value, "dimensions", |items| items.reverse()))),
-    row("codec.list.dimensions-first", &[VAR_4], "of several dimensions there is the first",
+    row("codec.list.dimensions-first", &[VAR_4],
+        "the codec keeps only the first dimension in a description",
         CodecFault::Value(|_, value| lists(value, "dimensions", |items| items.truncate(1)))),
-    row("codec.list.elements-reversed", &[VAR_14], "elements of a value come in reverse order",
+    row("codec.list.elements-reversed", &[VAR_14],
+        "the codec reverses the order of the elements of a value",
         CodecFault::Value(|_, value| lists(value, "value", |items| items.reverse()))),
-    row("codec.list.elements-first", &[VAR_14], "of several elements of a value there is the first",
+    row("codec.list.elements-first", &[VAR_14], "the codec keeps only the first element of a value",
         CodecFault::Value(|_, value| lists(value, "value", |items| items.truncate(1)))),
-    row("codec.list.descriptors-same", &[COM_3], "of several descriptors all are the first",
+    row("codec.list.descriptors-same", &[COM_3],
+        "the codec replaces each descriptor in a list by the first",
         CodecFault::Value(|_, value| {
             lists(value, "descriptors", |items| {
                 let first = items.first().cloned();
                 items.iter_mut().for_each(|item| *item = first.clone().unwrap_or_default());
             })
         })),
-    row("codec.list.descriptors-reversed", &[COM_3], "several descriptors come in reverse order",
+    row("codec.list.descriptors-reversed", &[COM_3],
+        "the codec reverses the order of the descriptors in a list",
         CodecFault::Value(|_, value| lists(value, "descriptors", |items| items.reverse()))),
-    row("codec.list.descriptors-last-missing", &[COM_3], "the last of several descriptors is missing",
+    row("codec.list.descriptors-last-missing", &[COM_3],
+        "the codec omits the last of several descriptors",
         CodecFault::Value(|_, value| {
             lists(value, "descriptors", |items| {
                 if items.len() > 1 {
@@ -63,9 +74,10 @@ pub(super) const ROWS: &[CodecDefect] = &[
             })
         })),
     row("codec.number.unsigned-31-bit", &[VAR_5, VAR_14],
-        "UNS32 is read and written without its highest bit",
+        "the codec clears the highest bit of each UNS32",
         CodecFault::Value(|_, value| numbers(value, &["UNS32"], |number| number & 0x7FFF_FFFF))),
-    row("codec.number.unsigned-signed", &[VAR_5, VAR_14], "unsigned numbers are read as signed ones",
+    row("codec.number.unsigned-signed", &[VAR_5, VAR_14],
+        "the codec treats UNS08, UNS16 and UNS32 as signed numbers",
         CodecFault::Value(|_, value| {
             numbers(value, &["UNS32"], |number| {
                 if number >> 31 == 1 { number.wrapping_sub(1 << 32) } else { number }
@@ -77,27 +89,30 @@ pub(super) const ROWS: &[CodecDefect] = &[
                 if number >> 7 == 1 { number.wrapping_sub(1 << 8) } else { number }
             });
         })),
-    row("codec.number.signed-unsigned", &[VAR_5, VAR_14], "signed numbers are read as unsigned ones",
+    row("codec.number.signed-unsigned", &[VAR_5, VAR_14],
+        "the codec treats signed integers of 1, 2 and 4 bytes as unsigned numbers",
         CodecFault::Value(|_, value| {
             numbers(value, &["SGN32", "DINT"], |number| number.rem_euclid(1 << 32));
             numbers(value, &["SGN16", "INT"], |number| number.rem_euclid(1 << 16));
             numbers(value, &["SGN08", "SINT"], |number| number.rem_euclid(1 << 8));
         })),
-    row("codec.number.content-signed", &[COM_5], "numbers of contents lose their sign",
+    row("codec.number.content-signed", &[COM_5], "the codec drops the sign of integers in contents",
         CodecFault::Value(|stream, value| {
             if stream == "content" {
                 let signed = ["SGN08", "SGN16", "SGN32", "SINT", "INT", "DINT", "LINT"];
                 numbers(value, &signed, i128::abs);
             }
         })),
-    row("codec.number.types-from-0", &[VAR_5], "codes of types are counted from 0",
+    row("codec.number.types-from-0", &[VAR_5],
+        "the codec counts the type codes of variables from 0 instead of 1",
         CodecFault::Value(|stream, value| {
             if let (true, Some(kind)) = (stream.starts_with("variable-desc"), value.get_mut("type"))
             {
                 numbers(kind, &["UNS32"], |number| number.saturating_sub(1));
             }
         })),
-    row("codec.number.access-from-0", &[VAR_6], "codes of access are counted from 0",
+    row("codec.number.access-from-0", &[VAR_6],
+        "the codec counts the access codes of variables from 0 instead of 1",
         CodecFault::Value(|stream, value| {
             if let (true, Some(access)) =
                 (stream.starts_with("variable-desc"), value.get_mut("access"))
@@ -105,7 +120,8 @@ pub(super) const ROWS: &[CodecDefect] = &[
                 numbers(access, &["UNS32"], |number| number.saturating_sub(1));
             }
         })),
-    row("codec.real.narrow", &[DYN_3, VAR_14, COM_5], "REAL64 is rounded to a REAL32",
+    row("codec.real.narrow", &[DYN_3, VAR_14, COM_5],
+        "the codec reduces a REAL64 to the precision of a REAL32",
         CodecFault::Value(|_, value| {
             each(value, &mut |one| {
                 let bits =
@@ -123,7 +139,8 @@ pub(super) const ROWS: &[CodecDefect] = &[
                 }
             })
         })),
-    row("codec.number.indices-in-bytes", &[VAR_11], "the number of indices is written as a number of bytes",
+    row("codec.number.indices-in-bytes", &[VAR_11],
+        "the codec writes the length of the indices in bytes instead of their number",
         CodecFault::Bytes(|stream, mut bytes| {
             if let (true, Some(count)) = (stream == "variable-handle-read", bytes.get_mut(4)) {
                 *count = count.wrapping_mul(4);

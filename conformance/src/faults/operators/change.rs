@@ -6,7 +6,7 @@ use ads_cnc::operation::{AdsService, Call, Function, OffsetRule};
 use self::Argument::{Axis, Channel, Index};
 use super::super::cnc::{
     ReplyData, Upstream, after_nul, class, first, function, group, indexed, joined, offset, parts,
-    set_u32, text, u32_at, with_indices,
+    set_u32, text, u32_at, value_at, with_indices,
 };
 
 /// A number in a request that a defect can replace.
@@ -18,7 +18,8 @@ pub(super) enum Argument {
 }
 
 /// The reply to the request with another value of an argument; `None` if the request does not have the
-/// argument, or if `other` does not change its value.
+/// argument, if `other` does not change its value, for an argument in the index group or offset that is
+/// 0, and for the channel or axis of a spindle.
 pub(super) fn asked(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -70,8 +71,8 @@ pub(super) fn asked(
     }
 }
 
-/// The reply to the request with another value of an argument, if the CNC accepts both the original
-/// and the changed request; otherwise the correct reply.
+/// The reply to the request with another value of an argument, if the CNC accepts the changed request
+/// and, unless the service is Write, the original request; otherwise the correct reply.
 pub(super) fn mistaken(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -112,16 +113,6 @@ pub(super) fn changed(
     Ok(bytes)
 }
 
-/// The offset of the value in the data of a write.
-pub(super) fn value_at(call: &Call<'_>) -> usize {
-    let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
-        b"name" => after_nul(call.data),
-        b"handle" => parts(call.data).map_or(&[][..], |(_, _, value)| value),
-        _ => call.data,
-    };
-    call.data.len().saturating_sub(value.len())
-}
-
 /// Executes a write, and then a second write to the same address, whose value is the result of `other`
 /// for the new and the old value.
 pub(super) fn rewritten(
@@ -147,7 +138,7 @@ pub(super) fn kept() -> (u32, u32, Vec<u8>) {
     (0, 0, b"kept".to_vec())
 }
 
-/// The reply to the request for the first kind of variables (V.E) or parameters.
+/// The reply to the request for the first kind of variables (V.E) or dynamic parameters (P).
 pub(super) fn of_first_kind(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     match function(call).map(|function| (function.spec().offset, first(function.spec().request))) {
         Some((OffsetRule::OfKind([least, ..]), _)) => cnc.at(call, group(call), least),

@@ -22,32 +22,33 @@ pub(super) fn has_end(spec: &FunctionSpec) -> bool {
     last.is_some_and(|field| field.ty != Type::String)
 }
 
-/// Whether the function is a query that addresses a channel. A channel can also be addressed by its
+/// Whether the function is a query whose index group can contain a channel, by its number or by its
 /// rank.
 pub(super) fn has_rank(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
 }
 
-/// Whether the default model has a channel with a rank other than its number that supports the
+/// Whether the default model has a channel with a rank other than its number that has data for the
 /// function: no such channel has dynamic parameters (DYN-2 to DYN-4).
 pub(super) fn differs_by_rank(spec: &FunctionSpec) -> bool {
     has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
 }
 
-/// Whether the reply depends on the channel. Replies to requests by handle and extended descriptions
-/// are the same in all channels.
+/// Whether channel 1 can accept a request for another channel and reply differently. It rejects the
+/// handles of other channels, and extended descriptions are the same in all channels.
 pub(super) fn differs_by_channel(spec: &FunctionSpec) -> bool {
     first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
 }
 
-/// Whether the reply is the same for every instance: the number of elements, and their types,
-/// lengths, units and flags.
+/// Whether the reply is the same for every instance of a class: the number of elements, and their types,
+/// lengths, units and write flags.
 pub(super) fn is_alike(spec: &FunctionSpec) -> bool {
     matches!(spec.group, GroupRule::Elements(attribute) if attribute != Attribute::Name)
         && !spec.is_content()
 }
 
-/// Whether the function returns an error for an item that does not exist.
+/// Whether a generated defect can accept an item that does not exist: `FindInstance` answers it with the
+/// address (0, 0) instead of an error, and functions with the same reply for every instance are omitted.
 pub(super) fn has_unknown(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && !is_alike(spec)
 }

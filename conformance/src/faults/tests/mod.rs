@@ -1,10 +1,13 @@
-//! Each defect is detectable, and every requirement has a defect or a reason to have none.
+//! Each defect is detectable, and each requirement of level *must* has a defect or a reason to have none.
 
 mod fields;
 mod transcript;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc_vectors::{Level, clause, requirements};
 
 use self::transcript::Transcript;
@@ -12,6 +15,7 @@ use super::cnc::CncFault;
 use super::seeded_defect::Mechanism;
 use super::*;
 use crate::edition::Edition;
+use crate::simulator::{Cnc, ReplyData, Responder as _};
 use crate::testee::{self, Answer, CodecTestee, Question};
 use crate::{client_suite, suite};
 
@@ -108,4 +112,32 @@ fn every_must_has_a_defect_or_a_reason() {
         assert!(!must || broken != reason, "{id}: defect {broken}, reason {reason}");
     }
     assert!(reasons.values().all(|reason| reason.len() > 40));
+}
+
+/// The reply of a CNC with a defect, or of a valid variant, to a call in the channel group of COM.
+fn reply(id: &str, service: AdsService, offset: u32, data: &[u8]) -> ReplyData {
+    let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
+    Faulty::new(cnc, Some(by_id(id).unwrap())).answer(&Call {
+        port: AmsPort::COM,
+        service,
+        index_group: IndexGroup::new(0x12_0101),
+        index_offset: IndexOffset::new(offset),
+        read_length: 0,
+        data,
+    })
+}
+
+/// The variant pads a write to an object of 2 bytes, but does not accept more than 2 bytes.
+#[test]
+fn a_short_write_is_padded_and_a_long_one_rejected() {
+    let write = |data: &[u8]| reply("different.short-writes", AdsService::Write, 0x14, data);
+    assert_eq!(write(&[1]), Ok(Vec::new()));
+    assert_eq!(write(&[1, 0, 0]), Err(AdsError::INVALID_SIZE));
+}
+
+#[test]
+fn a_stream_by_read_write_accepts_no_write() {
+    let send = |service| reply("cnc.stm.by-read-write", service, 0x90, b"N10\r\n");
+    assert_eq!(send(AdsService::ReadWrite), Ok(Vec::new()));
+    assert_eq!(send(AdsService::Write), Err(AdsError::SERVICE_NOT_SUPPORTED));
 }

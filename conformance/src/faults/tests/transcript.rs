@@ -186,7 +186,7 @@ impl<'t> Transcript<'t> {
                 for index in [0, 1, 2, 3, 257] {
                     let index = u32::to_le_bytes(index);
                     let name = self.ask(group, at, 256, &index);
-                    let value = self.ask(group, at + 2, 8, &index);
+                    self.ask(group, at + 2, 8, &index);
                     let text = name.split(|byte| *byte == 0).next().unwrap().to_vec();
                     for name in [text.clone(), [text.as_slice(), b"x"].concat(), b"P1".to_vec()] {
                         self.ask(group, at + 1, 8, &[name.as_slice(), &[0]].concat());
@@ -196,7 +196,6 @@ impl<'t> Transcript<'t> {
                     self.ask(group, at + 1, 8, &long);
                     long.push(0);
                     self.ask(group, at + 1, 8, &long);
-                    drop(value);
                 }
             }
         }

@@ -6,11 +6,10 @@ use ads_cnc::operation::{AdsService, Call, Function};
 
 use super::row::unprinted;
 use crate::faults::cnc::{
-    CncDefect, CncFault, ReplyData, Upstream, class, fault, function, group, is, number, offset,
-    on, row, set_u32, text, u32_at, within_length,
+    CncDefect, CncFault, ReplyData, Upstream, absent, class, empty_place, fault, function, group,
+    is, number, offset, on, row, set_u32, text, u32_at, within_length,
 };
 
-const FIND: &[Function] = &[Function::FindInstance];
 const ATTRIBUTES: &[Function] = &[
     Function::ReadElementType,
     Function::ReadElementLength,
@@ -25,27 +24,7 @@ fn is_number(call: &Call<'_>) -> bool {
     of_content && call.service == AdsService::Read && offset(call) & 0xFFF == 0
 }
 
-/// Replies with the object address (0, 0) to requests for the instances for which `is_absent` returns
-/// true; its arguments are class, channel and axis.
-fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> ReplyData {
-    match (is(call, FIND), u32_at(call.data, 0), u32_at(call.data, 4)) {
-        (true, Some(channel), Some(axis)) if is_absent(group(call) & 0xF000, channel, axis) => {
-            cnc.answer(call).map(|_| vec![0; 8])
-        }
-        _ => cnc.answer(call),
-    }
-}
-
-/// Whether a call addresses an axis place of channel 2 or 6 that has no axis.
-fn empty_place(call: &Call<'_>) -> bool {
-    class(call).is_some_and(|at| {
-        matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)
-            && at.instance > 1
-            && offset(call) >= 0x2_0000
-    })
-}
-
-/// Changes the stride between the offsets of two axes, in the classes for which the manuals do not
+/// Changes the stride of the axes from 0x10000 to 0x1000 in the classes for which the manuals do not
 /// print a stride.
 fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let of = |at: Class| {
@@ -69,7 +48,7 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     unprinted(row("different.number-counts-first", &[],
-        "the number of elements counts the first, which says it",
+        "the number of elements counts element 0 too",
         |cnc, call| if is_number(call) {
             number(cnc.answer(call), 0, |count| count.wrapping_add(1))
         } else {
@@ -88,28 +67,30 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         })),
     row("different.first-without-attributes", &[],
-        "the first element has a name and the number, and no other attribute",
+        "element 0 has no type, length, unit and write flag",
         |cnc, call| if is(call, ATTRIBUTES) && offset(call) & 0xFFF == 0 {
             Err(AdsError::INVALID_OFFSET)
         } else {
             cnc.answer(call)
         }),
-    on("different.first-writable", &[], "the write flag of the first element is TRUE",
+    on("different.first-writable", &[], "the write flag of element 0 is TRUE",
         &[Function::ReadElementWriteFlag], |cnc, call| match offset(call) & 0xFFF {
             0 => cnc.answer(call).map(|_| vec![1]),
             _ => cnc.answer(call),
         }),
     row("different.hld-axes-of-first", &[], "the HLD of other channels than the first has no axes",
-        |cnc, call| without(cnc, call, |class, channel, axis| class == 0x3000 && channel > 1 && axis > 0)),
+        |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel > 1 && axis > 0)),
     row("different.path-preparation-without-axes", &[], "path preparation has no axes",
-        |cnc, call| without(cnc, call, |class, _, axis| class == 0x4000 && axis > 0)),
-    row("different.blank-number", &[], "where no axis is the number of elements is blank too",
+        |cnc, call| absent(cnc, call, |class, _, axis| class == 0x4000 && axis > 0)),
+    row("different.blank-number", &[],
+        "the number of elements at an axis index without an axis is 0",
         |cnc, call| if is_number(call) && empty_place(call) {
             cnc.answer(call).map(|bytes| vec![0; bytes.len()])
         } else {
             cnc.answer(call)
         }),
-    row("different.blank-real", &[], "where no axis is a REAL64 is no number",
+    row("different.blank-real", &[],
+        "a REAL64 at an axis index without an axis is not a number (NaN)",
         |cnc, call| if is(call, &[Function::ReadElement]) && empty_place(call) {
             cnc.answer(call).map(|bytes| match bytes.len() {
                 8 => vec![0xFF; 8],
@@ -119,9 +100,10 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     row("different.axes-of-0x1000", &[],
-        "axes of the position controller, the interpolator and path preparation take 0x1000", strided),
+        "axes in position controller, interpolator and path preparation have the stride 0x1000",
+        strided),
     on("different.name-as-it-ends", &[],
-        "the name of a parameter is taken without its NUL only, or with just one",
+        "the CNC rejects a parameter name with more bytes after its first NUL",
         &[Function::DynamicValueByName],
         |cnc, call| if call.data.len() > text(call.data).len() + 1 {
             Err(AdsError::INVALID_SIZE)
@@ -129,10 +111,11 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     unprinted(fault("different.come-and-go", &[],
-        "the CNC is one whose parameters come and go all the time", CncFault::Model(MODEL))),
+        "the CNC has channels 1 and 4, with parameters that are repeatedly created and deleted",
+        CncFault::Model(MODEL))),
 ];
 
-/// A CNC with other channel numbers and temporary parameters.
+/// A CNC with the channels 1 and 4, and with parameters that exist only for a part of each period.
 const MODEL: &str = r#"
 cnc-version = "V4.29.0"
 spindles = 1

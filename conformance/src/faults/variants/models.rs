@@ -5,8 +5,10 @@ use crate::faults::cnc::{CncDefect, CncFault, fault};
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    model("different.model", "the CNC is a small one, with things of its own", MODEL),
-    model("different.model-bare", "the CNC has a channel, and next to nothing in it", BARE),
+    model("different.model",
+        "the CNC has one channel and one axis, and other objects, variables and elements", MODEL),
+    model("different.model-bare",
+        "the CNC has one channel with one object and one variable, no axes and no streaming", BARE),
     model("different.model-channel-3", "the only channel has the number 3", THIRD),
     model("different.model-many",
         "the CNC has twelve channels, none with the number 4, and axes in another order", MANY),
@@ -141,7 +143,7 @@ name = "LR {}"
 "#
 );
 
-/// A small CNC.
+/// A CNC with one channel and one axis, and with other objects, variables and elements.
 const MODEL: &str = r#"
 cnc-version = "V4.29.0"
 

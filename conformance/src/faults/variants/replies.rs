@@ -1,4 +1,4 @@
-//! Valid variants that differ in rejections, delays and the ends of replies.
+//! Valid variants that differ in errors, delays, names and the ends of replies.
 
 use std::thread;
 use std::time::Duration;
@@ -16,7 +16,7 @@ use crate::faults::cnc::{
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("different.request-over-early", &[],
-        "REQUEST_STATE becomes 0 when RESPONSE is written, and not when RESPONSE_STATE is",
+        "REQUEST_STATE becomes 0 as soon as RESPONSE is written, before RESPONSE_STATE is",
         |cnc, call| {
             let name = ServiceVariable::RESPONSE.as_bytes();
             let reply = cnc.answer(call);
@@ -32,13 +32,15 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    sent("different.errors-in-both", "errors stand in both headers", |_, _, mut bytes| {
-        if let Some(error @ 1..) = u32_at(&bytes, 38) {
-            set_u32(&mut bytes, 30, error);
-        }
-        bytes
-    }),
-    sent("different.slow", "an answer now and then takes 20 ms", |cnc, _, bytes| {
+    sent("different.errors-in-both",
+        "errors are both in the AMS header and in the result",
+        |_, _, mut bytes| {
+            if let Some(error @ 1..) = u32_at(&bytes, 38) {
+                set_u32(&mut bytes, 30, error);
+            }
+            bytes
+        }),
+    sent("different.slow", "the CNC delays every 128th response by 20 ms", |cnc, _, bytes| {
         let mut memory = cnc.memory();
         memory.count = memory.count.wrapping_add(1);
         if memory.count % 128 == 0 {
@@ -56,14 +58,15 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             measured(bytes)
         }),
-    on("different.extended-external-only", &[], "an extended description of what has none is rejected",
+    on("different.extended-external-only", &[],
+        "the CNC rejects requests for extended descriptions of V.G and V.A",
         &[Function::DescribeExtended], |cnc, call| cnc.answer(call).and_then(|bytes| if bytes.is_empty() {
             Err(AdsError::INVALID_DATA)
         } else {
             Ok(bytes)
         })),
     unprinted(row("different.remains-behind-names", &[],
-        "after the NUL of names, types and units there are remains of others",
+        "names, types and units in replies have arbitrary bytes after their NUL",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
                 let remains = |bytes: Vec<u8>| {
@@ -79,36 +82,38 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         })),
-    unprinted(row("different.texts-end", &[], "the value of a STRING ends after its NUL", |cnc, call| {
-        // The key of a handle of a STRING, which the variant stores when it replies with a description.
-        // The key omits the bit of logical addressing, because a handle is valid in both addressings.
-        let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
-        let is_text =
-            |bytes: &[u8]| (u32_at(bytes, 4), u32_at(bytes, 16)) == (Some(9), Some(0));
-        let answer = cnc.answer(call);
-        let text_now = match function(call) {
-            Some(Function::DescribeByIndex | Function::DescribeByName) => {
-                if let Ok(bytes) = &answer
-                    && is_text(bytes)
-                {
-                    cnc.memory().store(key(u32_at(bytes, 0).unwrap_or_default()), Vec::new());
+    unprinted(row("different.texts-end", &[],
+        "a read of a STRING variable returns no bytes after the NUL",
+        |cnc, call| {
+            // The key under which the variant stores the handle of a STRING when it sends a description.
+            // The key omits the bit of logical addressing, because a handle is valid with and without it.
+            let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
+            let is_text =
+                |bytes: &[u8]| (u32_at(bytes, 4), u32_at(bytes, 16)) == (Some(9), Some(0));
+            let answer = cnc.answer(call);
+            let text_now = match function(call) {
+                Some(Function::DescribeByIndex | Function::DescribeByName) => {
+                    if let Ok(bytes) = &answer
+                        && is_text(bytes)
+                    {
+                        cnc.memory().store(key(u32_at(bytes, 0).unwrap_or_default()), Vec::new());
+                    }
+                    false
                 }
-                false
-            }
-            Some(Function::ReadByName) => {
-                cnc.ask(group(call), 0x4C, call.data).is_ok_and(|bytes| is_text(&bytes))
-            }
-            Some(Function::ReadByHandle) => {
-                let handle = u32_at(call.data, 0).unwrap_or_default();
-                cnc.memory().get(&key(handle)).is_some()
-            }
-            _ => false,
-        };
-        answer.map(|mut bytes| {
-            if text_now {
-                bytes.truncate(text(&bytes).len() + 1);
-            }
-            bytes
-        })
-    })),
+                Some(Function::ReadByName) => {
+                    cnc.ask(group(call), 0x4C, call.data).is_ok_and(|bytes| is_text(&bytes))
+                }
+                Some(Function::ReadByHandle) => {
+                    let handle = u32_at(call.data, 0).unwrap_or_default();
+                    cnc.memory().get(&key(handle)).is_some()
+                }
+                _ => false,
+            };
+            answer.map(|mut bytes| {
+                if text_now {
+                    bytes.truncate(text(&bytes).len() + 1);
+                }
+                bytes
+            })
+        })),
 ];

@@ -1,5 +1,5 @@
-//! Valid variants that accept requests which no client should send, or lack optional functions: the
-//! manuals do not specify which requests are rejected.
+//! Valid variants that accept or reject other requests than the simulated CNC, where the manuals do not
+//! specify which requests are rejected.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Function, OffsetRule};
@@ -19,37 +19,42 @@ const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("different.name-unended", &[], "names without a NUL are taken",
+    row("different.name-unended", &[], "the CNC accepts names of variables without a NUL",
         |cnc, call| if is_at(call, NAMED) && !call.data.contains(&0) && !call.data.is_empty() {
             cnc.with(call, &[call.data, &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("different.name-bytes-behind", &[], "bytes after the NUL of a name are ignored",
+    row("different.name-bytes-behind", &[],
+        "the CNC ignores bytes after the NUL of a name in a query",
         |cnc, call| if is_lookup(call) && call.data.contains(&0) {
             cnc.with(call, &[text(call.data), &[0]].concat())
         } else {
             cnc.answer(call)
         }),
-    row("different.kind-of-256", &[], "a kind takes 32 bytes at most, NULs after it counted",
+    row("different.kind-of-256", &[], "the CNC rejects a kind of more than 32 bytes including NULs",
         |cnc, call| if is(call, COUNT) && call.data.len() > 32 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("different.kind-unended", &[], "a kind without a NUL is taken", |cnc, call| match of_decoder(call) {
-        Some(0x44) if !call.data.contains(&0) && call.service == AdsService::ReadWrite => {
-            cnc.with(call, &[call.data, &[0]].concat())
-        }
-        _ => cnc.answer(call),
-    }),
-    row("different.kind-of-259", &[], "an index and a kind take 36 bytes at most, NULs after it counted",
+    row("different.kind-unended", &[],
+        "the CNC accepts a kind without a NUL in a request for the number of variables",
+        |cnc, call| match of_decoder(call) {
+            Some(0x44) if !call.data.contains(&0) && call.service == AdsService::ReadWrite => {
+                cnc.with(call, &[call.data, &[0]].concat())
+            }
+            _ => cnc.answer(call),
+        }),
+    row("different.kind-of-259", &[],
+        "the CNC rejects an index and a kind of more than 36 bytes including NULs",
         |cnc, call| if is(call, INDEXED) && call.data.len() > 36 {
             Err(AdsError::INVALID_SIZE)
         } else {
             cnc.answer(call)
         }),
-    row("different.index-261", &[], "an index and a kind may be longer than 260 bytes",
+    row("different.index-261", &[],
+        "the CNC accepts an index and a kind of more than 260 bytes, and ignores the excess bytes",
         |cnc, call| match of_decoder(call) {
             Some(0x45 | 0x4B) if call.data.len() > 260 => {
                 cnc.with(call, call.data.get(..260).unwrap_or_default())
@@ -64,7 +69,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         }),
     row("different.short-values", &[],
-        "a value of fewer bytes than the variable has is written, and zeros after it, but to a service",
+        "the CNC pads values up to 8 bytes too short with zeros, but not for names of V.G.SERVICE",
         |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) if !call.data.starts_with(b"V.G.SERVICE.") => {
                 let longer = (1..=8).map(|more| [call.data, &vec![0; more]].concat());
@@ -74,7 +79,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, answer) => answer,
         }),
     unprinted(row("different.axis-handles", &[],
-        "the axis interface has handles of its own, that are understood as the others are",
+        "handles of the axis interface are other numbers than those of the channel interface",
         |cnc, call| match function(call) {
             Some(Function::AxisHandleByName) => {
                 number(cnc.answer(call), 0, |handle| handle | OF_AXIS_INTERFACE)
@@ -91,7 +96,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             _ => cnc.answer(call),
         })),
     row("different.empty-places-refused", &[],
-        "on the axis interface a place where no axis is has no variables",
+        "on the axis interface, an axis index without an axis has no variables",
         |cnc, call| match (is(call, OF_AXES), group(call), offset(call) >> 16) {
             (true, 0x12_2302 | 0x12_2306, 2..) => Err(AdsError::SYMBOL_NOT_FOUND),
             _ => cnc.answer(call),

@@ -68,12 +68,14 @@ fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    on("different.contents-just", &[], "a content of COM is read with just the length that it has",
+    on("different.contents-just", &[],
+        "the CNC rejects a read of an object whose read length is not the size of the object",
         &[Function::ReadObject], |cnc, call| cnc.answer(call).and_then(|bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
             if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
         })),
-    row("different.parameters-any-kind", &[], "a parameter is found by its name at the offset of any kind",
+    row("different.parameters-any-kind", &[],
+        "a parameter is found by its name at the offset of any kind: P, V.L, V.P or V.S",
         |cnc, call| match (is(call, &[Function::DynamicValueByName]), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
                 let found = [0x1C, 0x1F, 0x22, 0x25].map(|at| cnc.at(call, group(call), at));
@@ -81,7 +83,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             (_, answer) => answer,
         }),
-    row("different.names-any-case", &[], "variables are found by their names in upper and lower case",
+    row("different.names-any-case", &[],
+        "the case of letters in names of variables does not matter",
         any_case),
     unprinted(on("different.ids-elsewhere", &[], "the IDs of objects are large and in no order",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
@@ -91,18 +94,20 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             bytes
         }))),
-    row("different.stream-read-empty", &[], "the object of the stream is read as an empty text", |cnc, call| {
-        let stream = group(call) & 0xEF_FF00 == 0x02_0100 && offset(call) == 0x90;
-        match (stream && call.service == AdsService::Read, cnc.answer(call)) {
-            (true, Err(_)) => {
-                let len = call.read_length.min(4094);
-                Ok(vec![0; usize::try_from(len).unwrap_or_default()])
+    row("different.stream-read-empty", &[],
+        "a read of the stream object returns zeros up to the read length, at most 4094 bytes",
+        |cnc, call| {
+            let stream = group(call) & 0xEF_FF00 == 0x02_0100 && offset(call) == 0x90;
+            match (stream && call.service == AdsService::Read, cnc.answer(call)) {
+                (true, Err(_)) => {
+                    let len = call.read_length.min(4094);
+                    Ok(vec![0; usize::try_from(len).unwrap_or_default()])
+                }
+                (_, answer) => answer,
             }
-            (_, answer) => answer,
-        }
-    }),
+        }),
     row("different.stream-busy", &[],
-        "every third write of a stream is rejected for now, whatever room there is",
+        "the CNC temporarily rejects every third stream write, even if it would fit",
         |cnc, call| if is(call, STREAM) && (1..=992).contains(&call.data.len()) {
             let mut memory = cnc.memory();
             memory.count = memory.count.wrapping_add(1);
@@ -115,7 +120,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             cnc.answer(call)
         }),
     sent("different.errors-with-zeros",
-        "a rejected Read or ReadWrite has as many zeros as were asked for, up to 64",
+        "the reply to a rejected Read or ReadWrite has zeros up to the read length, at most 64",
         |_, request: &FrameRef<'_>, mut bytes| {
             let asked = u32_at(request.data(), 8).unwrap_or_default().min(64);
             let rejected = matches!(u32_at(&bytes, 38), Some(1..));
@@ -125,7 +130,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             measured(bytes)
         }),
-    row("different.descriptors-by-index", &[], "descriptors that are asked for by index have groups by index",
+    row("different.descriptors-by-index", &[],
+        "descriptors that are read in addressing by index state groups in addressing by index",
         |cnc, call| if is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
             cnc.answer(call).map(|mut bytes| {
                 for record in records_mut(&mut bytes) {
@@ -142,7 +148,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.answer(call)
         }),
-    on("different.platform-elsewhere", &[], "descriptors of the platform have the other of its two groups",
+    on("different.platform-elsewhere", &[],
+        "descriptors of platform objects have the other group, 0x120100 or 0x120101",
         &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
             for record in records_mut(&mut bytes) {
                 let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
@@ -152,7 +159,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             bytes
         })),
-    unprinted(row("different.axes-move", &[], "axes move: their position is another whenever it is read",
+    unprinted(row("different.axes-move", &[],
+        "the position of an axis changes between any two reads",
         |cnc, call| match (function(call), group(call) & 0xEF_FF00) {
             (Some(Function::ReadObject), 0x02_0200) if offset(call) & 0xFFFF == 1 => {
                 moved(cnc, cnc.answer(call))
@@ -177,23 +185,23 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         })),
-    row("different.texts-whole", &[], "a STRING is written with all its bytes, and rejected with fewer",
+    row("different.texts-whole", &[],
+        "the CNC rejects a write by name to a STRING with fewer bytes than its size",
         |cnc, call| match writes_text(cnc, call) {
             Some(size) if after_nul(call.data).len() < size => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
-    row("different.texts-ended", &[], "a STRING is written with a NUL, and rejected without",
+    row("different.texts-ended", &[], "the CNC rejects a write by name to a STRING without a NUL",
         |cnc, call| match writes_text(cnc, call) {
             Some(_) if !after_nul(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
         }),
     unprinted(fault("different.model-numbers", &[],
-        "the CNC has channels 1, 9 and 255, axes with large numbers and long names, and \
-         spindles only to be read",
+        "the CNC has channels 1, 9 and 255, axes with large numbers, and five read-only spindles",
         CncFault::Model(NUMBERS))),
 ];
 
-/// A CNC with the maximum numbers of items.
+/// A CNC with the largest channel number, axis number and index offset, and with extreme values.
 const NUMBERS: &str = with_names!(
     r#"
 cnc-version = "V3.1.3100.0"

@@ -15,7 +15,7 @@ mod observed;
 const TARGET: AmsNetId = AmsNetId([192, 0, 2, 7, 1, 1]);
 const SOURCE: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8000) };
 
-/// The time of all checks: half an hour before the files of these tests expire.
+/// The time of most checks: half an hour before the files of these tests expire.
 fn now() -> Moment {
     Moment::from_rfc3339("2026-05-04T15:00:00Z").unwrap()
 }
@@ -71,7 +71,8 @@ fn element() -> ElementAddress {
     ElementAddress::for_channel(channel(1), Class::Hld, 1).unwrap()
 }
 
-/// Requests for the functions that write, each with the table of the file that allows it.
+/// A request for each function that writes, except for a write by a handle, with the table of the
+/// file that allows the request.
 fn writes() -> Vec<(Vec<u8>, &'static str)> {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(1));
     let axis = ChannelAxis::new(2).unwrap();
@@ -100,8 +101,8 @@ fn only_queries_pass_by_default() {
         if spec.effect != Effect::Query {
             continue;
         }
-        // The gate must allow the address only at the documented port of its function, and there with
-        // at least one of these data.
+        // The gate must allow the address only at the documented ports of its function, and there
+        // with at least one of the items of `data`.
         let offset = match spec.offset {
             ads_cnc::operation::OffsetRule::At(at) => at,
             ads_cnc::operation::OffsetRule::OfKind([first, ..]) => first,
@@ -157,13 +158,13 @@ fn some_requests_are_never_allowed() {
         at(sda, AdsService::ReadWrite, 0xF080, 1, &[0; 12]),
         at(sda, AdsService::ReadWrite, 0xF081, 1, &[0; 13]),
         at(sda, AdsService::ReadWrite, 0xF082, 1, &[0; 17]),
-        // The program stream: a read, and a write to the platform, which has no such stream
+        // Access to the program stream other than a write to a channel
         at(AmsPort::COM, AdsService::Read, 0x12_0101, 0x90, &[]),
         at(AmsPort::COM, AdsService::Read, 0x2_0101, 0x90, &[]),
         at(AmsPort::COM, AdsService::Read, 0x12_0100, 0x90, &[]),
         at(AmsPort::COM, AdsService::ReadWrite, 0x12_0101, 0x90, &[1]),
         at(AmsPort::COM, AdsService::Write, 0x12_0100, 0x90, b"M30\r\n"),
-        // A write to an address without a function
+        // A write to the address of the program stream, but at the port of SDA
         at(AmsPort::SDA, AdsService::Write, 0x12_0101, 0x90, b"M30\r\n"),
     ];
     for frame in never {
@@ -239,8 +240,8 @@ fn a_variable_includes_only_its_elements() {
     assert!(list.check(&request(other), now()).is_err());
 }
 
-/// A file may require an IP address. A file for the NetId 127.0.0.1.1.1, which every machine uses for
-/// itself, only applies to a loopback address.
+/// A file may require an IP address. A file for the NetId 127.0.0.1.1.1, which every machine uses
+/// for itself, only applies to a loopback address.
 #[test]
 fn a_file_may_require_an_address() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"";
@@ -268,8 +269,8 @@ fn a_file_may_require_an_address() {
     }
 }
 
-/// Malformed requests pass only with both the option `--malformed` and a file that permits them, to the
-/// target of the file and before its expiry.
+/// Malformed requests pass only with both the option `--malformed` and a file that permits them, to
+/// the target of the file and before its expiry.
 #[test]
 fn malformed_requests_need_a_file() {
     let bad = at(AmsPort::SDA, AdsService::ReadWrite, 0xF005, 0, b"x");
@@ -352,7 +353,7 @@ fn an_invalid_file_is_rejected_with_its_line() {
     assert!(lost.to_string().starts_with("/no/such/file.toml: "));
 }
 
-/// An entry as a rejection suggests it can be read from a file.
+/// An entry that is formatted as in the advice of a rejection can be read from a file.
 #[test]
 fn entries_are_shown_as_they_are_read() {
     let entries = [

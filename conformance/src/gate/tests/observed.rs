@@ -1,4 +1,4 @@
-//! Tests what the gate records from replies: handles, descriptions and lists of objects.
+//! Tests the records that the gate makes of replies: handles, descriptions and lists of objects.
 
 use ads_cnc::operation::{
     AxisHandleByName, CountObjects, DescribeByIndex, DescribeByName, HandleByName, ObjectList,
@@ -24,7 +24,7 @@ fn give_handle(gate: &mut Gate, name: &str, handle: u32) {
     observe(gate, HandleByName::new(channel(1), name).unwrap(), &handle.to_le_bytes());
 }
 
-/// Lets the gate observe the reply to a description by index, with this name and handle.
+/// Lets the gate observe a reply to DescribeByIndex, which contains this name and handle.
 fn describe(gate: &mut Gate, name: &str, handle: u32) {
     let description = Description {
         handle: Handle(handle),
@@ -65,8 +65,8 @@ fn a_handle_allows_writes_to_its_variable() {
         describe(&mut gate, name, handle);
     }
     assert!(gate.check(&by_handle(7), now()).is_ok());
-    // `V.E.other` has no entry. `V.E.b` has only an entry for one element, but a handle gives access
-    // to all elements.
+    // `V.E.other` has no entry. `V.E.b` has only an entry for one element, but a handle gives
+    // access to all elements.
     assert!(matches!(gate.check(&by_handle(8), now()).unwrap_err().reason, Reason::NoEntry(_)));
     assert!(matches!(gate.check(&by_handle(9), now()).unwrap_err().reason, Reason::NoEntry(_)));
     gate.forget();
@@ -75,7 +75,8 @@ fn a_handle_allows_writes_to_its_variable() {
     assert_eq!(ambiguity(&gate, &by_handle(7)), unconfirmed());
 }
 
-/// A write by a handle is rejected if any reply contained the handle for a name that is not in the file.
+/// A write by a handle is rejected if any reply contained the handle for a name that is not in the
+/// file.
 #[test]
 fn a_handle_with_several_names_is_rejected() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
@@ -157,8 +158,8 @@ fn the_number_of_observations_is_limited() {
     }
     assert!(gate.check(&by_name("V.E.a"), now()).is_ok());
     assert!(gate.knows_handle(channel(1), Handle(2)));
-    // Writes by handle remain rejected on another connection, because the names that were not stored
-    // are unknown there, too.
+    // Writes by handle remain rejected on another connection, because the names that were not
+    // stored are unknown there, too.
     gate.forget();
     describe(&mut gate, "V.E.a", 7);
     give_handle(&mut gate, "V.E.a", 7);

@@ -7,8 +7,8 @@ use ads_cnc::{Kind, VariableCount};
 use super::Walker;
 use super::walker::{GAP, NUMBER_MAX};
 
-/// The active channels in ascending order of their numbers. `is_there` checks whether a channel exists;
-/// its last argument is whether any channel of the CNC has COM objects.
+/// The active channels in ascending order of their numbers. `is_there` checks whether a channel
+/// exists; its last argument is whether a channel that was requested by its rank has COM objects.
 pub(crate) fn active_channels<W: Walker>(
     walker: &mut W,
     mut is_there: impl FnMut(&mut W, Channel, bool) -> Result<bool, W::Error>,
@@ -17,7 +17,8 @@ pub(crate) fn active_channels<W: Walker>(
     for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
         let is_listed = walker.count_objects(rank)?.is_some();
         has_objects |= is_listed;
-        // If COM reports no objects for a rank, the channel may still have variables in SDA.
+        // If COM reports no objects for a rank, but objects for an earlier rank, the channel may
+        // still have variables in SDA.
         if !is_listed && (!has_objects || !has_variables(walker, rank)?) {
             break;
         }
@@ -35,13 +36,14 @@ pub(crate) fn active_channels<W: Walker>(
     Ok(found)
 }
 
-/// Whether a channel has variables.
+/// Whether a channel has variables of the kinds V.E, V.G or V.A.
 pub(crate) fn has_variables<W: Walker>(walker: &mut W, channel: Channel) -> Result<bool, W::Error> {
     let count: Option<VariableCount> = walker.decoded(CountVariables::new(channel, Kind::ALL))?;
     Ok(count.is_some_and(|count| count.0 > 0))
 }
 
-/// The request for a channel's decoder, which exists even if the channel has no objects.
+/// The request for the address of a channel's decoder. A channel has a decoder even if it has no
+/// objects.
 pub(crate) fn decoder_of(channel: Channel) -> FindInstance {
     FindInstance::new(Class::Decoder, channel.number().into(), 0)
 }

@@ -17,7 +17,8 @@ impl Walk<'_> {
         let none = BTreeSet::new();
         let platform = self.list(ObjectList::PLATFORM, &none)?.unwrap_or_default();
         for &channel in channels {
-            // The list of the first channel repeats the platform's objects (COM-4).
+            // The list of the first channel repeats the platform's objects, which are not added
+            // again (COM-4).
             if self.is_selected(ValueList::Channel(channel.number())) {
                 self.list(channel.into(), &platform)?;
             }
@@ -30,8 +31,9 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Adds the objects of a list, except those at known addresses. Returns the addresses of all
-    /// its objects, or `None` if the target does not have the list.
+    /// Adds the objects of a list, except those at the addresses `known`. Returns the addresses of
+    /// the objects that were read, which are none if the list is not selected, or `None` if the
+    /// target does not have the list.
     fn list(
         &mut self,
         objects: ObjectList,

@@ -16,8 +16,8 @@ use crate::values::Type;
 /// Maximum element number that fits into an index offset.
 const ELEMENTS_MAX: u32 = 0xFFFF;
 
-/// Maximum number of elements with different names whose attributes are stored for one element number of
-/// a class.
+/// Maximum number of elements with different names whose attributes are stored for the same element
+/// number, separately for the channels and for the axes of a class.
 const ALIKE_MAX: usize = 64;
 
 impl Walk<'_> {
@@ -57,7 +57,7 @@ impl Walk<'_> {
         })
     }
 
-    /// Adds the elements of an instance. Returns whether the target has it.
+    /// Adds the elements of an instance. Returns whether the target has the instance.
     fn instance(&mut self, class: Class, channel: u32, axis: u32) -> Result<bool, ToolError> {
         let query = FindInstance::new(class, channel, axis);
         let list = ValueList::of_instance(class, channel, axis);
@@ -75,7 +75,7 @@ impl Walk<'_> {
             None => None,
         };
         let Some(first) = first else { return Ok(false) };
-        // A target that returns the same address for every axis would make the list endless.
+        // A target that returns the same address for every axis would seem to have 255 axes.
         if self.instances.contains(&first) {
             self.note(list, "ignored: its address is that of another instance");
             return Ok(false);
@@ -98,7 +98,7 @@ impl Walk<'_> {
             return Ok(());
         };
         let most = count.min(ELEMENTS_MAX);
-        let answered = self.each(1..=most, |walk, number| {
+        let requested = self.each(1..=most, |walk, number| {
             let Ok(element) = first.nth(number) else { return Ok(false) };
             let name: Option<ElementText> = walk.decoded(ReadElementName::new(element))?;
             let Some(name) = name.map(|name| name.text.text) else { return Ok(false) };
@@ -108,7 +108,7 @@ impl Walk<'_> {
             }
             Ok(true)
         })?;
-        self.note_rejected(list, most, answered);
+        self.note_missing(list, count, requested);
         Ok(())
     }
 
@@ -128,7 +128,8 @@ impl Walk<'_> {
             None => {
                 let read = self.attributes(element, name)?;
                 let alike = self.alike.entry(key).or_default();
-                // Attributes that are not stored because of the limit are read again for each instance.
+                // Attributes that are not stored because of `ALIKE_MAX` are read again for each
+                // instance.
                 if alike.len() < ALIKE_MAX {
                     alike.push(read.clone());
                 }

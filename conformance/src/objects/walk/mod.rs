@@ -17,25 +17,26 @@ use crate::session::{Session, ToolError};
 use crate::values::Type;
 pub(crate) use channels::{active_channels, decoder_of, has_variables};
 pub use walker::GAP;
-use walker::NUMBER_MAX;
 pub(crate) use walker::{CLASSES, KINDS, Walker, decode_element_count};
+use walker::{NUMBER_MAX, Requested};
 
-/// Number of descriptors that are read with one request.
+/// Maximum number of descriptors that are read with one request.
 pub const RANGE: u32 = 256;
 
-/// Maximum number of objects that are listed, and that are read of one list.
+/// Maximum number of values that a walk lists. Also the maximum number of objects, variables or
+/// parameters that are read of one list.
 pub const OBJECTS_MAX: u32 = 100_000;
-/// Maximum number of bytes of all names and units.
+/// Maximum number of bytes of the names and units of all listed values.
 pub const NAMES_MAX: usize = 8 << 20;
 /// Maximum number of requests of a walk.
 pub const REQUESTS_MAX: u64 = 1_000_000;
-/// Maximum number of notes.
+/// Maximum number of notes about lists.
 const NOTES_MAX: usize = 1_000;
 
-/// The selection of objects.
+/// The selection of lists and objects for a walk.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The channels; empty for all.
+    /// The channels to walk; empty for all active channels.
     pub channels: Vec<Channel>,
     /// A pattern of the names of the lists to walk, such as "HLD channel 1"; `None` for all.
     pub lists: Option<Pattern>,
@@ -43,7 +44,8 @@ pub struct Options {
     pub names: Option<Pattern>,
     /// Whether to list variables and parameters instead of objects and elements.
     pub variables: bool,
-    /// Whether to read every attribute of every element.
+    /// Whether to read every attribute of every element, even if an element with the same name and
+    /// number was read in another instance.
     pub exact: bool,
 }
 
@@ -51,13 +53,13 @@ pub struct Options {
 pub struct WalkResult {
     /// The objects, in the order of their lists.
     pub objects: Vec<ListedValue>,
-    /// Number of lists read.
+    /// Number of selected lists that were requested.
     pub lists: u32,
     /// Number of requests sent.
     pub requests: u64,
-    /// Notes about objects that could not be read.
+    /// Notes, for example about objects that could not be read.
     pub notes: Vec<String>,
-    /// Whether a limit ended the walk; a note names the limit.
+    /// Whether a limit or the deadline ended the walk or shortened a list; a note states which.
     pub is_cut: bool,
 }
 
@@ -66,9 +68,9 @@ pub struct WalkResult {
 pub struct WalkProgress {
     /// The list being read.
     pub list: ValueList,
-    /// Number of objects so far.
+    /// Number of objects that were added so far.
     pub objects: usize,
-    /// Number of requests so far.
+    /// Number of requests that were sent so far.
     pub requests: u64,
 }
 
@@ -89,7 +91,7 @@ pub struct WalkProgress {
 /// ```
 ///
 /// # Errors
-/// If the CNC does not reply.
+/// Those of [`Session::request`], except ADS errors and [`ToolError::Enough`].
 pub fn walk(
     session: &mut Session,
     options: &Options,
@@ -107,12 +109,12 @@ pub fn walk(
     Ok(walk.found)
 }
 
-/// The channels that the CNC has.
+/// The active channels of the CNC.
 pub(crate) fn channels_of(session: &mut Session) -> Result<Vec<Channel>, ToolError> {
     Walk::new(session, &Options::default(), &mut |_| {}).channels()
 }
 
-/// Returns those of `channels` that the CNC does not have.
+/// Returns those of `channels` that the CNC does not have, each once, in ascending order.
 pub(crate) fn absent_of(
     session: &mut Session,
     channels: &[Channel],
@@ -139,10 +141,11 @@ struct Walk<'w> {
     instances: Vec<ElementAddress>,
     /// The task that serves the current class: SDA or GEO.
     task: Task,
-    /// The reason why GEO is not queried, as an error.
+    /// The error because of which GEO is no longer queried; `Ok` until such an error occurs.
     geo: Result<(), ToolError>,
-    /// Attributes that were read, by class, whether of an axis, and number: elements of other
-    /// instances with the same name are assumed to have the same attributes.
+    /// The attributes that were read. The key is the class, whether the instance is that of an
+    /// axis, and the element number. Elements with the same key and name are assumed to have the
+    /// same attributes.
     alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
 }
 
@@ -183,11 +186,15 @@ impl<'w> Walk<'w> {
         }
     }
 
-    /// Adds a note about the entries of a list whose requests were rejected.
-    fn note_rejected(&mut self, list: ValueList, count: u32, answered: u32) {
-        let rejected = count.saturating_sub(answered);
+    /// Adds a note if the CNC has rejected requests for entries of a list, and if not all of the
+    /// `count` entries were requested.
+    fn note_missing(&mut self, list: ValueList, count: u32, requested: Requested) {
+        let Requested { sent, rejected } = requested;
         if rejected > 0 {
-            self.note(list, format_args!("the CNC rejects the requests for {rejected} of {count}"));
+            self.note(list, format_args!("the CNC rejects the requests for {rejected} of {sent}"));
+        }
+        if sent < count {
+            self.note(list, format_args!("only the first {sent} of {count} were requested"));
         }
     }
 
@@ -195,7 +202,7 @@ impl<'w> Walk<'w> {
         self.options.lists.as_ref().is_none_or(|lists| lists.matches(&list.to_string()))
     }
 
-    /// Begins a list. Returns whether it is selected.
+    /// Begins a list if the options select it. Returns whether they do.
     fn enter(&mut self, list: ValueList) -> bool {
         let is_selected = self.is_selected(list);
         if is_selected {
@@ -224,7 +231,8 @@ impl<'w> Walk<'w> {
         Ok(())
     }
 
-    /// The active channels.
+    /// The channels that the options name and the target has; all active channels if the options
+    /// name none.
     fn channels(&mut self) -> Result<Vec<Channel>, ToolError> {
         if !self.options.channels.is_empty() {
             return self.channels_given();
@@ -235,7 +243,7 @@ impl<'w> Walk<'w> {
         })
     }
 
-    /// The channels given in the options that the target has, each once.
+    /// The channels that the options name and the target has, each once.
     fn channels_given(&mut self) -> Result<Vec<Channel>, ToolError> {
         let mut found = Vec::new();
         for &channel in &self.options.channels {
@@ -273,7 +281,7 @@ impl Walker for Walk<'_> {
         match self.session.request(task, request) {
             Ok(data) => Ok(Some(data)),
             Err(ToolError::Ads { .. }) => Ok(None),
-            // GEO is optional.
+            // A CNC need not have the task GEO.
             Err(error @ (ToolError::Ams { .. } | ToolError::NoReply(_))) if is_geo => {
                 self.geo = Err(error);
                 Ok(None)

@@ -1,4 +1,4 @@
-//! Variables by their descriptions, and dynamic parameters.
+//! Lists variables by their descriptions, and dynamic parameters by their names.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
@@ -58,18 +58,15 @@ impl Walk<'_> {
             return Ok(());
         };
         let most = count.min(OBJECTS_MAX);
-        let answered = self.each((first..).take(to_usize(most)), |walk, index| {
+        let requested = self.each((first..).take(to_usize(most)), |walk, index| {
             let Some(object) = object(walk, index)? else { return Ok(false) };
             if walk.is_named(&object.name) {
                 walk.add(object)?;
             }
             Ok(true)
         })?;
-        self.note_rejected(list, most, answered);
-        if count > most {
-            self.note(list, format_args!("only the first {most} of {count} were requested"));
-            self.found.is_cut = true;
-        }
+        self.note_missing(list, count, requested);
+        self.found.is_cut |= count > most;
         Ok(())
     }
 }

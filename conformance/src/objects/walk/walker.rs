@@ -1,4 +1,4 @@
-//! The requests that every walk sends, and where its lists end.
+//! The requests that a walk sends, and the conditions at which its lists end.
 
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{
@@ -10,10 +10,10 @@ use ads_cnc::{Decode, Descriptors, Kind, ObjectCount};
 use super::super::ListedValue;
 use crate::number::to_u32;
 
-/// Number of consecutive rejected numbers after which a list ends.
+/// Number of consecutive numbers whose requests are rejected, after which a list ends.
 pub const GAP: u32 = 8;
 
-/// Maximum number of channels, axes and spindles.
+/// The last channel number, axis index and spindle index that are requested.
 pub(super) const NUMBER_MAX: u32 = 255;
 
 /// The kinds of variables that can be listed by index.
@@ -30,16 +30,23 @@ pub(crate) const CLASSES: [Class; 6] = [
     Class::Spindle,
 ];
 
-/// Decodes a number of elements. The size of this number is not documented, so data of fewer bytes than
-/// `ElementCount` is decoded like the length of an element.
+/// Decodes a number of elements. No manual documents the size of this number, so data of 1 or 2
+/// bytes is also decoded, like the length of an element.
 pub(crate) fn decode_element_count(data: &[u8]) -> Option<u32> {
     let count = ElementCount::decode(data).map(|count| count.0);
     count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
 }
 
+/// The number of entries of a list that were requested, and that were rejected.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Requested {
+    pub(super) sent: u32,
+    pub(super) rejected: u32,
+}
+
 /// Sends the requests of a walk: a tool through its session, a case of the suite through its probe.
 pub(crate) trait Walker: Sized {
-    /// Why a walk ends early.
+    /// The reason why a walk ends early.
     type Error;
 
     /// Sends a request and returns the data of the reply; `None` if the target rejects the request.
@@ -68,29 +75,31 @@ pub(crate) trait Walker: Sized {
         Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
     }
 
-    /// Calls `is_there` for each number, until [`GAP`] consecutive numbers are rejected. Returns how many
-    /// numbers were not rejected.
+    /// Calls `is_there` for each number, until [`GAP`] consecutive numbers are rejected.
     fn each(
         &mut self,
         numbers: impl IntoIterator<Item = u32>,
         mut is_there: impl FnMut(&mut Self, u32) -> Result<bool, Self::Error>,
-    ) -> Result<u32, Self::Error> {
-        let (mut count, mut gap) = (0_u32, 0_u32);
+    ) -> Result<Requested, Self::Error> {
+        let (mut requested, mut gap) = (Requested::default(), 0_u32);
         for number in numbers {
+            requested.sent = requested.sent.saturating_add(1);
             if is_there(self, number)? {
-                (count, gap) = (count.saturating_add(1), 0);
+                gap = 0;
             } else {
+                requested.rejected = requested.rejected.saturating_add(1);
                 gap = gap.saturating_add(1);
             }
             if gap >= GAP {
                 break;
             }
         }
-        Ok(count)
+        Ok(requested)
     }
 
-    /// Visits the objects of a list with `count` objects: `range` objects per request, or one per
-    /// request after a request for several was rejected.
+    /// Reads the descriptors of a list with `count` objects: up to `range` descriptors per request,
+    /// or one per request after a request for several was rejected. Ends after [`GAP`] consecutive
+    /// rejections.
     fn objects_of(
         &mut self,
         list: ObjectList,
@@ -119,10 +128,10 @@ pub(crate) trait Walker: Sized {
         Ok(all)
     }
 
-    /// Visits every instance of a class by channel and axis; `is_there` checks whether the target
-    /// has it. With `aliases`, the axes of the platform are also visited in the HLD of every
-    /// channel; otherwise only in the HLD of the first channel, and only if the HLD of the platform has
-    /// no axes (E-30).
+    /// Visits the instances of a class by channel and axis: `is_there` checks whether the target
+    /// has an instance, and the first missing axis or spindle ends a list. With `aliases`, the axes
+    /// of the platform are also visited in the HLD of every channel; otherwise only in the HLD of
+    /// the first channel, and only if the HLD of the platform has no axes (E-30).
     fn instances_of(
         &mut self,
         class: Class,
@@ -161,7 +170,8 @@ pub(crate) trait Walker: Sized {
         }
     }
 
-    /// Visits the axes of a channel, starting at `first`, until one is missing. Returns their number.
+    /// Visits the axes of a channel from the index `first` on, until one is missing; index 0 is the
+    /// channel itself. Returns the number of indices that are not missing.
     fn axes_of(
         &mut self,
         channel: u32,
@@ -180,7 +190,7 @@ pub(crate) trait Walker: Sized {
 
     /// The number of elements that the target reports for an instance.
     fn count_elements(&mut self, first: ElementAddress) -> Result<Option<u32>, Self::Error> {
-        // The address that the target returned may be that of a function.
+        // The address that the target returned may be that of a function, which has no elements.
         let data = match CountElements::new(first) {
             Ok(count) => self.request(count)?,
             Err(_) => None,

@@ -35,7 +35,8 @@ struct FollowerView {
 /// The causes, the gravest first.
 pub(super) fn causes(report: &Report) -> Vec<CauseView> {
     let mut all = groups(report);
-    // The sort keeps the order by requirement.
+    // The sort keeps the order of groups with an equal key, which `groups` has sorted by
+    // requirement.
     all.sort_by_key(|group| {
         (!group.is_failure(), std::cmp::Reverse(group.verdict.gravity()), group.waived)
     });

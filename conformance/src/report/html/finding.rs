@@ -1,4 +1,4 @@
-//! A finding and its bytes, in the form that the template needs.
+//! A check that did not pass and its bytes, in the form that the template needs.
 
 use serde::Serialize;
 
@@ -28,8 +28,8 @@ struct EvidenceView {
     sent: Option<BytesView>,
     received: Option<BytesView>,
     expected: Option<BytesView>,
-    /// The headers and service fields of the request and the reply, if the finding is about the
-    /// frames.
+    /// The headers and service fields of the request and the reply, if the check is about the
+    /// frames; otherwise empty.
     frames: Vec<Vec<BytesView>>,
     frame_sent: String,
     frame_received: String,
@@ -90,7 +90,8 @@ fn evidence(evidence: &EvidenceReport, is_of_frames: bool) -> EvidenceView {
     let EvidenceReport {
         call, result, sent, received, expected, frame_sent, frame_received, ..
     } = evidence;
-    // If the fields are the same, show each expected one below the received one.
+    // If the received and the expected fields have the same offsets, show each expected field below
+    // the received field.
     let fits = received.as_ref().zip(expected.as_ref()).is_some_and(|(received, expected)| {
         let places = |bytes: &BytesReport| -> Vec<usize> {
             bytes.fields.iter().map(|field| field.offset).collect()
@@ -133,7 +134,7 @@ fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
     }
 }
 
-/// Maximum number of zeros shown at the end of a field.
+/// Maximum number of unmarked zeros shown at the end of a field.
 const ZEROS: usize = 8;
 
 fn row(field: &FieldReport) -> RowView {

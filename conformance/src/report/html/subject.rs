@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::finding::{FailureView, finding};
 use crate::judge::{CaseSubject, Verdict, about};
+use crate::report::PROTOCOL_TITLE;
 use crate::report::console::{counts, heading};
 use crate::report::display::worded;
 use crate::report::document::{CaseReport, Report};
@@ -43,7 +44,8 @@ struct RequirementView {
 /// Maximum number of cases that a requirement links to.
 const LINKED_MAX: usize = 8;
 
-/// The cases of a requirement, the gravest first, and the number of omitted ones.
+/// The IDs of at most [`LINKED_MAX`] cases of a requirement, the gravest first, and the number of
+/// omitted cases.
 fn linked(report: &Report, judged_subject: CaseSubject, id: &str) -> (Vec<String>, usize) {
     let verdict = |case: &CaseReport| {
         let mut mine = case.requirements.iter().filter(|one| one.requirement == id);
@@ -56,7 +58,7 @@ fn linked(report: &Report, judged_subject: CaseSubject, id: &str) -> (Vec<String
     (cases.into_iter().take(LINKED_MAX).map(|(_, id)| id.clone()).collect(), more)
 }
 
-/// A group of cases: the vectors of a stream, or the cases of an area.
+/// A group of cases: the vectors of a stream, or the cases whose IDs begin with the same word.
 #[derive(Serialize)]
 struct GroupView {
     title: String,
@@ -66,7 +68,8 @@ struct GroupView {
     /// The gravity of the gravest verdict that is not waived.
     #[serde(skip)]
     gravity: u8,
-    /// The cases that did not pass; all cases if all passed.
+    /// In a folded group, all cases; otherwise the cases with a check that did not pass, or with a
+    /// verdict that fails the run.
     cases: Vec<CaseView>,
     /// The other cases.
     rest: Vec<CaseView>,
@@ -110,10 +113,9 @@ pub(super) fn subject(report: &Report, judged_subject: CaseSubject) -> SubjectVi
                         let (cases, more) = linked(report, judged_subject, &one.requirement);
                         RequirementView {
                             id: one.requirement.clone(),
-                            title: ads_cnc_vectors::requirement(&one.requirement).map_or_else(
-                                || "Protocol with the suite".to_owned(),
-                                |requirement| requirement.title.clone(),
-                            ),
+                            title: ads_cnc_vectors::requirement(&one.requirement)
+                                .map_or(PROTOCOL_TITLE, |requirement| requirement.title.as_str())
+                                .to_owned(),
                             verdict: one.verdict,
                             waived: one.waived,
                             cases,
@@ -140,7 +142,8 @@ pub(super) fn subject(report: &Report, judged_subject: CaseSubject) -> SubjectVi
 }
 
 fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
-    // The gravest cases first, and then the simplest vectors.
+    // Cases that are not waived first, then the gravest cases, then the vectors with the fewest
+    // bytes.
     cases.sort_by_cached_key(|case| {
         let evidence = case.failures.first().and_then(|failure| failure.evidence.as_ref());
         let parts = evidence.map(|one| [&one.sent, &one.received]).into_iter().flatten();

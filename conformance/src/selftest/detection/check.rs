@@ -17,7 +17,7 @@ pub enum Scope {
     /// Every defect that changed since the table was written, and [`SAMPLE`] others, which this random
     /// seed selects.
     Sample(u32),
-    /// Every defect that changed since the table was written.
+    /// Every defect that changed since the table was written; every defect if [`inputs`] changed.
     Changed,
     /// Every defect.
     All,
@@ -29,20 +29,21 @@ pub const SAMPLE: usize = 60;
 /// The detection table, and the result of the new measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckedTable {
-    /// The committed or renewed table; in JSON, the figures of each mode.
+    /// The committed or renewed table; in JSON, only the figures and the missed defects of each
+    /// mode.
     #[serde(serialize_with = "figures")]
     pub table: DetectionTable,
     /// Number of defects that were measured again.
     pub measured: usize,
-    /// Differences from the committed table.
+    /// Differences from the committed table, and errors of measurements.
     pub differences: Vec<String>,
 }
 
 impl CheckedTable {
-    /// Measures the defects of `seeds` that `scope` selects. `whole` says that `seeds` contains all
-    /// defects, so that the table can be renewed.
+    /// Measures those of `defects` that `scope` selects. `whole`: whether `defects` contains all
+    /// defects of a CNC, so that the table can be renewed.
     pub(crate) fn new(
-        seeds: Vec<&'static SeededDefect>,
+        defects: Vec<&'static SeededDefect>,
         scope: Scope,
         whole: bool,
         report_progress: ProgressCallback<'_>,
@@ -61,36 +62,37 @@ impl CheckedTable {
         }
         if whole {
             let gone =
-                published.rows.iter().filter(|row| !seeds.iter().any(|one| one.id == row.id));
+                published.rows.iter().filter(|row| !defects.iter().any(|one| one.id == row.id));
             differences.extend(gone.map(|row| format!("{}: no such defect", row.id)));
         }
         let is_current = published.inputs == inputs();
         let chosen = match scope {
             Scope::Sample(seed) => {
-                sample(seeds.clone(), (seed, SAMPLE), &published, report_progress)
+                sample(defects.clone(), (seed, SAMPLE), &published, report_progress)
             }
             Scope::Changed if is_current => {
-                sample(seeds.clone(), (0, 0), &published, report_progress)
+                sample(defects.clone(), (0, 0), &published, report_progress)
             }
-            Scope::Changed | Scope::All => seeds.clone(),
+            Scope::Changed | Scope::All => defects.clone(),
         };
-        let differs = |(seed, row): &(&SeededDefect, Result<DetectionRow, _>)| match row {
+        let differs = |(defect, row): &(&SeededDefect, Result<DetectionRow, _>)| match row {
             Ok(row) if scope == Scope::Changed => {
                 row.modes.values().any(|found| found.result == DetectionResult::Alarm)
             }
-            Ok(row) => !differing(published.row(seed), row).is_empty(),
+            Ok(row) => !differing(published.row(defect), row).is_empty(),
             Err(_) => true,
         };
         let part = ("defects measured in each mode", chosen.as_slice());
-        let measured = parallel(part, 1, |seed| (*seed, measure(seed)), differs, report_progress);
+        let measured =
+            parallel(part, 1, |defect| (*defect, measure(defect)), differs, report_progress);
         let mut rows = Vec::new();
-        for (seed, row) in measured {
+        for (defect, row) in measured {
             match row {
                 Ok(row) => {
-                    differences.extend(differing(published.row(seed), &row));
+                    differences.extend(differing(published.row(defect), &row));
                     rows.push(row);
                 }
-                Err(error) => differences.push(format!("{}: {error}", seed.id)),
+                Err(error) => differences.push(format!("{}: {error}", defect.id)),
             }
         }
         let measured = rows.len();
@@ -98,11 +100,11 @@ impl CheckedTable {
         if !is_renewed {
             return Self { table: published, measured, differences };
         }
-        let row = |seed: &&SeededDefect| {
-            let now = rows.iter().find(|row| row.id == seed.id);
-            now.or_else(|| published.row(seed).filter(|_| is_current)).cloned()
+        let row = |defect: &&SeededDefect| {
+            let now = rows.iter().find(|row| row.id == defect.id);
+            now.or_else(|| published.row(defect).filter(|_| is_current)).cloned()
         };
-        let rows: Vec<DetectionRow> = seeds.iter().filter_map(row).collect();
+        let rows: Vec<DetectionRow> = defects.iter().filter_map(row).collect();
         differences.extend(configured::stale(&rows));
         Self { table: DetectionTable { inputs: inputs(), rows }, measured, differences }
     }
@@ -110,21 +112,21 @@ impl CheckedTable {
 
 /// The defects that changed since the table was written, and `count` others, which `seed` selects.
 fn sample(
-    mut seeds: Vec<&'static SeededDefect>,
+    mut defects: Vec<&'static SeededDefect>,
     (seed, count): (u32, usize),
     published: &DetectionTable,
     report_progress: ProgressCallback<'_>,
 ) -> Vec<&'static SeededDefect> {
-    let part = ("defects compared with the table", seeds.as_slice());
-    let hashes = parallel(part, 1, |seed| hash(seed).ok(), Option::is_none, report_progress);
-    let changed = seeds
+    let part = ("defects compared with the table", defects.as_slice());
+    let hashes = parallel(part, 1, |defect| hash(defect).ok(), Option::is_none, report_progress);
+    let changed = defects
         .iter()
         .zip(hashes)
-        .filter(|(seed, hash)| published.row(seed).map(|row| &row.hash) != hash.as_ref());
-    let mut wanted: Vec<&SeededDefect> = changed.map(|(seed, _)| *seed).collect();
-    seeds.retain(|one| !wanted.iter().any(|changed| changed.id == one.id));
-    seeds.sort_by_key(|one| order(seed, &one.id));
-    wanted.extend(seeds.into_iter().take(count));
+        .filter(|(defect, hash)| published.row(defect).map(|row| &row.hash) != hash.as_ref());
+    let mut wanted: Vec<&SeededDefect> = changed.map(|(defect, _)| *defect).collect();
+    defects.retain(|one| !wanted.iter().any(|changed| changed.id == one.id));
+    defects.sort_by_key(|one| order(seed, &one.id));
+    wanted.extend(defects.into_iter().take(count));
     wanted
 }
 
@@ -175,7 +177,7 @@ fn figures<S: Serializer>(table: &DetectionTable, serializer: S) -> Result<S::Ok
 }
 
 impl DetectionTable {
-    /// The missed defects of a mode, each with the request that would have detected it.
+    /// The missed defects of a mode, each with the first request whose reply shows the defect.
     pub fn missed(&self, mode: Mode) -> impl Iterator<Item = (&DetectionRow, &str)> {
         self.rows.iter().filter_map(move |row| match row.modes.get(&mode).map(|one| &one.result) {
             Some(DetectionResult::Missed(request)) => Some((row, request.as_str())),

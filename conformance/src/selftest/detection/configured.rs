@@ -1,5 +1,5 @@
-//! Witnesses: correct CNCs with another configuration than the simulated CNC, whose replies equal those
-//! of the simulated CNC with a defect.
+//! Witnesses: correct CNCs with a configuration that differs from that of the simulated CNC. The
+//! replies of a witness equal those of the simulated CNC with a defect.
 
 use std::sync::Arc;
 
@@ -15,10 +15,11 @@ type Change = (&'static str, fn(&str) -> String);
 
 /// A correct CNC with another configuration, optionally a valid variant.
 pub(super) struct Witness {
-    /// The IDs of the defects whose replies equal those of the witness.
+    /// The IDs of the defects for which the witness is tried: in at least one mode, the replies of
+    /// a CNC with the defect equal those of the witness.
     defects: &'static [&'static str],
     pub(super) what: &'static str,
-    /// The changes to the lines of the default model.
+    /// The changes to the lines of the device's model.
     changes: &'static [Change],
     edition: Option<Edition>,
     variant: Option<&'static str>,
@@ -158,8 +159,8 @@ fn toggled(line: &str) -> String {
     if line.contains(WRITABLE) { read_only(line) } else { writable(line) }
 }
 
-/// The line with each non-ASCII character replaced by the characters that CP1252 assigns to its UTF-8
-/// bytes.
+/// The line with `ä` and `°` replaced by the characters that CP1252 assigns to the bytes of their
+/// UTF-8 encoding.
 fn utf8(line: &str) -> String {
     line.replace('ä', "Ã¤").replace('°', "Â°")
 }

@@ -42,24 +42,28 @@ impl Mode {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detection {
     pub result: DetectionResult,
+    /// The IDs of the requirements that fail.
     pub requirements: BTreeSet<String>,
+    /// The IDs of the cases that fail.
     pub cases: BTreeSet<String>,
 }
 
 /// The result of a defect in a mode.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DetectionResult {
-    /// A requirement of the defect's row fails.
+    /// A requirement that the defect breaks fails or, below the level *must*, has a warning or a
+    /// difference.
     Caught,
     /// Only other requirements fail.
     Elsewhere,
-    /// No requirement fails; this request would detect the defect.
+    /// No requirement fails, although the reply to this request shows the defect.
     Missed(String),
     /// No requirement fails, and no request of the mode distinguishes the CNC from a correct CNC: the
     /// CNC without the defect, or this witness.
     Undetectable(String),
     /// A valid variant, and no requirement fails.
     Quiet,
-    /// A valid variant, but a requirement fails.
+    /// A requirement fails, although the CNC is a valid variant or the effects of the defect are
+    /// undocumented (`witness::is_right`).
     Alarm,
 }

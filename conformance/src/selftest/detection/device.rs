@@ -1,4 +1,4 @@
-//! The simulated CNCs that the suite tests in the way in which it tests a device.
+//! The simulated CNCs that the suite tests as if they were devices.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -16,24 +16,23 @@ use crate::objects::{self, ListedValue, Options};
 use crate::profile::Profile;
 use crate::session::{Session, ToolError};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
-use crate::suite::{self, ClaimsBy};
-
-/// Number of axis indices of each channel that the suite tries.
-const AXES_MAX: u32 = 64;
+use crate::suite::{self, ClaimsBy, PLACES_MAX};
 
 /// A simulated CNC that the suite tests like a device, with its correct replies.
 pub(super) struct Device {
-    /// The TOML text of its data model.
+    /// The TOML text of the data model.
     pub(super) model: &'static str,
     settings: Settings,
     profile: Profile,
-    /// An `--allow-write` file with every writable value, except axis numbers.
+    /// The contents of an `--allow-write` file that allows all writes to values that the profile does
+    /// not exclude. It excludes the axis numbers, because writing them exchanges axes.
     allowed: Allowed,
     /// The digests of the correct replies, by the requests that the gate allows: queries; queries and
     /// writes; queries, writes and malformed requests.
     correct_digests: [OnceLock<Vec<u64>>; 3],
-    /// Digests like those in `right`, but without the values that the configuration of a CNC determines.
-    right_if_configured: [OnceLock<Vec<u64>>; 3],
+    /// Digests like those in `correct_digests`, but without the values that the configuration of a
+    /// CNC determines.
+    configured_digests: [OnceLock<Vec<u64>>; 3],
 }
 
 impl Device {
@@ -47,7 +46,7 @@ impl Device {
             profile,
             allowed,
             correct_digests: Default::default(),
-            right_if_configured: Default::default(),
+            configured_digests: Default::default(),
         })
     }
 
@@ -73,8 +72,8 @@ impl Device {
     }
 
     /// A new simulated CNC with the model of this device, optionally with a defect.
-    pub(super) fn cnc(&self, seed: Option<&SeededDefect>) -> Result<Arc<Faulty>, ToolError> {
-        Ok(Arc::new(Faulty::new(self.correct_cnc()?, seed)))
+    pub(super) fn cnc(&self, defect: Option<&SeededDefect>) -> Result<Arc<Faulty>, ToolError> {
+        Ok(Arc::new(Faulty::new(self.correct_cnc()?, defect)))
     }
 
     /// A simulated CNC with another model and edition, optionally a valid variant; `None` if the mode uses
@@ -106,7 +105,7 @@ impl Device {
     ) -> Result<&[u64], ToolError> {
         let [queries, writes, all] = match compare {
             Compare::Bytes => &self.correct_digests,
-            Compare::Configured => &self.right_if_configured,
+            Compare::Configured => &self.configured_digests,
         };
         let correct_digests = match mode {
             Mode::ReadOnly | Mode::Profiled => queries,
@@ -127,16 +126,16 @@ impl Device {
             return self.profile.empty_places.to_vec();
         }
         let others = self.profile.channels.iter().skip(1);
-        others.flat_map(|&number| (1..=AXES_MAX).map(move |place| (number, place))).collect()
+        others.flat_map(|&number| (1..=PLACES_MAX).map(move |place| (number, place))).collect()
     }
 
     /// The outcomes of the suite against this device, optionally with a defect, in a mode.
     pub(super) fn outcomes(
         &self,
-        seed: Option<&SeededDefect>,
+        defect: Option<&SeededDefect>,
         mode: Mode,
     ) -> Result<Vec<CaseOutcome>, ToolError> {
-        self.outcomes_of(self.cnc(seed)?, mode)
+        self.outcomes_of(self.cnc(defect)?, mode)
     }
 
     /// The outcomes of the suite against this device with several field defects, in a mode.
@@ -172,8 +171,9 @@ fn built(model: &str, settings: Settings) -> Result<Model, ToolError> {
     model.map_err(|error| ToolError::Internal(format!("the model: {error}")))
 }
 
-/// The contents of an `--allow-write` file with every value that the CNC describes as writable, and the
-/// writable values that no list of the CNC contains.
+/// The contents of an `--allow-write` file with every value that the CNC describes as writable,
+/// except the values that the profile excludes, with the writable values that no list of the CNC
+/// contains, and with the stream and the Service Interface of each channel.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError> {
     let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = Session::in_process(cnc, Gate::queries())?;
@@ -228,13 +228,14 @@ fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
     Ok(device)
 }
 
-/// The devices on which a seed is tried: for a variant with its own model, the device with this model;
-/// otherwise one device for each edition in which the defect is detectable.
-pub(super) fn devices(seed: &SeededDefect) -> Result<Vec<&'static Device>, ToolError> {
-    if let Some(model) = seed.own_model() {
+/// The devices on which a defect is tried: for a variant with its own model, the device with this
+/// model; otherwise the device of the edition of the defect, or of both editions if the defect has no
+/// edition.
+pub(super) fn devices(defect: &SeededDefect) -> Result<Vec<&'static Device>, ToolError> {
+    if let Some(model) = defect.own_model() {
         return of_model(model).map(|device| vec![device]);
     }
-    let editions = match seed.edition {
+    let editions = match defect.edition {
         Some(edition) => vec![edition],
         None => vec![Edition::English, Edition::German],
     };

@@ -1,10 +1,11 @@
-//! The detection of every seeded defect of a CNC over the wire, in each mode in which a user can
-//! run the suite against a device.
+//! Measures, in each mode in which a user can run the suite against a device, whether the suite
+//! detects each seeded defect of a CNC.
 //!
-//! The suite tests a simulated CNC in this process through the gate, as `ads-cnc run --target` tests a
-//! device: with the same cases, defaults and limits, and without access to the state of the simulator.
-//! The clock of the simulated CNC advances only while the client waits for a missing reply, so that a
-//! run is short and repeatable. A device has other values than the manuals' examples, so no profile
+//! The suite tests a simulated CNC in this process through the gate, as
+//! `ads-cnc run --target --all` tests a device: with the same cases, but without a deadline, and
+//! without access to the state of the simulator. During a run, the clock of the simulated CNC
+//! advances only while the client waits for a missing reply or between two requests, so that a run
+//! is short and repeatable. A device has other values than the manuals' examples, so no profile
 //! here claims that the CNC replies as in these examples.
 
 mod check;
@@ -35,24 +36,24 @@ pub use table::{DetectionRow, DetectionTable, Figures, inputs};
 ///
 /// # Errors
 /// An error of the suite, or of the simulated CNC.
-pub fn measure(seed: &SeededDefect) -> Result<DetectionRow, ToolError> {
-    let detect = |mode| detect(seed, mode).map(|detection| (mode, detection));
+pub fn measure(defect: &SeededDefect) -> Result<DetectionRow, ToolError> {
+    let detect = |mode| detect(defect, mode).map(|detection| (mode, detection));
     let modes = Mode::ALL.into_iter().map(detect).collect::<Result<BTreeMap<_, _>, _>>()?;
-    Ok(DetectionRow { id: seed.id.clone(), hash: hash(seed)?, modes })
+    Ok(DetectionRow { id: defect.id.clone(), hash: hash(defect)?, modes })
 }
 
-/// A hash of the defect's row, and of the replies of the CNC with the defect, up to the first reply that
-/// differs from the reply without the defect.
+/// A hash of the defect's row without its description, which does not change what is detected, and of
+/// the replies of the first of its devices with the defect in the mode `All`, up to the first reply
+/// that differs from the reply without the defect.
 ///
 /// # Errors
 /// An error of the simulated CNC.
-pub fn hash(seed: &SeededDefect) -> Result<String, ToolError> {
-    let devices = devices(seed)?;
-    let SeededDefect { id, requirements, what, edition, .. } = seed;
-    let mut text = format!("{id} {requirements:?} {what} {edition:?}");
+pub fn hash(defect: &SeededDefect) -> Result<String, ToolError> {
+    let devices = devices(defect)?;
+    let mut text = row_text(defect);
     for device in devices.iter().take(1) {
         let correct_digests = device.correct_answers(Mode::All, Compare::Bytes)?;
-        let cnc = device.cnc(Some(seed))?;
+        let cnc = device.cnc(Some(defect))?;
         let answers =
             answers(device, cnc, Mode::All, Some(correct_digests), Compare::Bytes)?.answers;
         text = format!("{text} {answers:?}");
@@ -60,20 +61,25 @@ pub fn hash(seed: &SeededDefect) -> Result<String, ToolError> {
     Ok(table::hash(&text))
 }
 
-/// The result of a defect in a mode. The suite is run against the device of each edition until the
-/// defect is caught.
-fn detect(seed: &SeededDefect, mode: Mode) -> Result<Detection, ToolError> {
-    let devices = devices(seed)?;
+fn row_text(defect: &SeededDefect) -> String {
+    let SeededDefect { id, requirements, edition, .. } = defect;
+    format!("{id} {requirements:?} {edition:?}")
+}
+
+/// The result of a defect in a mode. The suite runs against each of the [`devices`] of the defect,
+/// until the defect is caught.
+fn detect(defect: &SeededDefect, mode: Mode) -> Result<Detection, ToolError> {
+    let devices = devices(defect)?;
     let mut outcomes = Vec::new();
     for device in &devices {
-        outcomes.extend(device.outcomes(Some(seed), mode)?);
-        if judge(&seed.requirements, &outcomes).1 == TrialResult::Caught {
+        outcomes.extend(device.outcomes(Some(defect), mode)?);
+        if judge(&defect.requirements, &outcomes).1 == TrialResult::Caught {
             break;
         }
     }
-    let (failed, result) = judge(&seed.requirements, &outcomes);
+    let (failed, result) = judge(&defect.requirements, &outcomes);
     let result = match result {
-        TrialResult::Caught | TrialResult::Elsewhere if witness::is_right(seed).is_some() => {
+        TrialResult::Caught | TrialResult::Elsewhere if witness::is_right(defect).is_some() => {
             DetectionResult::Alarm
         }
         TrialResult::Caught => DetectionResult::Caught,
@@ -81,14 +87,14 @@ fn detect(seed: &SeededDefect, mode: Mode) -> Result<Detection, ToolError> {
         TrialResult::FalseAlarm => DetectionResult::Alarm,
         TrialResult::Broken => return Err(ToolError::Internal(failed.join(" "))),
         _ if !failed.is_empty() => DetectionResult::Elsewhere,
-        _ => witness::of(seed, &devices, mode)?,
+        _ => witness::of(defect, &devices, mode)?,
     };
-    // A warning or a difference counts as a failure only if it caught the defect (requirements below
-    // the level *must*).
+    // A warning or a difference counts as a failure only for a requirement that the defect breaks,
+    // and only if the defect is caught.
     let counts = |id: &str, verdict: Verdict| match verdict {
         Verdict::Fail | Verdict::Vacuous => true,
         Verdict::Warning | Verdict::Differs => {
-            result == DetectionResult::Caught && seed.requirements.contains(&id)
+            result == DetectionResult::Caught && defect.requirements.contains(&id)
         }
         _ => false,
     };
@@ -100,4 +106,18 @@ fn detect(seed: &SeededDefect, mode: Mode) -> Result<Detection, ToolError> {
         }
     }
     Ok(Detection { result, requirements, cases })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::faults;
+
+    #[test]
+    fn a_description_does_not_change_the_hash() {
+        let defect = faults::by_id("cnc.com.type-dword").unwrap();
+        let mut other = defect.clone();
+        other.what = "another description".to_owned();
+        assert_eq!(row_text(&other), row_text(defect));
+    }
 }

@@ -18,8 +18,8 @@ use crate::session::ToolError;
 /// Number of pairs that are tried.
 pub const PAIRS: usize = 200;
 
-/// The random seed that selects the pairs. It is constant, because `MASKED` lists the hidden defects of
-/// just these pairs.
+/// The random seed that selects the pairs. The seed is constant, because `MASKED` is complete only
+/// for the pairs that this seed selects.
 const SEED: u32 = 24;
 
 /// Pairs of ID prefixes: a defect whose ID starts with the first prefix can hide a defect whose ID starts
@@ -31,20 +31,21 @@ const MASKED: [(&str, &str); 3] = [
     ("variable-description", "dynamic-value.value"),
 ];
 
-/// The results of pairs of defects in different fields. Each defect alone is caught by queries without
-/// a profile.
+/// The results of pairs of defects in different fields. Each defect alone is caught in the mode
+/// `ReadOnly`.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PairFigures {
     /// Number of pairs of which both defects are detected.
     pub both: usize,
-    /// Number of pairs of which only one defect is detected, and the request or the expected reply that
-    /// would detect the other depends on the field of the detected one.
+    /// Number of pairs of which only one defect is detected, and this defect can make the other
+    /// defect undetectable; and of pairs of two defects of frames of which neither is detected.
     pub masked: usize,
-    /// Pairs in which one defect hides the other, although the two fields do not depend on each other.
+    /// All other pairs: those in which a defect is not detected without such a reason, and those
+    /// that could not be tried.
     pub hidden: Vec<String>,
 }
 
-/// Tries the pairs of defects that the table says are caught.
+/// Tries [`PAIRS`] pairs of defects that are caught according to the table.
 pub(crate) fn pairs(table: &DetectionTable, report_progress: ProgressCallback<'_>) -> PairFigures {
     let mut figures = PairFigures::default();
     let tried = parallel(
@@ -79,12 +80,12 @@ pub(crate) fn pairs(table: &DetectionTable, report_progress: ProgressCallback<'_
 
 /// The pairs of field defects to try, each of which is caught alone.
 fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
-    let is_caught = |seed: &SeededDefect| {
-        let found = table.row(seed).and_then(|row| row.modes.get(&Mode::ReadOnly));
+    let is_caught = |defect: &SeededDefect| {
+        let found = table.row(defect).and_then(|row| row.modes.get(&Mode::ReadOnly));
         found.is_some_and(|found| found.result == DetectionResult::Caught)
     };
-    let seeds = faults::all().iter().filter(|seed| is_caught(seed));
-    let mut all: Vec<&FieldDefect> = seeds.filter_map(SeededDefect::field).collect();
+    let caught = faults::all().iter().filter(|defect| is_caught(defect));
+    let mut all: Vec<&FieldDefect> = caught.filter_map(SeededDefect::field).collect();
     all.sort_by_key(|defect| order(SEED, &defect.id));
     let distances = 1..all.len();
     let pairs = distances.flat_map(|distance| {
@@ -95,26 +96,28 @@ fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
     pairs.take(PAIRS).map(|(one, other)| (one.clone(), other.clone())).collect()
 }
 
-/// Whether a clause that the first defect breaks fails, and the same for the second defect.
+/// For each of the two defects, whether a requirement that the defect breaks fails.
 fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), ToolError> {
     let device = Device::of_edition(Edition::English)?;
     let outcomes = device.outcomes_with(vec![one.clone(), other.clone()], Mode::ReadOnly)?;
-    let detected = |defect: &FieldDefect| {
-        let seed = SeededDefect::from(defect.clone());
-        judge(&seed.requirements, &outcomes).1 == TrialResult::Caught
+    let detected = |field: &FieldDefect| {
+        let defect = SeededDefect::from(field.clone());
+        judge(&defect.requirements, &outcomes).1 == TrialResult::Caught
     };
     Ok((detected(one), detected(other)))
 }
 
-/// Whether the field belongs to a frame or an ADS service, and not to the stream of a function.
+/// Whether the field of the defect belongs to a frame or an ADS service, and not to the stream of a
+/// function.
 fn is_of_frames(defect: &FieldDefect) -> bool {
     functions(defect.stream).is_empty()
 }
 
-/// Whether the defect `masking` can make the defect `masked` undetectable: if it is in the stream of the
-/// same function or of a function on which that function depends, or if either is a defect of a frame.
-/// A wrong frame can make every other defect undetectable, and the suite names the clause of an ADS
-/// service as the cause only if no function of another service fails.
+/// Whether the defect `masking` can make the defect `masked` undetectable: if `masking` is in a
+/// stream of the same function or of a function on which that function depends, if one of the two
+/// is a defect of a frame, or if [`MASKED`] lists the pair. A wrong frame can make every other
+/// defect undetectable, and the suite names the clause of an ADS service as the cause only if no
+/// function of another service fails.
 fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     let listed = MASKED
         .iter()

@@ -1,10 +1,11 @@
-//! Sends every request that a mode may send, including malformed requests, and records the replies, to
-//! distinguish two CNCs.
+//! Sends generated requests, including malformed queries, as far as the gate of a mode allows them,
+//! and records the replies, to distinguish two CNCs.
 //!
-//! Requests that the suite never sends to a device are omitted: malformed writes, and writes to an
-//! axis or a channel that may not exist. The requests are derived from the function table, from the
-//! lists of the CNC, from boundary values and short sequences, but not from the cases of the suite.
-//! Two CNCs with equal replies receive the same requests, so equal digests mean equal replies.
+//! Malformed writes, and writes to an axis or a channel that may not exist, are omitted: the suite
+//! sends most of these to the simulated CNC only. The requests are derived from the function table,
+//! from the lists of the CNC, from boundary values and short sequences, but not from the cases of
+//! the suite. Two CNCs with equal replies receive the same requests, so equal digests mean equal
+//! replies.
 
 mod configurable;
 mod queries;
@@ -42,7 +43,7 @@ const LENGTHS: [Range<usize>; 2] = [2..6, 26..30];
 const CHANNELS: [u32; 14] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 255];
 /// The requested axes, axis indices and spindles.
 const AXES: [u32; 7] = [1, 2, 3, 4, 5, 6, 255];
-/// For each function, this many requests are also sent in malformed variants.
+/// The number of requests of each query function of which malformed variants are also sent.
 const MALFORMED_EACH: usize = 6;
 
 #[derive(Clone)]
@@ -86,8 +87,8 @@ pub(super) struct RecordedAnswers {
     pub(super) difference: Option<String>,
 }
 
-/// Sends all requests that the client's gate allows. With `right`, the digests of the replies of another
-/// CNC, it stops at the first difference.
+/// Sends all requests that the client's gate allows. `correct_digests` contains the digests of the
+/// replies of another CNC: the function stops at the first reply with a different digest.
 pub(super) fn ask_everything<'t>(
     client: Client,
     cnc: Arc<Cnc>,
@@ -149,8 +150,9 @@ impl ReplyRecorder<'_> {
         self.elements();
     }
 
-    /// Sends a request if the gate of the tool allows it, and then, for the first requests of each function,
-    /// malformed variants of it; returns the data of a successful reply.
+    /// Sends a request if the client's gate allows the request, and then, for the first requests of
+    /// each query function in a mode with malformed requests, malformed variants of the request.
+    /// Returns the data of a successful reply.
     fn ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
         let mut buf = vec![0; request.encoded_len()];
@@ -158,7 +160,8 @@ impl ReplyRecorder<'_> {
         let data = self.call(&call);
         let sent = self.malformed.entry(request.function()).or_default();
         *sent += 1;
-        // The suite sends no malformed writes to a device in any mode.
+        // The suite sends most malformed writes to the simulated CNC only
+        // (`Needs::MalformedWrites`).
         let is_query = request.function().spec().effect == Effect::Query;
         if is_query && *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
             self.send_malformed(&call, data.as_ref().map_or(0, Vec::len));
@@ -166,8 +169,9 @@ impl ReplyRecorder<'_> {
         data
     }
 
-    /// Sends variants of a request, each with one change: data, service, port, read length, or one bit of
-    /// the index group or offset. `answered` is the length of the reply to the correct request.
+    /// Sends variants of a request, each with one change: data, service, port, read length, or one
+    /// bit of the index group or offset. `answered` is the number of bytes of data in the reply to
+    /// the correct request.
     fn send_malformed(&mut self, call: &Call<'_>, answered: usize) {
         let longer = [call.data, &[0]].concat();
         let shorter = |count: usize| call.data.get(..call.data.len().checked_sub(count)?);
@@ -237,16 +241,16 @@ impl ReplyRecorder<'_> {
 
     fn record(&mut self, received: &[u8], outcome: &str, request: impl FnOnce() -> String) {
         let answer = digest(&[received, outcome.as_bytes()].concat());
-        let correct_digests = self
+        let is_correct = self
             .correct_digests
             .is_none_or(|correct_digests| correct_digests.get(self.answers.len()) == Some(&answer));
-        if !correct_digests {
+        if !is_correct {
             self.difference = Some(request());
         }
         self.answers.push(answer);
     }
 
-    /// The channels that reply to a query, addressed by number and by rank.
+    /// The channels, by number and by rank, that reply to a query with a success.
     fn channels(&mut self) -> Vec<Channel> {
         let numbers = CHANNELS.iter().filter_map(|&number| Channel::new(number).ok());
         let ranks = CHANNELS.iter().filter_map(|&rank| Channel::by_index(rank).ok());
@@ -261,16 +265,17 @@ impl ReplyRecorder<'_> {
     }
 }
 
-/// A received frame without the differences that do not count. Each error number, and each value TRUE of
-/// a write flag or descriptor, is replaced by 1: the manuals document no error numbers, and every
-/// number except 0 is TRUE. The result of a write to the program stream is removed, because whether the
-/// CNC accepts the packet or rejects it as busy depends on its speed.
+/// A received frame without the differences that do not count. Each error number, and each value
+/// TRUE of a write flag or of the write access in a descriptor, is replaced by 1: the manuals
+/// document no error numbers, and every number except 0 is TRUE. The reply to a write of at most
+/// 992 bytes to the program stream is removed, because whether the CNC accepts the packet or
+/// rejects it as busy depends on the speed of the CNC.
 fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     const ERROR: Range<usize> = 30..34;
     const DATA: usize = RESULT.end + 4;
     let mut received = received.to_vec();
     for number in [ERROR, RESULT] {
-        is_set(received.get_mut(number).unwrap_or_default());
+        set_to_one(received.get_mut(number).unwrap_or_default());
     }
     let function = call.and_then(|call| Some(call.dispatch().ok()?.function()));
     let data = received.get_mut(DATA..).unwrap_or_default();
@@ -286,7 +291,7 @@ fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
         }
         Some(Function::ReadDescriptors) => {
             let records = data.chunks_mut(DESCRIPTOR_LEN);
-            records.filter_map(|record| record.get_mut(8..10)).for_each(is_set);
+            records.filter_map(|record| record.get_mut(8..10)).for_each(set_to_one);
         }
         _ => {}
     }
@@ -294,7 +299,7 @@ fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
 }
 
 /// Replaces a little-endian number by 1, unless it is 0.
-fn is_set(number: &mut [u8]) {
+fn set_to_one(number: &mut [u8]) {
     if number.iter().any(|byte| *byte != 0) {
         number.fill(0);
         number.iter_mut().take(1).for_each(|byte| *byte = 1);

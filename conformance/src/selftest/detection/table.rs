@@ -1,8 +1,9 @@
 //! The committed table: the detection of each seeded defect, in each mode.
 //!
-//! The table has one line for each defect and result, with fields separated by tabs: defect, hash of
-//! the defect, modes, result, the request or witness, requirements that fail, cases that fail. A
-//! valid variant of the CNC is `quiet` if no requirement fails.
+//! The first line of the table contains a hash of the inputs that all rows share. Then the table
+//! has one line for each defect and result, with fields separated by tabs: defect, hash of the
+//! defect, modes with this result, result, the request or witness, requirements that fail, cases
+//! that fail. A valid variant of the CNC is `quiet` if no requirement fails.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
@@ -23,7 +24,7 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionRow {
     pub id: String,
-    /// The hash of the defect's row and of the CNC's replies with the defect, as `super::hash` returns it.
+    /// The hash of the defect and of the CNC's replies with the defect, as `super::hash` returns it.
     pub hash: String,
     /// The result in each mode.
     pub modes: BTreeMap<Mode, Detection>,
@@ -32,7 +33,7 @@ pub struct DetectionRow {
 /// All rows, and a hash of their common inputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionTable {
-    /// A hash of the cases, the levels of the requirements and the default model.
+    /// A hash of the inputs that all rows share, as [`inputs`] returns it.
     pub inputs: String,
     /// The rows in the order of the defects.
     pub rows: Vec<DetectionRow>,
@@ -41,21 +42,22 @@ pub struct DetectionTable {
 /// The number of defects with each result in a mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Figures {
-    /// A requirement of the defect's row fails.
+    /// Defects that are [`DetectionResult::Caught`].
     pub caught: usize,
-    /// Only other requirements fail.
+    /// Defects with which only other requirements fail.
     pub elsewhere: usize,
-    /// No requirement fails, though a request would detect the defect.
+    /// Defects with which no requirement fails, although the reply to a request shows the defect.
     pub missed: usize,
-    /// No requirement fails, and no request would detect the defect.
+    /// Defects with which no requirement fails, and which no reply shows.
     pub undetectable: usize,
     /// Valid variants without a failed requirement.
     pub quiet: usize,
-    /// Valid variants with a failed requirement.
+    /// Results [`DetectionResult::Alarm`].
     pub alarms: usize,
 }
 
-/// The hash of the common inputs of all rows.
+/// The hash of the inputs that all rows share: the default model without comments, the IDs,
+/// requirements and needs of the cases, and the levels of the requirements.
 pub fn inputs() -> String {
     let is_comment = |line: &&str| line.trim_start().starts_with('#');
     let mut text: String = DEFAULT_MODEL
@@ -86,8 +88,8 @@ impl DetectionTable {
         Self::parse(PUBLISHED)
     }
 
-    pub fn row(&self, seed: &SeededDefect) -> Option<&DetectionRow> {
-        self.rows.iter().find(|row| row.id == seed.id)
+    pub fn row(&self, defect: &SeededDefect) -> Option<&DetectionRow> {
+        self.rows.iter().find(|row| row.id == defect.id)
     }
 
     /// The number of defects with each result in a mode.
@@ -113,9 +115,9 @@ impl DetectionTable {
     /// defects of a single field are counted, otherwise all other defects of a CNC.
     pub fn blame(&self, of_fields: bool) -> (usize, usize) {
         let of_field = |row: &&DetectionRow| {
-            let seed = faults::by_id(&row.id);
-            seed.is_some_and(|seed| {
-                seed.field().is_some() == of_fields && seed.kind != DefectKind::Different
+            let defect = faults::by_id(&row.id);
+            defect.is_some_and(|defect| {
+                defect.field().is_some() == of_fields && defect.kind != DefectKind::Different
             })
         };
         let rows = self.rows.iter().filter(of_field);
@@ -211,7 +213,7 @@ impl DetectionTable {
         for mode in Mode::ALL {
             let _ = write!(text, "\n### {}\n\n", mode.name());
             for (row, request) in self.missed(mode) {
-                let what = faults::by_id(&row.id).map_or("", |seed| seed.what.as_str());
+                let what = faults::by_id(&row.id).map_or("", |defect| defect.what.as_str());
                 let reason = reasons::of_missed(&row.id).map(|reason| format!(". {reason}"));
                 let reason = reason.unwrap_or_default();
                 let _ = writeln!(text, "- `{}`: {what}. {request}{reason}", row.id);

@@ -58,13 +58,13 @@ const UNDOCUMENTED: &[(&str, &str)] = &[
     ("cnc.sda.feedhold-2", "that TRUE is 1 is assumed (GEN-5)"),
 ];
 
-/// The reason why a CNC with this defect is correct; `None` if it is not.
-pub(super) fn is_right(seed: &SeededDefect) -> Option<&'static str> {
-    let undocumented = UNDOCUMENTED.iter().find(|(start, _)| seed.id.starts_with(start));
+/// The reason why a CNC with this defect is correct; `None` if the CNC is not correct.
+pub(super) fn is_right(defect: &SeededDefect) -> Option<&'static str> {
+    let undocumented = UNDOCUMENTED.iter().find(|(start, _)| defect.id.starts_with(start));
     if let Some((_, why)) = undocumented {
         return Some(why);
     }
-    let FieldDefect { stream, field, change, .. } = seed.field()?;
+    let FieldDefect { stream, field, change, .. } = defect.field()?;
     let free = FREE.iter().find(|(in_stream, name, changes, _)| {
         stream.layout().name == *in_stream && field.name() == *name && changes.contains(change)
     });
@@ -74,21 +74,21 @@ pub(super) fn is_right(seed: &SeededDefect) -> Option<&'static str> {
 /// The witness if the defect is undetectable; otherwise the first request whose reply distinguishes the
 /// CNC with the defect from every correct CNC.
 pub(super) fn of(
-    seed: &SeededDefect,
+    defect: &SeededDefect,
     devices: &[&'static Device],
     mode: Mode,
 ) -> Result<DetectionResult, ToolError> {
-    if let Some(why) = is_right(seed) {
+    if let Some(why) = is_right(defect) {
         return Ok(DetectionResult::Undetectable(format!("a right CNC: {why}")));
     }
     let mut witness = None;
     for device in devices {
-        if difference(seed, device, mode, Compare::Bytes)?.is_none() {
+        if difference(defect, device, mode, Compare::Bytes)?.is_none() {
             continue;
         }
-        if let Some(what) = configured_witness(seed, device, mode)? {
+        if let Some(what) = configured_witness(defect, device, mode)? {
             witness = Some(what);
-        } else if let Some(request) = difference(seed, device, mode, Compare::Configured)? {
+        } else if let Some(request) = difference(defect, device, mode, Compare::Configured)? {
             return Ok(DetectionResult::Missed(request));
         } else {
             witness = Some(CONFIGURED.to_owned());
@@ -102,27 +102,29 @@ pub(super) fn of(
 const CONFIGURED: &str =
     "elements may have any texts, objects any content, and V.E any extended description";
 
-/// The first request whose reply distinguishes the CNC with the defect from the CNC without it.
+/// The first request whose reply distinguishes the CNC with the defect from the CNC without the
+/// defect.
 fn difference(
-    seed: &SeededDefect,
+    defect: &SeededDefect,
     device: &Device,
     mode: Mode,
     compare: Compare,
 ) -> Result<Option<String>, ToolError> {
     let correct_digests = device.correct_answers(mode, compare)?;
-    Ok(answers(device, device.cnc(Some(seed))?, mode, Some(correct_digests), compare)?.difference)
+    Ok(answers(device, device.cnc(Some(defect))?, mode, Some(correct_digests), compare)?.difference)
 }
 
-/// The description of a witness with another configuration, whose replies equal those of the defect.
+/// The description of a witness with another configuration, whose replies equal those of the CNC
+/// with the defect.
 fn configured_witness(
-    seed: &SeededDefect,
+    defect: &SeededDefect,
     device: &Device,
     mode: Mode,
 ) -> Result<Option<String>, ToolError> {
-    for witness in configured::of(&seed.id) {
+    for witness in configured::of(&defect.id) {
         let Some(cnc) = witness.cnc(device, mode)? else { continue };
         let theirs = answers(device, cnc, mode, None, Compare::Bytes)?.answers;
-        let mine = answers(device, device.cnc(Some(seed))?, mode, Some(&theirs), Compare::Bytes)?;
+        let mine = answers(device, device.cnc(Some(defect))?, mode, Some(&theirs), Compare::Bytes)?;
         if mine.difference.is_none() {
             return Ok(Some(witness.what.to_owned()));
         }

@@ -14,13 +14,14 @@ use crate::simulator::content;
 use crate::simulator::model::Item;
 use crate::simulator::owner::Owner;
 
-/// The type of the first element of an instance, which contains the number of the other elements.
+/// The type, length and unit of the first element of an instance, which is element 0: the number of
+/// the other elements.
 const COUNT_TYPE: &str = "UNS32";
 const COUNT_LENGTH: u32 = 4;
 const COUNT_UNIT: &str = "-";
 
 impl AnsweringCnc<'_> {
-    /// The address of an instance; (0, 0) if it does not exist (SDA-2).
+    /// The address of an instance; (0, 0) if the instance does not exist (SDA-2).
     pub(super) fn find_instance(&self, op: &FindInstance) -> ReplyData {
         let found = self.instance(op.class_group(), op.query().channel, op.query().axis);
         encode(found.map_or(ObjectAddress::NONE, ObjectAddress::from))
@@ -93,8 +94,8 @@ impl AnsweringCnc<'_> {
     /// Owner and index of the element at an address; the index is `None` for the first element of
     /// an instance.
     ///
-    /// The instances of a class are those of SDA-5. It is assumed that the position controller itself
-    /// has no elements, and that every HLD contains the platform axes (E-30).
+    /// The instances of a class are those of SDA-5. It is assumed that the position controller
+    /// itself has no elements, and that every HLD contains the platform axes (E-30).
     fn locate(&self, address: ElementAddress) -> Result<(Owner, Option<usize>), AdsError> {
         let ClassGroup { addressing, class, instance, .. } = address.class_group();
         let split = address.index_offset().axis_and_element(stride(class, instance));
@@ -170,7 +171,7 @@ const fn stride(class: Class, instance: u8) -> AxisStride {
 }
 
 fn text(text: &str) -> ReplyData {
-    // The model was checked: names are CP1252.
+    // This does not fail: the names in a model were checked to be CP1252.
     encode_text(CncStr::new(text).map_err(|_| AdsError::INVALID_DATA)?)
 }
 

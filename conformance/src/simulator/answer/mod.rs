@@ -53,12 +53,13 @@ impl Cnc {
     /// Creates the CNC of the manuals' examples, see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
     ///
     /// # Errors
-    /// Never: a test builds the default model.
+    /// No error occurs: a test builds the default model.
     pub fn with_default_model() -> Result<Self, ModelError> {
         Model::default_model().map(Self::new)
     }
 
-    /// Stops the clock. Then only [`pass`](Self::pass) advances it, so that tests control the time.
+    /// Stops the clock at 0. From then on, only [`pass`](Self::pass) advances the clock, so that
+    /// tests control the time.
     ///
     /// ```
     /// use std::time::Duration;
@@ -107,7 +108,7 @@ impl Cnc {
         self.answering().state
     }
 
-    /// The CNC at the current time.
+    /// Locks the state, and advances it to the current time.
     fn answering(&self) -> AnsweringCnc<'_> {
         let mut state = lock(&self.state);
         let now = self.now();
@@ -129,12 +130,12 @@ impl Cnc {
     /// |---|---|
     /// | 0x6 | no task has this port |
     /// | 0x701 | the function has another service |
-    /// | 0x702 | index group without functions; no such channel, axis or spindle |
-    /// | 0x703 | index offset without a function; no such object or element; 0x4C on a CNC that is too old |
+    /// | 0x702 | index group without functions; no such channel or spindle, or no such axis in the index group |
+    /// | 0x703 | index offset without a function; no such object or element, or no such axis in the index offset; 0x4C on a CNC that is too old |
     /// | 0x704 | write to a read-only value |
-    /// | 0x705 | wrong size of a request, a value or the read length |
-    /// | 0x706 | index out of bounds, or too many indices; a handle that no variable of the channel has; a request for the handle of a variable that is accessible by name only; write to a place without an axis; impossible axis exchange; NC text that does not fit into the buffer now |
-    /// | 0x710 | no such name or kind |
+    /// | 0x705 | malformed data of a request; wrong size of a value; read length that is too small |
+    /// | 0x706 | index out of bounds, or wrong number of indices; a handle that no variable of the channel has; a request for the handle of a variable that is accessible by name only; write to a place without an axis; impossible axis exchange; NC text that does not fit into the buffer now |
+    /// | 0x710 | no such name or kind; no such axis on the axis interface |
     pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
         self.answering().answer(call)
     }
@@ -199,7 +200,7 @@ impl AnsweringCnc<'_> {
     }
 }
 
-const _: () = assert!(Function::ALL.len() == 30, "add the new function to `Cnc::reply`");
+const _: () = assert!(Function::ALL.len() == 30, "add the new function to `AnsweringCnc::reply`");
 
 impl Responder for Cnc {
     fn answer(&self, call: &Call<'_>) -> ReplyData {
@@ -237,15 +238,15 @@ impl AnsweringCnc<'_> {
         let channel = self.state.channels.get_mut(channel).ok_or(AdsError::INVALID_GROUP)?;
         match program::result(channel.program.write(op.packet, self.now)) {
             AdsError::NO_ERROR => encode(NoData),
-            refused => Err(refused),
+            rejected => Err(rejected),
         }
     }
 }
 
 fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
-    call.dispatch().map_err(|refusal| {
-        tracing::debug!(group = %call.index_group, offset = %call.index_offset, "refused: {refusal}");
-        refusal.ads_error()
+    call.dispatch().map_err(|rejection| {
+        tracing::debug!(group = %call.index_group, offset = %call.index_offset, "rejected: {rejection}");
+        rejection.ads_error()
     })
 }
 

@@ -20,7 +20,7 @@ fn call(group: u32, offset: u32, read_length: u32, data: &[u8]) -> Call<'_> {
     }
 }
 
-/// Requests to channel 1, with a large read length.
+/// Sends a request to channel 1, with a large read length.
 fn ask(offset: u32, data: &[u8]) -> Result<Vec<u8>, AdsError> {
     cnc().answer(&call(0x12_2301, offset, 2048, data))
 }
@@ -59,7 +59,8 @@ fn printed_examples() {
     }
     assert_eq!(ask(0x2_0004, b"V.A.WCS\0"), Ok(vec![0x1B, 0, 2, 1]));
     assert_eq!(ask(0x2_0005, b"V.A.WCS\0"), Ok(1234.2_f64.to_le_bytes().to_vec()));
-    // An axis that does not exist, and a name with an axis.
+    // The axis of the first request does not exist; the name in the second request contains an
+    // axis.
     assert_eq!(ask(0x4_0005, b"V.A.WCS\0"), Err(AdsError::SYMBOL_NOT_FOUND));
     assert_eq!(ask(0x2_0005, b"V.A.WCS.Y\0"), Err(AdsError::SYMBOL_NOT_FOUND));
     // On the channel interface, the name contains the axis name.
@@ -233,7 +234,7 @@ fn wrong_lengths_are_errors() {
     }
 }
 
-/// Every channel has the program stream that its list contains (STM-1).
+/// The list of every channel contains the program stream of the channel (STM-1).
 #[test]
 fn every_channel_lists_its_streaming_object() {
     for channel in [1, 2, 6] {
@@ -249,7 +250,7 @@ fn every_channel_lists_its_streaming_object() {
 #[test]
 fn object_lists() {
     let count = |group| com(group, 0, 4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
-    // 19 own objects, 9 of the axes, 2 of the platform.
+    // 19 objects of the channel itself, 9 of its axes, 2 of the platform.
     assert_eq!(count(0x13_0101), Ok(30));
     assert_eq!(count(0x03_0101), Ok(30));
     assert_eq!(count(0x13_0100), Ok(2));
@@ -264,8 +265,8 @@ fn object_lists() {
 
     let read = |first, length| com(0x13_0101, first, length).map(|bytes| bytes.len() / 84);
     assert_eq!((read(1, 84), read(1, 168), read(1, 30 * 84)), (Ok(1), Ok(2), Ok(30)));
-    // The reply contains at most the existing descriptors, and only whole descriptors if the read
-    // length is not a multiple of 84 bytes.
+    // The reply contains at most the existing descriptors, and one descriptor if the read length is
+    // not a multiple of 84 bytes.
     assert_eq!((read(29, 4 * 84), read(1, 31 * 84), read(1, 100)), (Ok(2), Ok(30), Ok(1)));
     assert_eq!(read(1, 84 * 10_000_000), Ok(30));
     assert_eq!(read(1, 83), Err(AdsError::INVALID_SIZE));
@@ -327,12 +328,12 @@ fn many_platform_axes() {
         let number = Ok(u16::try_from(axis).unwrap().to_le_bytes().to_vec());
         assert_eq!(read(0x12_3300, 0x1000 * axis + 1, 2), number);
         assert_eq!(read(0x12_3301, 0x1_0000 * axis + 1, 2), number);
-        // The first element contains the number of elements.
+        // Element 0 contains the number of the other elements.
         assert_eq!(read(0x12_3300, 0x1000 * axis, 4), Ok(vec![1, 0, 0, 0]));
     }
 }
 
-/// The CNC accepts packets for the program of an existing channel only.
+/// The CNC accepts packets only for the program of an existing channel.
 #[test]
 fn packets_of_the_program_stream() {
     let write = |group| {

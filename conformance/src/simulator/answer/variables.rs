@@ -157,8 +157,8 @@ impl AnsweringCnc<'_> {
         self.write(channel, at, indices, op.value.as_bytes())
     }
 
-    /// The value of a variable or of one of its elements; zeros for a place without an axis
-    /// (SDA-11).
+    /// The value of a variable or of one of its elements; zeros for a place (axis index of the
+    /// channel) without an axis (SDA-11).
     fn read(&self, channel: usize, at: VariableRef, indices: U32List<'_>) -> ReplyData {
         let variable = self.variable(channel, at)?;
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;

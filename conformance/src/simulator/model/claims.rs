@@ -22,7 +22,8 @@ impl Model {
         let elements = self.classes.iter();
         let elements =
             elements.flat_map(|class| class.channel.items.iter().chain(&class.axis.items));
-        // A write to these contents exchanges axes; writing the old number does not undo this.
+        // A write to these contents exchanges axes; writing the old number does not undo the
+        // exchange.
         let exchange = self.channel_axis.items.iter().chain(elements);
         let exchange =
             exchange.filter(|item| item.writable && item.meaning == ContentSource::AxisNumber);

@@ -1,4 +1,4 @@
-//! The variables of the model, for comparison with replies.
+//! The variables of a model in their initial state, for comparison with replies.
 
 use ads_cnc::{CncString, ExtendedDescription, VariableAccess, VariableType};
 
@@ -16,12 +16,13 @@ pub struct ConfiguredVariable {
     pub dimensions: Vec<u32>,
     /// The extended description; only for V.E.
     pub extended: Option<ExtendedDescription>,
+    /// The bytes of the initial value.
     pub value: Vec<u8>,
 }
 
 impl Model {
-    /// The V.E and V.G variables of the channel with this logical number, in the order of their
-    /// indices.
+    /// The V.E variables and the V.G variables of the channel with this logical number, each in the
+    /// order of their indices.
     pub fn configured(&self, channel: u32) -> (Vec<ConfiguredVariable>, Vec<ConfiguredVariable>) {
         let found =
             self.channels.iter().enumerate().find(|(_, one)| u32::from(one.number) == channel);

@@ -37,11 +37,13 @@ pub(in crate::simulator) struct ChannelModel {
     pub(in crate::simulator) number: u8,
     /// Whether the channel is initially active.
     pub(in crate::simulator) active: bool,
-    /// The initial axis at each place.
+    /// The initial axis at each place (axis index) of the channel, as its index in the model;
+    /// `None` without an axis.
     pub(in crate::simulator) places: Vec<Option<usize>>,
     pub(in crate::simulator) objects: Objects,
     pub(in crate::simulator) variables: Variables,
-    /// Indices of V.E and V.G in `variables`, in the order of the lists.
+    /// Indices of the V.E variables in `variables`, in the order of the list of the CNC; `global`
+    /// for V.G.
     pub(in crate::simulator) external: Vec<usize>,
     pub(in crate::simulator) global: Vec<usize>,
     pub(in crate::simulator) by_handle: HashMap<u32, VariableRef>,
@@ -49,9 +51,9 @@ pub(in crate::simulator) struct ChannelModel {
     pub(in crate::simulator) program: ProgramConfig,
     /// The NC program that sends requests to services, if any.
     pub(in crate::simulator) script: Option<ScriptConfig>,
-    /// The list of the channel's own objects and those of its axes.
+    /// The descriptors of the channel's objects, and of the objects of its axes.
     pub(in crate::simulator) list: Descriptors,
-    /// The same list, followed by the platform's objects (COM-4).
+    /// The same list, followed by the descriptors of the platform's objects (COM-4).
     pub(in crate::simulator) list_of_first: Descriptors,
 }
 
@@ -68,7 +70,7 @@ pub(in crate::simulator) struct AxisModel {
 pub struct Settings {
     /// The edition of the manual that the CNC follows.
     pub edition: Option<Edition>,
-    /// The version that the CNC reports.
+    /// The version of the CNC, which determines its features.
     pub version: Option<CncVersion>,
 }
 

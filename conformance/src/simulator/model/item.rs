@@ -16,7 +16,7 @@ pub(in crate::simulator) struct Item {
 }
 
 impl Item {
-    /// Whether a write may be shorter than the content.
+    /// Whether the item is a STRING, so that a written text may be shorter than the content.
     pub(in crate::simulator) fn is_text(&self) -> bool {
         self.type_name == "STRING"
     }
@@ -27,11 +27,12 @@ impl Item {
 pub(in crate::simulator) enum ContentSource {
     /// The last written value.
     Value,
-    /// The logical number of the axis at the place; 0 without an axis. A write exchanges axes.
+    /// The logical number of the axis that owns the content; 0 at a place (axis index of a channel)
+    /// without an axis. A write at a place exchanges axes.
     AxisNumber,
 }
 
-/// Initial values.
+/// The initial values of an object, element or variable.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::simulator) struct Initial {
     /// Size of each value in bytes.
@@ -63,13 +64,13 @@ impl Initial {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Objects {
     pub(in crate::simulator) items: Vec<Item>,
-    /// The low part of each object's offset.
+    /// The index offset of each object without the axis, in the order of `items`.
     pub(in crate::simulator) elements: Vec<u32>,
     pub(super) by_element: HashMap<u32, usize>,
 }
 
 impl Objects {
-    /// The index of the object with this element number.
+    /// The index in `items` of the object with this value in `elements`.
     pub(in crate::simulator) fn at(&self, element: u32) -> Option<usize> {
         self.by_element.get(&element).copied()
     }

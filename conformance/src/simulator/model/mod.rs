@@ -32,23 +32,23 @@ use crate::edition::{CncVersion, Edition};
 pub(super) use build::parameter_kind;
 use error::Source;
 
-/// The default model: the values of the manuals' examples, and an example of every other feature.
+/// The default model, as TOML: the values of the manuals' examples, and further examples.
 pub const DEFAULT_MODEL: &str = include_str!("default.toml");
 
 impl Model {
     /// The default model: [`DEFAULT_MODEL`].
     ///
     /// # Errors
-    /// Never: a test parses the default model.
+    /// No error occurs: a test parses the default model.
     pub fn default_model() -> Result<Self, ModelError> {
         Self::from_toml(DEFAULT_MODEL, "the default model")
     }
 
-    /// Parses a model from TOML; `file` is its name in errors.
+    /// Parses a model from TOML; `file` is the name of the file in errors.
     ///
     /// # Errors
-    /// [`ModelError`] for invalid TOML, unknown keys, and values that contradict each other or do not
-    /// fit into the streams.
+    /// [`ModelError`] for invalid TOML, unknown keys, and values that contradict each other or do
+    /// not fit into the streams.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, ModelError> {
         Self::with_settings(text, file, Settings::default())
     }
@@ -79,7 +79,8 @@ impl Model {
         self.edition
     }
 
-    /// The version that the CNC reports; with `None`, the CNC has all features.
+    /// The version of the CNC, which determines its features; with `None`, the CNC has all
+    /// features.
     pub const fn version(&self) -> Option<CncVersion> {
         self.version
     }
@@ -95,7 +96,7 @@ impl Model {
         channel.map(|channel| &channel.program)
     }
 
-    /// The elements of a class; the class determines their instances.
+    /// The elements that each instance of a class has.
     pub(super) fn class(&self, class: Class) -> Option<&ClassModel> {
         self.classes.get(class_place(class))
     }

@@ -10,9 +10,10 @@ use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 pub(in crate::simulator) struct Parameter {
     pub(in crate::simulator) kind: DynamicKind,
     pub(in crate::simulator) name: CncString,
-    /// The initial value each time that the parameter is created.
+    /// The value of the parameter each time it is created.
     pub(in crate::simulator) value: DynamicValue,
-    /// The object of the channel whose content must not be 0 for the parameter to exist, if any.
+    /// The index of an object of the channel: the parameter exists only while the object's content
+    /// is not 0.
     pub(in crate::simulator) needs: Option<usize>,
     /// The times at which the parameter exists.
     pub(in crate::simulator) times: Times,
@@ -52,8 +53,8 @@ impl Times {
         *self == Self::default()
     }
 
-    /// The number of times that the parameter was created before; `None` if it does not exist at this
-    /// time.
+    /// The number of times that the parameter was created before; `None` if it does not exist at
+    /// this time.
     pub(in crate::simulator) fn life(&self, now: Duration) -> Option<u128> {
         let (now, period) = (now.as_nanos(), self.period.map(|period| period.as_nanos()));
         let life = period.and_then(|period| now.checked_div(period)).unwrap_or(0);

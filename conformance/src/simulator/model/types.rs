@@ -1,110 +1,60 @@
 //! Types of values, and the conversion of TOML values to bytes.
 
-use ads_cnc::{CncStr, VariableType};
+use ads_cnc::CncStr;
+use ads_cnc::value::DataType;
 use toml::Value;
 
 use crate::text::plural;
 
-/// A type by its name.
-#[derive(Debug)]
+/// The kinds of items, which have different names for the types.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum TypeNames {
+    /// Variables (VAR-5).
+    Variable,
+    /// Elements (SDA-7).
+    Element,
+    /// COM objects (GEN-5).
+    Object,
+}
+
+/// A type with its name.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct NamedType {
     pub(super) name: &'static str,
-    pub(super) scalar: ScalarType,
+    pub(super) data_type: DataType,
 }
 
-/// How a value is encoded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ScalarType {
-    Boolean,
-    Unsigned(usize),
-    Signed(usize),
-    Real32,
-    Real64,
-    /// Text. The declared length includes the NUL.
-    String,
-}
-
-impl ScalarType {
-    /// Size of one value in bytes; `None` for a STRING.
-    pub(super) const fn size(self) -> Option<usize> {
-        match self {
-            Self::Boolean => Some(1),
-            Self::Unsigned(size) | Self::Signed(size) => Some(size),
-            Self::Real32 => Some(4),
-            Self::Real64 => Some(8),
-            Self::String => None,
-        }
+impl TypeNames {
+    /// All types that these items may have.
+    fn all(self) -> impl Iterator<Item = NamedType> {
+        DataType::ALL.into_iter().filter_map(move |data_type| {
+            let name = match self {
+                Self::Variable => data_type.var_type().map(|_| data_type.name()),
+                // Only objects use the types LINT and LWORD.
+                Self::Element if matches!(data_type, DataType::Lint | DataType::Lword) => None,
+                Self::Element => Some(data_type.name()),
+                Self::Object => Some(data_type.object_name()),
+            };
+            Some(NamedType { name: name?, data_type })
+        })
     }
-}
 
-const fn named(name: &'static str, scalar: ScalarType) -> NamedType {
-    NamedType { name, scalar }
-}
-
-/// Types of variables (VAR-5).
-pub(super) const VARIABLE: &[NamedType] = &[
-    named("BOOLEAN", ScalarType::Boolean),
-    named("SGN08", ScalarType::Signed(1)),
-    named("UNS08", ScalarType::Unsigned(1)),
-    named("SGN16", ScalarType::Signed(2)),
-    named("UNS16", ScalarType::Unsigned(2)),
-    named("SGN32", ScalarType::Signed(4)),
-    named("UNS32", ScalarType::Unsigned(4)),
-    named("REAL64", ScalarType::Real64),
-    named("STRING", ScalarType::String),
-];
-
-/// Types of elements (SDA-7).
-pub(super) const ELEMENT: &[NamedType] = &[
-    named("BOOLEAN", ScalarType::Boolean),
-    named("SGN08", ScalarType::Signed(1)),
-    named("UNS08", ScalarType::Unsigned(1)),
-    named("SGN16", ScalarType::Signed(2)),
-    named("UNS16", ScalarType::Unsigned(2)),
-    named("SGN32", ScalarType::Signed(4)),
-    named("UNS32", ScalarType::Unsigned(4)),
-    named("REAL32", ScalarType::Real32),
-    named("REAL64", ScalarType::Real64),
-    named("STRING", ScalarType::String),
-];
-
-/// Types of COM objects (GEN-5).
-pub(super) const OBJECT: &[NamedType] = &[
-    named("BOOL", ScalarType::Boolean),
-    named("BYTE", ScalarType::Unsigned(1)),
-    named("SINT", ScalarType::Signed(1)),
-    named("WORD", ScalarType::Unsigned(2)),
-    named("INT", ScalarType::Signed(2)),
-    named("DWORD", ScalarType::Unsigned(4)),
-    named("DINT", ScalarType::Signed(4)),
-    named("REAL", ScalarType::Real32),
-    named("LWORD", ScalarType::Unsigned(8)),
-    named("LINT", ScalarType::Signed(8)),
-    named("LREAL", ScalarType::Real64),
-    named("STRING", ScalarType::String),
-];
-
-pub(super) fn find(types: &'static [NamedType], name: &str) -> Result<&'static NamedType, String> {
-    types.iter().find(|known| known.name == name).ok_or_else(|| {
-        let known: Vec<&str> = types.iter().map(|known| known.name).collect();
-        format!("unknown type {name:?}; types: {}", known.join(" "))
-    })
-}
-
-/// The code of a variable's type.
-pub(super) fn code(name: &str) -> VariableType {
-    let codes = (1..=9).map(VariableType);
-    codes.into_iter().find(|code| code.name() == Some(name)).unwrap_or(VariableType::STRING)
+    pub(super) fn find(self, name: &str) -> Result<NamedType, String> {
+        self.all().find(|known| known.name == name).ok_or_else(|| {
+            let known: Vec<&str> = self.all().map(|known| known.name).collect();
+            format!("unknown type {name:?}; types: {}", known.join(" "))
+        })
+    }
 }
 
 /// Encodes one value of a type, or an array with `count` values, of `size` bytes each.
 pub(super) fn bytes(
-    scalar: ScalarType,
+    data_type: DataType,
     size: usize,
     count: Option<usize>,
     value: &Value,
 ) -> Result<Vec<u8>, String> {
-    let Some(count) = count else { return one(scalar, size, value) };
+    let Some(count) = count else { return one(data_type, size, value) };
     let mut values = Vec::new();
     flatten(value, &mut values);
     if values.len() != count {
@@ -112,7 +62,7 @@ pub(super) fn bytes(
     }
     let mut bytes = Vec::new();
     for value in values {
-        bytes.extend(one(scalar, size, value)?);
+        bytes.extend(one(data_type, size, value)?);
     }
     Ok(bytes)
 }
@@ -125,29 +75,27 @@ fn flatten<'a>(value: &'a Value, into: &mut Vec<&'a Value>) {
     }
 }
 
-fn one(scalar: ScalarType, size: usize, value: &Value) -> Result<Vec<u8>, String> {
-    match (scalar, value) {
-        (ScalarType::Boolean, Value::Boolean(value)) => Ok(vec![u8::from(*value)]),
-        (ScalarType::Boolean, Value::Integer(number)) => integer(*number, 0, 1, 1),
-        (ScalarType::Unsigned(size), Value::Integer(number)) => {
+fn one(data_type: DataType, size: usize, value: &Value) -> Result<Vec<u8>, String> {
+    use DataType::{
+        Boolean, Lint, Lword, Real32, Real64, Sgn08, Sgn16, Sgn32, Uns08, Uns16, Uns32,
+    };
+
+    match (data_type, value) {
+        (Boolean, Value::Boolean(value)) => Ok(vec![u8::from(*value)]),
+        (Boolean, Value::Integer(number)) => integer(*number, 0, 1, 1),
+        (Uns08 | Uns16 | Uns32 | Lword, Value::Integer(number)) => {
             integer(*number, 0, unsigned_max(size), size)
         }
-        (ScalarType::Signed(size), Value::Integer(number)) => {
+        (Sgn08 | Sgn16 | Sgn32 | Lint, Value::Integer(number)) => {
             // A signed number has one bit less.
             let max = unsigned_max(size) >> u32::from(size < 8);
             integer(*number, max.saturating_neg().saturating_sub(1), max, size)
         }
-        (ScalarType::Real64, Value::Float(number)) => Ok(number.to_le_bytes().to_vec()),
-        (ScalarType::Real64, Value::Integer(number)) => {
-            parsed::<f64>(number).map(|n| n.to_le_bytes().to_vec())
-        }
-        (ScalarType::Real32, Value::Float(number)) => {
-            parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec())
-        }
-        (ScalarType::Real32, Value::Integer(number)) => {
-            parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec())
-        }
-        (ScalarType::String, Value::String(text)) => string(text, size),
+        (Real64, Value::Float(number)) => Ok(number.to_le_bytes().to_vec()),
+        (Real64, Value::Integer(number)) => parsed::<f64>(number).map(|n| n.to_le_bytes().to_vec()),
+        (Real32, Value::Float(number)) => parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec()),
+        (Real32, Value::Integer(number)) => parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec()),
+        (DataType::String, Value::String(text)) => string(text, size),
         (_, value) => Err(format!("a {} is not a value of this type", value.type_str())),
     }
 }
@@ -175,7 +123,8 @@ fn parsed<T: std::str::FromStr>(number: impl ToString) -> Result<T, String> {
     text.parse().map_err(|_| format!("{text} is not a number"))
 }
 
-/// Encodes CP1252, padded with NULs. Bytes after a NUL in the text are kept.
+/// Encodes a text in CP1252, padded with NULs to `size` bytes. Bytes after a NUL in the text are
+/// kept.
 fn string(text: &str, size: usize) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     for (place, part) in text.split('\0').enumerate() {

@@ -14,14 +14,14 @@ use crate::number::to_usize;
 pub(in crate::simulator) struct Variable {
     /// The name with its kind, without the name of an axis.
     pub(in crate::simulator) name: CncString,
-    /// The handle; `None` if the variable is accessible by name only. For V.A, the handle at place 0;
-    /// each further place adds 0x10000.
+    /// The handle; `None` if the variable is accessible by name only. For V.A, the handle without
+    /// the place and the channel, which [`handle_at`] adds.
     pub(in crate::simulator) handle: Option<Handle>,
     pub(in crate::simulator) var_type: VariableType,
     pub(in crate::simulator) access: VariableAccess,
     /// Number of elements in each dimension; empty for an elementary variable.
     pub(in crate::simulator) dimensions: Vec<u32>,
-    /// All elements; the last index changes fastest.
+    /// The initial values of all elements; the last index changes fastest.
     pub(in crate::simulator) initial: Initial,
     /// The extended description; only for V.E.
     pub(in crate::simulator) extended: Option<ExtendedDescription>,
@@ -34,8 +34,8 @@ impl Variable {
         self.access == VariableAccess::READ_WRITE
     }
 
-    /// The byte range in the value: the whole value without indices, or one element with one index for
-    /// each dimension. `None` for another number of indices, or an index out of bounds.
+    /// The byte range in the value: the whole value without indices, or one element with one index
+    /// for each dimension. `None` for another number of indices, or an index out of bounds.
     pub(in crate::simulator) fn part(&self, indices: U32List<'_>) -> Option<Range<usize>> {
         if indices.is_empty() {
             return Some(0..self.initial.size);
@@ -62,7 +62,7 @@ impl Variable {
     }
 }
 
-/// Variables, with an index of their names.
+/// Variables, which can be found by their names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Variables {
     pub(in crate::simulator) list: Vec<Variable>,
@@ -70,23 +70,23 @@ pub(in crate::simulator) struct Variables {
 }
 
 impl Variables {
-    /// The variable with exactly this name.
+    /// The index in `list` of the variable with exactly this name.
     pub(in crate::simulator) fn named(&self, name: &[u8]) -> Option<usize> {
         self.by_name.get(name).copied()
     }
 }
 
-/// The variable of a handle, as an index in the model.
+/// A variable that a handle or name of a channel addresses, by its index in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::simulator) enum VariableRef {
     /// A variable of the channel.
     Channel(usize),
-    /// The variable of the axis at a place of the channel, from 0 (VAR-10).
+    /// The variable of the axis at a place (axis index) of the channel, counted from 0 (VAR-10).
     Axis { place: usize, variable: usize },
 }
 
-/// The handle of an axis variable at a place (from 1) of a channel. The printed example for the second
-/// place of channel 1 is 0x0102001B.
+/// The handle of an axis variable at a place (counted from 1) of a channel. The manual prints
+/// 0x0102001B for the second place of channel 1.
 pub(in crate::simulator) fn handle_at(of_axis: Handle, channel: u8, place: u8) -> Handle {
     let channel = u32::from(channel).saturating_sub(1);
     Handle(of_axis.0 | u32::from(place) << 16 | channel << 8)

@@ -1,4 +1,4 @@
-//! The responses to requests of a script.
+//! The outcomes of the requests of a script.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,7 +8,7 @@ use ads_cnc::CncString;
 /// The outcome of a request of a [`Script`](super::Script).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CompletedRequest {
-    /// Number of the request among all sent requests, from 1.
+    /// Number of the request among all completed requests, from 1.
     pub number: u64,
     /// Index of the request in the script.
     pub request: usize,
@@ -37,7 +37,7 @@ pub(super) struct CompletedRequests {
 }
 
 impl CompletedRequests {
-    /// Number of stored answers.
+    /// Maximum number of stored outcomes.
     pub(super) const STORED_MAX: usize = 64;
 
     pub(super) fn push(&mut self, request: usize, at: Duration, outcome: ServiceOutcome) {

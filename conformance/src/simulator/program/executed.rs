@@ -26,8 +26,8 @@ pub struct Executed {
     /// The latest complete lines.
     kept: Vec<u8>,
     kept_lines: u64,
-    /// Minimum number of stored bytes of the latest lines; the maximum is twice this number plus a
-    /// line.
+    /// Number of bytes: when the stored lines would exceed twice this number, the oldest lines are
+    /// removed, as far as at least this number of bytes is left.
     room: usize,
 }
 
@@ -51,12 +51,12 @@ impl Executed {
         self.digest
     }
 
-    /// The latest lines, each with its line end.
+    /// The latest lines, which are stored, each with its line end.
     pub fn recent(&self) -> &[u8] {
         &self.kept
     }
 
-    /// Number of the first stored line, from 1; if none is stored, the number of the next line.
+    /// Number of the first stored line, from 1; if no line is stored, the number of the next line.
     pub fn first_recent(&self) -> u64 {
         self.lines.saturating_sub(self.kept_lines).saturating_add(1)
     }
@@ -71,19 +71,22 @@ impl Executed {
         self.bytes = self.bytes.saturating_add(u64::try_from(line.len()).unwrap_or(u64::MAX));
         self.digest = fnv(self.digest, line);
         if self.kept.len().saturating_add(line.len()) > self.room.saturating_mul(2) {
-            self.forget();
+            self.forget(line.len());
         }
         self.kept.extend_from_slice(line);
         self.kept_lines = self.kept_lines.saturating_add(1);
     }
 
-    /// Removes lines beyond the limit.
-    fn forget(&mut self) {
+    /// Removes the oldest lines, as far as at least `room` bytes are left together with the `new`
+    /// bytes of the next line.
+    fn forget(&mut self, new: usize) {
         let mut surplus = 0_usize;
-        while self.kept.len().saturating_sub(surplus) > self.room {
-            let rest = self.kept.get(surplus..).unwrap_or_default();
-            let Some(line) = lines(rest).next() else { break };
-            surplus = surplus.saturating_add(line.len());
+        for line in lines(&self.kept) {
+            let end = surplus.saturating_add(line.len());
+            if self.kept.len().saturating_sub(end).saturating_add(new) < self.room {
+                break;
+            }
+            surplus = end;
             self.kept_lines = self.kept_lines.saturating_sub(1);
         }
         self.kept.drain(..surplus);
@@ -97,7 +100,7 @@ pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
 
-/// FNV-1a, 64 bits; not cryptographic.
+/// The FNV-1a hash of the bytes with 64 bits, which is not cryptographic.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::program::digest;
@@ -112,4 +115,18 @@ fn fnv(digest: u64, bytes: &[u8]) -> u64 {
     bytes
         .iter()
         .fold(digest, |digest, &byte| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn at_least_the_room_is_used() {
+        let mut executed = Executed::new(20);
+        for length in [15, 15, 10, 2] {
+            executed.push(&[&b"N10 X1234.5678"[..length - 1], b"\n"].concat());
+        }
+        assert_eq!((executed.recent().len(), executed.first_recent()), (27, 2));
+    }
 }

@@ -43,9 +43,9 @@ impl StreamingInterface {
 
     /// Appends all bytes of a write to the buffer, or none of them (STM-15).
     ///
-    /// Returns [`Ack::Rejected`] for more than 992 bytes and for no bytes (STM-4), and [`Ack::Busy`],
-    /// with warning 11012 of the CNC, if the bytes do not fit now (STM-6). These causes are assumed.
-    /// The bytes are not checked here.
+    /// Returns [`Ack::Rejected`] for more than 992 bytes and for no bytes (STM-4), and
+    /// [`Ack::Busy`], with warning 11012 of the CNC, if the bytes do not fit now (STM-6). These
+    /// causes are assumed. The bytes are not checked here.
     pub fn write(&mut self, data: &[u8]) -> Ack {
         if data.is_empty() || data.len() > STREAM_PACKET_MAX {
             return Ack::Rejected;
@@ -80,8 +80,8 @@ impl StreamingInterface {
         self.len
     }
 
-    /// Whether the buffer is empty. After a program end, the next program must wait for this
-    /// (STM-17).
+    /// Whether the buffer is empty. After a program end, a client must not write the next program
+    /// before the buffer is empty (STM-17).
     pub const fn is_empty(&self) -> bool {
         self.len == 0
     }

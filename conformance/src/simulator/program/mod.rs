@@ -4,12 +4,13 @@
 //!   interface and executes them at a configured pace.
 //! - [`Script`]: a program that repeatedly sends requests to services through the Service
 //!   Interface.
-//! - [`StreamingInterface`], [`service`]: the interfaces themselves, and a single request of a
-//!   program.
+//! - [`StreamingInterface`], [`service`]: the two interfaces, and a single request of a program to
+//!   a service.
 //!
 //! The programs use no threads, clocks or sockets. Before each access, the caller passes the time
-//! since any fixed point, which must never decrease, and the program executes all steps that are due.
-//! The result does not depend on the number of these calls.
+//! since any fixed point, which must never decrease, and the program executes all steps that are
+//! due. The result does not depend on the number of these calls, except if a [`Script`] has too
+//! many steps that are due.
 //!
 //! ```
 //! use std::time::Duration;

@@ -1,4 +1,4 @@
-//! The speed of execution.
+//! The speed at which streamed lines are executed.
 
 use std::num::NonZeroU32;
 use std::time::Duration;
@@ -35,7 +35,7 @@ impl Pace {
     }
 }
 
-/// The text is not a [`Pace`].
+/// The error for a text that is not a [`Pace`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected a number of lines per second from 1, `4000 bytes/s`, `fast` or `hold`")]
 pub struct ParsePaceError;
@@ -91,7 +91,7 @@ pub(super) struct LineClock {
 }
 
 impl LineClock {
-    /// Starts the clock with the current line.
+    /// Starts the clock at `now`, when the execution of the current line begins.
     pub(super) fn begin(now: Duration) -> Self {
         Self { since: now, units: 0 }
     }

@@ -1,4 +1,5 @@
-//! The behaviour of NC programs and the streaming interface that defects and variants can change.
+//! The behaviour of NC programs and of the streaming interface that seeded defects and valid
+//! variants can change.
 
 use std::fmt;
 
@@ -7,16 +8,17 @@ use ads_cnc::streaming::{Ack, Checker, LINE_END_ERROR, LineError};
 use super::interface::StreamingInterface;
 use super::segment::ProgramSegment;
 
-/// The behaviour of NC programs.
+/// The behaviour of NC programs and of the streaming interface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Policy {
     /// Creates a streaming interface.
     pub(crate) buffer: fn() -> Box<dyn Buffer>,
     /// Checks lines that were read together.
     pub(crate) segment: fn(&mut Checker, &[u8]) -> ProgramSegment,
-    /// Events that start the streaming program, in addition to an explicit start.
+    /// Events that start the streaming program, in addition to an explicit start and to the events
+    /// that [`Start`](super::Start) names.
     pub(crate) starts: &'static [ProgramEvent],
-    /// Events that end the streaming program, in addition to a program end.
+    /// Events that end the streaming program, in addition to a program end and an error.
     pub(crate) ends: &'static [ProgramEvent],
     /// Events that empty the streaming interface.
     pub(crate) clears: &'static [ProgramEvent],
@@ -62,7 +64,7 @@ pub(crate) trait Buffer: fmt::Debug + Send {
     /// Accepts all bytes of a write, or none.
     fn write(&mut self, data: &[u8]) -> Ack;
 
-    /// Removes and returns lines from the buffer.
+    /// Removes bytes from the buffer and returns them.
     ///
     /// # Errors
     /// If a line does not end in CR LF.

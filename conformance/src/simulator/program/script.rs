@@ -15,11 +15,12 @@ use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServ
 pub struct ScriptConfig {
     /// The requests in their order; may be empty.
     pub requests: Vec<ServiceRequest>,
-    /// The number of repetitions of the list.
+    /// The number of times that the list of requests is executed.
     pub repeat: Repeat,
     /// The pause between a response and the next request.
     pub pause: Duration,
-    /// The time between two steps, each of which writes or reads a variable; at least a microsecond.
+    /// The time between two steps, each of which writes or reads a variable; a time of less than a
+    /// microsecond counts as a microsecond.
     pub cycle: Duration,
 }
 
@@ -52,7 +53,7 @@ pub enum Wait {
     },
 }
 
-/// The number of repetitions of the list of requests.
+/// The number of times that the list of requests is executed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
     /// The list is executed without end.
@@ -62,14 +63,15 @@ pub enum Repeat {
 }
 
 impl ScriptConfig {
-    /// The manual's example: each second, a request for the square root of 3 or of a negative number,
-    /// in turn, to the service with this UUID.
+    /// The manual's example: in turn, a request for the square root of 3 and of a negative number
+    /// to the manual's square root service, each a second after the response to the request before
+    /// it.
     ///
-    /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). The manuals do not print that a
-    /// program requests both, or the interval.
+    /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). The manuals do not print that
+    /// a program requests both, or the interval.
     ///
     /// # Errors
-    /// Never: text and UUID are valid.
+    /// No error occurs: texts and UUID are valid.
     pub fn square_root() -> Result<Self, Error> {
         let uuid = ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?;
         let request = |text| {
@@ -109,13 +111,13 @@ pub enum ScriptState {
 
 /// An NC program that sends requests to services through the Service Interface of its channel.
 ///
-/// The script executes one step per cycle, so that a service sees the intermediate states: it writes
-/// UUID, REQUEST and REQUEST_STATE, reads RESPONSE_STATE in each cycle until a response exists, and
-/// then reads RESPONSE.
+/// The script executes one step per cycle, so that a service sees the intermediate states: it
+/// writes UUID, REQUEST and REQUEST_STATE, reads RESPONSE_STATE in each cycle until a response
+/// exists, and then reads RESPONSE.
 ///
 /// [Advance](Self::advance) the script before anything else accesses the interface; then the result
 /// is the same as if the script ran continuously. The number of steps executed at a time is
-/// limited: after a long time, the remaining steps are dropped.
+/// limited: after a long time, the remaining steps are executed later than they were due.
 ///
 /// ```
 /// use std::time::Duration;
@@ -171,17 +173,18 @@ pub struct Script {
 }
 
 impl Script {
-    /// Number of stored answers.
+    /// Maximum number of stored outcomes.
     pub const ANSWERS_MAX: usize = CompletedRequests::STORED_MAX;
 
-    /// Maximum number of overdue steps executed at a time; polls without a response do not count.
+    /// Maximum number of overdue steps executed at a time. Consecutive reads of RESPONSE_STATE
+    /// without a response count as one step.
     const STEPS: u32 = 100_000;
 
     /// Creates a program that begins when it is first [advanced](Self::advance).
     ///
     /// # Errors
-    /// [`ScriptError`] for a request of more than 128 bytes including its NUL, a request state of 0, or
-    /// @P2 without @P3.
+    /// [`ScriptError`] for a request of more than 128 bytes including its NUL, a request state of
+    /// 0, or @P2 without @P3.
     pub fn new(config: ScriptConfig) -> Result<Self, ScriptError> {
         let calls = config.requests.iter().enumerate();
         let calls = calls.map(|(at, request)| {
@@ -203,7 +206,7 @@ impl Script {
         Ok(script)
     }
 
-    /// Replaces the policy.
+    /// Replaces the policy, which determines the behaviour that seeded defects can change.
     pub(crate) fn with_policy(self, policy: Policy) -> Self {
         Self { policy, ..self }
     }
@@ -224,8 +227,8 @@ impl Script {
             }
             self.step(due, interface);
             if let Some(CallStep::Wait { until }) = self.next_step() {
-                // RESPONSE_STATE does not change before `now`, so skip polls until then, but at most
-                // until the timeout.
+                // RESPONSE_STATE does not change before `now`, so skip polls until then, but at
+                // most until the timeout.
                 let next = until.filter(|until| *until <= now);
                 let next = next.unwrap_or(now.saturating_add(NANOSECOND));
                 self.due = Some(self.cycle_at(due, next));
@@ -241,7 +244,8 @@ impl Script {
         let Some((at, call)) = &mut self.present else { return };
         call.poll();
         let time = if self.policy.times_out { now } else { Duration::ZERO };
-        // The values of a call are always valid for the interface; if not, the step is repeated.
+        // The values of a call are always valid for the interface; after an error, the step would
+        // be repeated.
         match call.step() {
             CallStep::Write(variable, value) => {
                 let first = self.policy.state_first && variable == Uuid;
@@ -287,7 +291,7 @@ impl Script {
         }
     }
 
-    /// The latest outcomes in their order.
+    /// The latest outcomes, at most [`ANSWERS_MAX`](Self::ANSWERS_MAX), in their order.
     pub fn answers(&self) -> impl DoubleEndedIterator<Item = &CompletedRequest> {
         self.answers.stored.iter()
     }

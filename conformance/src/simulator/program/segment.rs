@@ -31,13 +31,15 @@ pub(super) enum Next<'a> {
 }
 
 impl ProgramSegment {
-    /// Checks lines that follow those that the checker has already processed.
+    /// Creates a segment of lines after checking them with `checker`, which has processed the lines
+    /// before them.
     pub(crate) fn new(checker: &mut Checker, read: &[u8]) -> Self {
         let number = checker.lines().saturating_add(1);
         Self::with_findings(read, number, checker.check(read))
     }
 
-    /// Lines beginning with this number, with their findings in order.
+    /// Creates a segment of lines that are numbered from `number` on, with the events that the
+    /// checker has found in them, in the order of the lines.
     pub(crate) fn with_findings(
         read: &[u8],
         number: u32,
@@ -46,8 +48,7 @@ impl ProgramSegment {
         let (mut end, mut fault) = (None, None);
         for found in found {
             match found {
-                // Ignore findings in lines after a program end, because these lines are not
-                // executed.
+                // Ignore events in lines after a program end, because these lines are not executed.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
                 CheckEvent::Diagnostic(finding) if finding.kind.ends_streaming() => {
                     fault = Some(SegmentEnd::Fault(finding));

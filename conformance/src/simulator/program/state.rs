@@ -9,7 +9,7 @@ use ads_cnc::streaming::{Diagnostic, LineError, ProgramEnd};
 pub enum ProgramState {
     /// The program has not been started, or was ended by an NC reset (STM-11, STM-14).
     Stopped,
-    /// The program has lines to execute.
+    /// The program has started, and has lines to read or execute.
     Running,
     /// The program has executed all lines. Motion stops until the next write (STM-16).
     Dry,
@@ -33,7 +33,8 @@ pub struct Message {
 }
 
 impl Message {
-    /// The message for a line without CR LF that was read after `before` lines.
+    /// The message for a line without CR LF. `before` is the number of lines that the program has
+    /// read before the bytes with this line.
     pub(super) fn of_line_end(file: &str, number: u32, before: u32, error: &LineError) -> Self {
         Self {
             number: Some(number),
@@ -69,7 +70,7 @@ impl fmt::Display for Message {
 /// The reason why a streaming program cannot be started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StartError {
-    /// Streaming is disabled without a name (STM-13).
+    /// The streaming program has no name, so streaming is disabled (STM-13).
     #[error("P-CHAN-00158 streaming_prog_file is empty: name of the streaming program expected")]
     NoName,
     #[error("the streaming program is running")]

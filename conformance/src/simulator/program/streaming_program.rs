@@ -21,19 +21,21 @@ pub struct ProgramConfig {
     pub start: Start,
     /// Speed of execution; 1000 lines/s by default (assumed).
     pub pace: Pace,
-    /// Minimum number of bytes of executed lines that can be read back; 1 MiB by default.
+    /// Number of bytes; 1 MiB by default. When the stored executed lines would exceed twice this
+    /// number, the oldest lines are removed, as far as at least this number of bytes is left.
     pub kept: usize,
 }
 
-/// The events that start a streaming program (STM-14). No ADS function that starts one is documented.
+/// The events that start a streaming program (STM-14). No manual documents an ADS function that
+/// starts a streaming program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
     /// Only [`StreamingProgram::start`].
     ByHand,
-    /// Power-on, only once.
+    /// Power-on of the channel.
     #[default]
     Once,
-    /// Power-on, and each end of the program.
+    /// Power-on of the channel, and each program end.
     Again,
 }
 
@@ -47,26 +49,27 @@ impl Default for ProgramConfig {
 
 /// The NC program that receives its lines through the streaming interface of a channel.
 ///
-/// - Writes are stored in the [`StreamingInterface`](super::StreamingInterface). A write that does not
-///   fit now is rejected with warning 11012 (STM-3, STM-6).
-/// - When the decoder has executed all its lines, it reads all bytes of the interface at once (STM-12)
-///   and executes them line by line. A line counts as executed when its time at the [`Pace`] is over.
-///   Before its start, and after an end or an error, the decoder reads nothing, so writes fill the
-///   interface (assumed).
+/// - Writes are stored in the [`StreamingInterface`](super::StreamingInterface). A write that does
+///   not fit now is rejected with warning 11012 (STM-3, STM-6).
+/// - When the decoder has executed all its lines, it reads all bytes of the interface at once
+///   (STM-12) and executes them line by line. A line counts as executed when its time at the
+///   [`Pace`] is over. Before its start, and after an end or an error, the decoder reads nothing,
+///   so writes fill the interface (assumed).
 /// - If the interface is empty, motion stops until the next write (STM-16).
-/// - A line without CR LF aborts streaming when it is read; no line that was read with it is executed
-///   (assumed). A loop or a backward jump aborts streaming instead of executing its line; the lines
-///   before it are executed (STM-8; the time is assumed). [`Checker`] defines these lines.
-/// - At a program end, the other lines that were read with it are discarded. The bytes in the interface
-///   remain for the next start (STM-10).
+/// - A line without CR LF aborts streaming when it is read; no line that was read with it is
+///   executed (assumed). A loop or a backward jump aborts streaming instead of executing its line;
+///   the lines before it are executed (STM-8; the time is assumed). [`Checker`] defines these
+///   lines.
+/// - At a program end, the lines after it that were read together with it are discarded. The bytes
+///   in the interface remain for the next start (STM-10).
 /// - An NC reset ends streaming mode and empties the interface (STM-11).
 ///
-/// The lines are not interpreted: each line is executed once, in order, without branches and jumps. `L`
-/// calls a subroutine, which is a file with its own M17 or M29; the call returns at once and the stream
-/// continues (STM-18).
+/// The lines are not interpreted: each line is executed once, in order, without branches and jumps.
+/// `L` calls a subroutine, which is a file with its own M17 or M29; the call returns at once and
+/// the stream continues (STM-18).
 ///
-/// Memory: the interface, the same amount for read lines, the labels of the [`Checker`], and the stored
-/// executed lines.
+/// The program needs memory for the interface, the same amount for read lines, the labels of the
+/// [`Checker`], and the stored executed lines.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3, 3 and 4.
 #[derive(Debug)]
@@ -137,8 +140,8 @@ impl StreamingProgram {
         self.run();
     }
 
-    /// Starts the streaming program, as main program or global subroutine (STM-14), and counts its lines
-    /// from 1 again.
+    /// Starts the streaming program, as main program or global subroutine (STM-14), and counts its
+    /// lines from 1 again.
     ///
     /// # Errors
     /// [`StartError`], if the program has no name, is running, or was aborted.
@@ -159,8 +162,8 @@ impl StreamingProgram {
         Ok(())
     }
 
-    /// NC reset: ends streaming mode and empties the interface (STM-11). Keeps the record of executed
-    /// lines.
+    /// NC reset: ends streaming mode and empties the interface (STM-11). The record of executed
+    /// lines remains.
     pub fn reset(&mut self, now: Duration) {
         self.advance(now);
         self.clear_at(ProgramEvent::Reset);

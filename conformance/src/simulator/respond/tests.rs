@@ -6,7 +6,8 @@ use crate::simulator::Cnc;
 
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
 
-/// Number of V.E variables: group, offset, read length, write length, data.
+/// The data of a ReadWrite for the number of V.E variables: group, offset, read length, write
+/// length, data.
 const COUNT: &[u8] = b"\x01\x23\x12\0\x44\0\0\0\x04\0\0\0\x04\0\0\0V.E\0";
 
 fn request(command: Command, port: u16, data: &[u8]) -> AmsHeader {
@@ -47,13 +48,13 @@ fn a_response_has_the_addresses_of_the_request_swapped() {
 
 #[test]
 fn invalid_requests_are_answered_with_errors() {
-    // The error number, and the length 0 in place of data.
-    let refused = |error: u8| vec![error, 7, 0, 0, 0, 0, 0, 0];
-    assert_eq!(ask(Command::READ_WRITE, 553, COUNT).1, refused(2));
-    assert_eq!(ask(Command::READ_WRITE, 552, &COUNT[..19]).1, refused(5));
-    assert_eq!(ask(Command::READ, 552, &COUNT[..12]).1, refused(1));
-    assert_eq!(ask(Command::READ, 552, &[]).1, refused(5));
-    // A writable object, and a read-only one.
+    // The reply has the error number, and the length 0 in place of data.
+    let rejected = |error: u8| vec![error, 7, 0, 0, 0, 0, 0, 0];
+    assert_eq!(ask(Command::READ_WRITE, 553, COUNT).1, rejected(2));
+    assert_eq!(ask(Command::READ_WRITE, 552, &COUNT[..19]).1, rejected(5));
+    assert_eq!(ask(Command::READ, 552, &COUNT[..12]).1, rejected(1));
+    assert_eq!(ask(Command::READ, 552, &[]).1, rejected(5));
+    // Writes to a writable object and to a read-only object.
     let write = b"\x01\x01\x12\0\x01\0\0\0\x01\0\0\0\x01";
     assert_eq!(ask(Command::WRITE, 553, write).1, [0, 0, 0, 0]);
     let write = b"\x01\x01\x12\0\x03\0\0\0\x01\0\0\0\x01";
@@ -61,8 +62,8 @@ fn invalid_requests_are_answered_with_errors() {
     for command in [0, 5, 7, 8, 10, 0xFFFF] {
         assert_eq!(ask(Command(command), 552, &[]).1, [1, 7, 0, 0], "{command}");
     }
-    // A reply with a notification handle.
-    assert_eq!(ask(Command::ADD_NOTIFICATION, 552, &[0; 40]).1, refused(1));
+    // The reply has a notification handle of 0.
+    assert_eq!(ask(Command::ADD_NOTIFICATION, 552, &[0; 40]).1, rejected(1));
 }
 
 #[test]

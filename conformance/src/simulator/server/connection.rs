@@ -12,10 +12,10 @@ use crate::simulator::frames::GATHERED_MAX;
 use crate::simulator::{FRAME_MAX, Frames, Responder};
 use crate::text::plural;
 
-/// Buffer size: the longest frame and some following bytes.
+/// Size in bytes of the buffer for received bytes: the longest frame and some following bytes.
 const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
 
-/// Maximum number of bytes buffered by a connection.
+/// Maximum number of bytes that a connection buffers: received bytes and gathered replies.
 pub(super) const BUFFERED_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 
 /// The buffer of a connection, with received bytes that are not yet answered.
@@ -71,16 +71,17 @@ impl ReceiveBuffer {
         self.buffered
     }
 
-    /// Maximum number of bytes that were buffered so far, including replies.
+    /// Number of bytes of memory that are reserved for received bytes and replies.
     pub fn capacity(&self) -> usize {
         self.bytes.capacity().saturating_add(self.answers.capacity())
     }
 
-    /// Answers all frames that are complete after `count` more bytes, in order; returns the number of
-    /// bytes of these frames.
+    /// Answers all frames that are complete after `count` more bytes, in order; returns the number
+    /// of bytes of these frames.
     ///
     /// # Errors
-    /// For an invalid frame, because the beginning of the next frame is unknown, and those of `send`.
+    /// For an invalid frame, because the beginning of the next frame is unknown, and those of
+    /// `send`.
     pub fn take(
         &mut self,
         count: usize,
@@ -111,8 +112,8 @@ impl ReceiveBuffer {
     }
 }
 
-/// Answers frames in order until the client closes the connection, is idle for too long, or sends an
-/// invalid frame, after which the beginning of the next frame is unknown.
+/// Answers frames in order until the client closes the connection, is idle for too long, or sends
+/// an invalid frame, after which the beginning of the next frame is unknown.
 pub(super) fn serve(
     cnc: &dyn Responder,
     options: &ServerOptions,
@@ -149,7 +150,7 @@ pub(super) fn serve(
     }
 }
 
-/// Sends replies in pieces of the responder's size.
+/// Sends replies in pieces of the size that the responder requires.
 fn send(cnc: &dyn Responder, mut stream: &TcpStream, answers: &[u8]) -> io::Result<()> {
     answers.chunks(cnc.piece()).try_for_each(|piece| stream.write_all(piece))
 }
@@ -158,9 +159,9 @@ fn send(cnc: &dyn Responder, mut stream: &TcpStream, answers: &[u8]) -> io::Resu
 struct Limit<'a> {
     options: &'a ServerOptions,
     awaited: Awaited,
-    /// Start of the limit.
+    /// The time at which the limit began.
     since: Instant,
-    /// The timeout set on the stream; `None` if not set yet.
+    /// The timeout that was set on the stream; `None` if none was set yet.
     set: Option<Option<Duration>>,
 }
 
@@ -169,7 +170,7 @@ struct Limit<'a> {
 enum Awaited {
     /// The first frame, or the rest of it.
     First,
-    /// Another frame.
+    /// The beginning of another frame.
     Next,
     /// The rest of a frame.
     Rest,
@@ -180,7 +181,7 @@ impl<'a> Limit<'a> {
         Self { options, awaited: Awaited::First, since: Instant::now(), set: None }
     }
 
-    /// Notes that complete frames were received; `part` if an incomplete one follows.
+    /// Notes that complete frames were received; `part` states whether an incomplete frame follows.
     fn request_received(&mut self, part: bool) {
         self.awaited = Awaited::Next;
         if part {
@@ -206,7 +207,8 @@ impl<'a> Limit<'a> {
     /// Limits the next read to the remaining time.
     fn set(&mut self, stream: &TcpStream) -> io::Result<()> {
         let mut left = self.time();
-        // Avoid a system call if the previous timeout still applies.
+        // Between frames, the whole idle time applies to each read. So the timeout stays the same,
+        // which avoids a system call.
         if self.awaited != Awaited::Next {
             let passed = self.since.elapsed();
             left = left.map(|time| time.saturating_sub(passed));

@@ -9,20 +9,21 @@ use crate::gate::NET_ID;
 #[derive(Clone, Copy, Debug)]
 pub struct ServerOptions {
     pub net_id: AmsNetId,
-    /// Time without a complete request after which a connection is closed; `None` for no limit. Without
-    /// a limit, vanished clients occupy connections.
+    /// Time without a complete request after which a connection is closed; `None` for no limit.
+    /// Without a limit, vanished clients occupy connections.
     pub idle: Option<Duration>,
-    /// Time without the first complete request, or with an incomplete request, after which a connection
-    /// is closed; `None` for no limit. This limits the time for which clients that only connect, or
-    /// send a part of a request, occupy connections. After a complete request, only `idle` applies.
+    /// Time without the first complete request, or with an incomplete request, after which a
+    /// connection is closed; `None` for no limit. This limits the time for which clients that only
+    /// connect, or send a part of a request, occupy connections. Between complete requests, only
+    /// `idle` applies.
     pub frame: Option<Duration>,
 }
 
 impl ServerOptions {
-    /// Ten minutes: long enough for a user who enters requests by hand.
+    /// The default of `idle`: ten minutes, long enough for a user who enters requests by hand.
     pub const IDLE: Duration = Duration::from_secs(600);
 
-    /// Ten seconds, because a client sends a frame at once.
+    /// The default of `frame`: ten seconds, because a client sends a whole frame at once.
     pub const FRAME: Duration = Duration::from_secs(10);
 }
 

@@ -5,7 +5,7 @@ use super::*;
 use crate::gate::NET_ID;
 use crate::simulator::Cnc;
 
-/// Request for the number of V.E variables of channel 1.
+/// A request for the number of V.E variables of channel 1.
 const COUNT: &[u8] = &[
     0, 0, 52, 0, 0, 0, // AMS/TCP
     127, 0, 0, 1, 1, 1, 0x28, 2, 127, 0, 0, 1, 1, 2, 1, 0x80, 9, 0, 4, 0, 20, 0, 0, 0, 0, 0, 0, 0,
@@ -61,7 +61,8 @@ fn works(mut stream: &TcpStream) {
     expect(stream, ANSWER);
 }
 
-/// The server closes the connection: end of stream, or a reset if there were unread bytes.
+/// Checks that the server closes the connection. If the server did not read all bytes, the client
+/// may see a reset instead of the end of the stream.
 fn ends(mut stream: &TcpStream) {
     let mut rest = Vec::new();
     match stream.read_to_end(&mut rest) {
@@ -122,7 +123,8 @@ fn a_malformed_frame_only_ends_its_own_connection() {
         frame[at] = byte;
         frame
     };
-    // Reserved bytes, length shorter than a header, length over the limit, inconsistent lengths.
+    // The faults: reserved bytes that are not 0, a length shorter than a header, a length over the
+    // limit, and inconsistent lengths.
     for frame in [changed(0, 1), changed(2, 31), changed(5, 1), changed(26, 19)] {
         let mut stream = client(&server);
         works(&stream);
@@ -205,17 +207,17 @@ fn frames_up_to_the_maximum_length_are_accepted() {
         frame
     };
     let mut stream = client(&server);
-    // Several frames at a time, split anywhere.
+    // The frames are sent together, in pieces that end anywhere.
     let longest = [frame(0x1_0000), frame(0x1_0000), COUNT.to_vec()].concat();
     for piece in longest.chunks(50_000) {
         stream.write_all(piece).unwrap();
     }
     // A write length that differs from the length of the data is rejected as a wrong size of the
     // request.
-    let mut refused = ANSWER[..46].to_vec();
-    (refused[2], refused[26], refused[42]) = (40, 8, 0);
-    refused[38..40].copy_from_slice(&[5, 7]);
-    expect(&stream, &[&refused[..], &refused[..], ANSWER].concat());
+    let mut rejected = ANSWER[..46].to_vec();
+    (rejected[2], rejected[26], rejected[42]) = (40, 8, 0);
+    rejected[38..40].copy_from_slice(&[5, 7]);
+    expect(&stream, &[&rejected[..], &rejected[..], ANSWER].concat());
     stream.write_all(&frame(0x1_0001)[..40]).unwrap();
     ends(&stream);
 }
@@ -235,7 +237,7 @@ fn other_commands_are_answered_in_order() {
         (frame[2], frame[22], frame[26]) = (32 + len, command, len);
         [&frame, data].concat()
     };
-    // ReadState, WriteControl, Read without its header, and the count.
+    // The requests: ReadState, WriteControl, Read without its fields, and the number of variables.
     stream.write_all(&[command(4), command(5), command(2), COUNT.to_vec()].concat()).unwrap();
     let state = answer(4, &[0, 0, 0, 0, 5, 0, 0, 0]);
     let control = answer(5, &[1, 7, 0, 0]);

@@ -15,7 +15,8 @@ use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
 use crate::text::plural;
 
-/// Sends frames in pieces: TCP may split a frame anywhere, so only its length field determines its end.
+/// Sends requests in pieces of 37, 6 and 1 bytes. TCP may split a frame anywhere, so only the
+/// length field of the frame determines where the frame ends.
 pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 2] =
@@ -36,11 +37,12 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target claims no function that can be requested")
 }
 
-/// Whether the length of a reply is documented, or depends on the length of a text.
+/// Whether the length of the data of a reply is fixed.
 #[derive(Clone, Copy)]
 enum LengthRule {
-    /// Fixed by this requirement.
+    /// The length is fixed by this requirement.
     Fixed(Rule),
+    /// The length may depend on the length of a text.
     Open,
 }
 
@@ -72,8 +74,8 @@ pub(super) fn read_length(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The requirement that fixes the length of a reply. The length of a variable's value is `Open`, because
-/// the variable may be a text.
+/// Whether a requirement fixes the length of the reply to a request. The length of a variable's
+/// value is `Open`, because the variable may be a text.
 fn length_rule(request: &Request<'_>) -> LengthRule {
     let spec = request.function().spec();
     let is_number = spec.reply.is_some_and(|stream| stream.layout().is_fixed());
@@ -118,7 +120,8 @@ fn lengths(
     let shown = |found: Option<usize>| {
         move || found.map_or_else(|| "an error".to_owned(), |len| plural(len, "byte"))
     };
-    // Only for fixed lengths: for a text at the end of a reply, the CNC may require space for a NUL.
+    // This is checked only for fixed lengths: for a text at the end of a reply, the CNC may require
+    // space for a NUL.
     if let Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
@@ -126,7 +129,7 @@ fn lengths(
         let rules = [rule.into(), own];
         probe.check(&rules[..], found == Some(whole.len()), expected, shown(found));
     }
-    // A success with a shorter read length must not have more data.
+    // A success with a shorter read length must have less data.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
         let fits = found.is_none_or(|len| len < whole.len());
         let expected = || format!("fewer than {} of {what}", plural(there, "byte"));

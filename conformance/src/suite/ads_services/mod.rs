@@ -1,5 +1,5 @@
-//! Cases of the three services: addresses, lengths and error numbers, and agreement between
-//! services.
+//! Cases of the services Read, Write and ReadWrite: addresses and lengths, the match of request and
+//! reply, requests in pieces, and agreement between services.
 
 mod lengths;
 mod own_reply;
@@ -41,13 +41,15 @@ pub(super) const CASES: &[CaseRow] = &[
     case("ads-in-pieces", &[ADS_5], Needs::Queries, lengths::in_pieces,
         "The reply to a request does not depend on the pieces in which the request arrives"),
     case("ads-write", &[ADS_2], Needs::Writes, write::arrives,
-        "Another service reads the value of an acknowledged Write; no other value changes"),
+        "Another service reads an acknowledged value, and the value written before is unchanged"),
 ];
 
 /// Maximum number of items that are requested of a list.
 const ITEMS_MAX: u32 = 8;
 
-/// Sends a request to a claimed function and checks that it succeeds. Returns the data of the reply.
+/// Sends a request to a function that the target must have, and checks that it succeeds. Returns
+/// the data of the reply; `None` if the function is not claimed or optional, or if the check
+/// failed.
 fn ask_for_data<'a>(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -68,12 +70,12 @@ fn number(data: &[u8]) -> u32 {
     ObjectCount::decode(data).map_or(0, |count| count.0)
 }
 
-/// Checks that a Read returns a different descriptor at each index offset, and the same descriptors in a
-/// range.
+/// Checks that a Read returns a different descriptor at each index offset, the same descriptors if
+/// several are read at once, and numbers of objects and parameters.
 fn read_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_1;
     for list in probe.lists()? {
-        // That platform axes have their own lists is assumed.
+        // That platform axes have their own lists is assumed, so a missing list is not judged.
         let Some(data) = ask_if_claimed(probe, CountObjects::new(list))? else { continue };
         let count = number(&data).min(ITEMS_MAX);
         let mut all: Vec<Vec<u8>> = Vec::new();
@@ -106,8 +108,8 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that a ReadWrite returns a different variable at each index, and the same value by handle and
-/// by name.
+/// Checks that a ReadWrite returns the numbers of variables, a different variable at each index,
+/// and the same value by handle and by name.
 fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_3;
     let mut steady = Steady::default();
@@ -125,7 +127,8 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
                 let other = !all.contains(&one);
                 let found = || format!("the same variable again at index {index} of {name}");
                 probe.check(RULE, other, "another variable at each index", found);
-                // That handles of axis variables can be used at this interface is assumed.
+                // That the handles of axis variables can be used on the channel interface is
+                // assumed.
                 if let Some(one) = Description::decode(&one).ok().filter(|_| name != "V.A") {
                     same_by_handle(probe, &mut steady, channel, &one)?;
                 }
@@ -152,7 +155,7 @@ fn same_by_handle(
     steady.same(probe, ADS_3, &variable.name.text, by_name, by_handle)
 }
 
-/// Compares numbers from a Read with the items from a ReadWrite.
+/// Compares the results of a Read with those of a ReadWrite, for parameters and for elements.
 fn services_agree(probe: &mut Probe<'_>) -> Step {
     let rules = [ADS_1, ADS_3];
     let mut steady = Steady::default();
@@ -166,8 +169,8 @@ fn services_agree(probe: &mut Probe<'_>) -> Step {
     probe.finish("no function with both services is claimed")
 }
 
-/// Compares the number of parameters from a Read with the names from a ReadWrite. A program may
-/// create or delete one meanwhile.
+/// Compares the number of parameters from a Read with the names from a ReadWrite. An NC program may
+/// create or delete a parameter meanwhile.
 fn names_agree(
     probe: &mut Probe<'_>,
     steady: &mut Steady,
@@ -203,7 +206,7 @@ fn names_agree(
     Ok(())
 }
 
-/// A Read finds the elements at the address that a ReadWrite returns.
+/// Checks that a Read finds the elements at the address of an instance that a ReadWrite returns.
 fn elements_agree(probe: &mut Probe<'_>, rules: [ClauseId; 2]) -> Step {
     let functions = [Function::FindInstance, Function::ReadElementLength];
     if functions.iter().any(|one| probe.claims(*one) != Claim::Yes) {

@@ -11,10 +11,11 @@ use crate::judge::{Checks as _, Rule, Step};
 use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, content_reads};
 
-/// Maximum number of requests of a function that are sent to find two with different replies.
+/// Maximum number of requests of a function that are tried to find two requests with different
+/// replies.
 const CALLS_MAX: usize = 6;
-/// Number of attempts that must all return a wrong reply, because a value may change between two
-/// requests.
+/// Number of attempts. The check fails only if all attempts return a wrong reply, because a value
+/// may change between two requests.
 const TRIES: usize = 3;
 
 pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
@@ -27,8 +28,8 @@ pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
             let first = data_of(probe, &call)?;
             let evidence = probe.evidence();
             let (second, third) = (data_of(probe, &call)?, data_of(probe, &call)?);
-            // If `second` and `third` differ, the value changes by itself, and `first` may equal the
-            // earlier reply by chance.
+            // If `second` and `third` differ, the value changes by itself, and `first` may equal
+            // the reply to the other request by chance.
             let is_another = first.as_ref().is_some_and(|first| *first != earlier);
             is_own |= first == second || second != third || is_another;
             probe.set_evidence(evidence);
@@ -44,7 +45,8 @@ pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
     probe.finish("no function has two different replies")
 }
 
-/// Requests of each function, at most [`CALLS_MAX`].
+/// Requests of each function that the profile does not exclude, at most [`CALLS_MAX`] of a
+/// function.
 fn calls_by_function(probe: &mut Probe<'_>) -> Step<BTreeMap<Function, Vec<RawCall>>> {
     let mut all: BTreeMap<Function, Vec<RawCall>> = BTreeMap::new();
     for channel in probe.channels()? {
@@ -77,8 +79,8 @@ fn calls_by_function(probe: &mut Probe<'_>) -> Step<BTreeMap<Function, Vec<RawCa
     Ok(all)
 }
 
-/// Two requests with different replies, and the reply to the second. Each is sent twice, because the
-/// first reply may belong to another request.
+/// Two requests with different replies, and the reply to the second of them. Each request is sent
+/// twice, because the first reply may belong to an earlier request.
 fn different(
     probe: &mut Probe<'_>,
     calls: Vec<RawCall>,

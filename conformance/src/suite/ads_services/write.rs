@@ -1,4 +1,4 @@
-//! A Write, and reads of the other services at the same address.
+//! A Write, and a read of the same value by another service.
 
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::ids::*;
@@ -8,13 +8,13 @@ use crate::judge::{Checks as _, Rule, Step, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service};
 
-/// Maximum number of values of each kind that are written.
+/// Maximum number of variables of a channel that are written, and maximum number of objects.
 const ITEMS_MAX: usize = 3;
 
 const RULE: ClauseId = ADS_2;
 
-/// Checks that another service reads the written value at the same address, and that the value at a
-/// neighbouring address does not change.
+/// Checks that another service reads the written value, and that a write to a variable does not
+/// change the variable that was written before it.
 pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
@@ -44,7 +44,8 @@ fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     for object in objects.iter().filter(|one| one.is_writable() && !one.is_text()) {
         let address = &object.address;
         let name = object.name.to_string();
-        // A place without an axis may lose a written value. Its content is zero, so zeros are skipped.
+        // At an axis index without an axis, a written value may be lost. The contents there are
+        // zero, so objects of axes whose content is zero are skipped.
         let of_axis = address.content().is_some_and(|(_, offset)| offset.get() >= 0x1000);
         let filled = match address.read() {
             Ok(read) if !probe.is_blank(object) && probe.may(read)? => {
@@ -87,7 +88,7 @@ fn write_beside(
         },
     )?;
     let after = look(probe)?;
-    // If the neighbouring value changes by itself, nothing is judged.
+    // If the value of the neighbour changes by itself, it is not judged.
     if let (Some(before), Some(meanwhile)) = (&before, meanwhile)
         && after.as_ref() == Some(before)
     {

@@ -28,11 +28,12 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
             let count = DynamicCount::decode(&data);
             let found = || format!("{} for {}", plural(data.len(), "byte"), prefix(kind));
             probe.check(rules, count.is_ok(), "a number of 4 bytes", found);
-            // A number in the wrong byte order usually exceeds every limit.
+            // A number in the wrong byte order usually exceeds this limit.
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
             probe.check(rules, plausible, "a number of parameters", || format!("{count:?}"));
         }
-        // The numbers of variables, which have the same index group, must be available too.
+        // The numbers of variables, which are functions at other offsets of the same index group,
+        // must be available, too.
         if probe.claims(Function::CountVariables) == Claim::Yes {
             for (_, kind) in KINDS {
                 let kind = CountVariables::new(channel, kind);
@@ -64,10 +65,11 @@ fn ask_name(
     Ok(NameReply { index, data, result: exchange.result(), evidence: probe.evidence() })
 }
 
-/// The names of a kind, read while no parameter is created or deleted.
+/// The names of a kind, read while the number of parameters did not change.
 struct ParameterList {
     count: u32,
-    /// The replies in the order of their indices, up to the first rejected index.
+    /// The replies in the order of their indices, up to and including that for the first rejected
+    /// index.
     names: Vec<NameReply>,
     beyond: NameReply,
     /// The reply for the first index whose name depends on the order of the requests.
@@ -76,8 +78,8 @@ struct ParameterList {
 
 impl ParameterList {
     fn is_doubtful(&self) -> bool {
-        let refused = self.names.iter().any(|reply| reply.data.is_none());
-        refused || self.beyond.data.is_some() || self.unsteady.is_some()
+        let rejected = self.names.iter().any(|reply| reply.data.is_none());
+        rejected || self.beyond.data.is_some() || self.unsteady.is_some()
     }
 
     fn is_same(&self, other: &Self) -> bool {
@@ -86,7 +88,7 @@ impl ParameterList {
     }
 }
 
-/// Maximum number of attempts to read a list that changes during the read.
+/// Maximum number of attempts to read a list that changes meanwhile.
 const TRIES: usize = 5;
 
 fn names_ascending(
@@ -98,9 +100,9 @@ fn names_ascending(
     let mut all = Vec::new();
     for index in 1..=count.min(PARAMETERS_MAX) {
         let one = ask_name(probe, channel, kind, index)?;
-        let is_refused = one.data.is_none();
+        let is_rejected = one.data.is_none();
         all.push(one);
-        if is_refused {
+        if is_rejected {
             break;
         }
     }
@@ -125,7 +127,8 @@ fn same(one: &[NameReply], other: &[NameReply]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.data == other.data)
 }
 
-/// The list of a kind; `None` if it changed in every attempt.
+/// The list of a kind, read while it did not change. A list with a fault is returned only if two
+/// attempts read the same list. `None` if no attempt succeeds.
 fn steady_list(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -136,7 +139,7 @@ fn steady_list(
         let count = |probe: &mut Probe<'_>| number(probe, channel, kind).map(Some);
         let list = between(probe, count, |probe, &count| listed(probe, channel, kind, count))?;
         let Some(list) = list.flatten() else { continue };
-        // A difference must be reproducible to be a fault.
+        // A fault in the list, such as a rejected index, must be reproducible.
         if !list.is_doubtful() || doubtful.is_some_and(|before| before.is_same(&list)) {
             return Ok(Some(list));
         }
@@ -145,7 +148,7 @@ fn steady_list(
     Ok(None)
 }
 
-/// The list of a kind with `count` parameters; `None` if its names changed during the read.
+/// The list of a kind with `count` parameters; `None` if its names changed meanwhile.
 fn listed(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -196,8 +199,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
     for reply in names {
         probe.set_evidence(reply.evidence.clone());
         let expected = || format!("a name for index {} of {count} {}", reply.index, prefix(kind));
-        // If there is no name, the count or the range of indices is wrong; at the first index, the
-        // function may be wrong too.
+        // If there is no name, the count or the range of indices is wrong; at index 1, the function
+        // that returns names may be wrong, too.
         let rules: &[ClauseId] = match reply.index {
             1 => &[DYN_1, DYN_5, SDA_12, DYN_2],
             _ => &[DYN_1, DYN_5, SDA_12],
@@ -243,7 +246,7 @@ fn is_of(kind: DynamicKind, name: &str) -> bool {
     name.strip_prefix(prefix(kind)).is_some_and(|rest| !rest.is_empty())
 }
 
-/// Indices after the count, including some with the lower bits of a valid index.
+/// Indices greater than `count`, including some with the lower bits of a valid index.
 fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     let mut all = probe.beyond(count.saturating_add(1));
     if all.len() > 1 {
@@ -253,9 +256,10 @@ fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     all
 }
 
-/// Sends a request for a missing index, and returns its check; no check if the number of parameters has
-/// changed.
-fn refused_of(
+/// Sends a request with an index that does not exist, and returns the check that the request is
+/// rejected. Returns no check if the number of parameters, the first of the `answers`, is not
+/// `count`.
+fn rejected_of(
     probe: &mut Probe<'_>,
     count: u32,
     what: &str,
@@ -282,7 +286,7 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             for first in first {
                 let guards = [CountDynamic::new(channel, kind).into()];
                 steadily(probe, &guards, |probe, answers| {
-                    refused_of(probe, 0, &what, answers, first)
+                    rejected_of(probe, 0, &what, answers, first)
                 })?;
             }
         }
@@ -301,7 +305,7 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             for (invalid, valid) in requests(beyond)?.into_iter().zip(requests(count)?) {
                 let guards = [CountDynamic::new(channel, kind).into(), valid];
                 steadily(probe, &guards, |probe, answers| {
-                    refused_of(probe, count, &what, answers, invalid)
+                    rejected_of(probe, count, &what, answers, invalid)
                 })?;
             }
         }

@@ -35,7 +35,7 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
             let valid = RawCall::new(request)?;
-            // Names that begin with an existing name and are at least one byte too long.
+            // These names begin with an existing name and have 1, 2 or 160 characters more than 96.
             let room = DYNAMIC_NAME_MAX.saturating_sub(known.as_bytes().len());
             for more in [1, 2, 160] {
                 let rest = vec![b'x'; room.saturating_add(more)];

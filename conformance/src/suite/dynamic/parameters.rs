@@ -22,13 +22,14 @@ pub(super) const fn prefix(kind: DynamicKind) -> &'static str {
     }
 }
 
-/// The number of parameters, if the target returns it; other cases judge it.
+/// The number of parameters of a kind; 0 if the target does not return it, which other cases judge.
 pub(super) fn number(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<u32> {
     let count = probe.try_read::<DynamicCount>(CountDynamic::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0))
 }
 
-/// Calls a function for every kind of every channel that has a parameter.
+/// Calls a function for every kind of which a channel has a parameter, with the number of
+/// parameters, at most [`PARAMETERS_MAX`].
 pub(super) fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, DynamicKind, u32) -> Step,
@@ -50,7 +51,8 @@ pub(super) fn nothing() -> Stop {
     Stop::not_applicable("no dynamic parameter exists at the moment")
 }
 
-/// The names of a kind, up to the first index that is rejected; other cases judge the rejection.
+/// The indices and names of the first `count` parameters of a kind, up to the first index that is
+/// rejected; other cases judge the rejection.
 pub(super) fn names_of(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -70,14 +72,16 @@ pub(super) fn names_of(
     Ok(all)
 }
 
-/// The first name of a kind. A program may have deleted it meanwhile.
+/// The name at index 1 of a kind. The case is inconclusive if index 1 has no name, because an NC
+/// program may have deleted the parameter meanwhile.
 pub(super) fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<CncString> {
     let first = names_of(probe, channel, kind, 1)?.into_iter().next();
     let lacks = || Stop::Inconclusive(format!("{}: index 1 has no name", prefix(kind)));
     first.map(|(_, name)| name).ok_or_else(lacks)
 }
 
-/// Sends a request that must be rejected, and the same request without the fault, which must succeed.
+/// Checks that a request is rejected while `valid`, the same request without the fault, succeeds
+/// and the number of parameters does not change.
 pub(super) fn rejects_steadily<'a>(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,

@@ -16,12 +16,14 @@ use crate::judge::{Step, Stop, assumed};
 use crate::suite::kit::{PendingCheck, Probe, is_sendable, rules_by_index, steadily};
 use crate::text::hex::spaced;
 
-/// Longer names are also judged by the requirement on the length of names.
+/// Names of at least this number of bytes are also judged by DYN-6, the requirement on the length
+/// of names.
 const LONG: usize = 20;
 
 pub(super) fn values(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
-        // In descending order: the meaning of an index must not depend on earlier requests.
+        // The order is descending, because the meaning of an index must not depend on earlier
+        // requests.
         for index in (1..=count).rev() {
             let by_index = DynamicNameByIndex::new(channel, kind, index)?;
             steadily(probe, &[by_index.into()], |probe, answers| {
@@ -78,7 +80,8 @@ fn value(
     Ok(checks)
 }
 
-/// Names similar to an existing name: longer, shorter, or with another last character.
+/// Names of the kind that are similar to the existing name `known`: longer, shorter, or with
+/// another last character.
 fn near(kind: DynamicKind, known: &str) -> Vec<String> {
     let mut shorter = known.to_owned();
     let last = shorter.pop();
@@ -129,7 +132,8 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Compares the replies by rank and by number for each function.
+/// Compares the replies for a channel by its rank and by its number, for each function of dynamic
+/// parameters.
 pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
     for (rank, channel) in probe.ranks()? {
         for kind in DynamicKind::ALL {

@@ -1,5 +1,5 @@
-//! Variables on the axis interface: the axis places at which a name has a handle, and their
-//! addresses.
+//! Variables on the axis interface: the axis indices at which a name has a handle, and the
+//! addresses of the variables.
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::AxisHandleByName;
@@ -9,22 +9,24 @@ use crate::judge::Step;
 use crate::objects::ValueAddress;
 use crate::suite::kit::Probe;
 
-/// Maximum number of axis places of a channel at which handles are requested.
+/// The highest axis index of a channel that a search for handles requests.
 pub(crate) const PLACES_MAX: u32 = 64;
-/// Maximum number of consecutive places without a handle before the search ends: a place without an axis
-/// need not return a handle.
+/// Maximum number of consecutive axis indices without a handle after which a search continues: at
+/// an axis index without an axis, the CNC need not return a handle.
 const GAP_MAX: u32 = 4;
 
-/// Maximum number of names of a channel in a sample, because each is requested at every place.
+/// Maximum number of names of a channel in a sample, because each name is requested at every axis
+/// index.
 const NAMES_MAX: u32 = 32;
 
-/// A place at which a name has a handle.
+/// An axis index at which a name has a handle, and this handle.
 pub(crate) struct AxisHandle {
     pub(crate) axis: ChannelAxis,
     pub(crate) handle: Handle,
 }
 
-/// All places of a channel at which a name has a handle.
+/// The axis indices of a channel at which a name has a handle, in ascending order. The search ends
+/// at [`PLACES_MAX`], or after more than [`GAP_MAX`] consecutive indices without a handle.
 pub(crate) fn answering_places(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -49,8 +51,8 @@ pub(crate) fn answering_places(
     Ok(all)
 }
 
-/// The address of a variable on the axis interface, at the place that returns the handle in its
-/// description.
+/// The address of a variable on the axis interface, with the axis index that returns the handle in
+/// its description; `None` if no index returns this handle, or if the name has no axis.
 pub(crate) fn axis_address(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -64,7 +66,8 @@ pub(crate) fn axis_address(
     Ok(own.map(|at| ValueAddress::Axis { channel, axis: at.axis, name }))
 }
 
-/// The axis variables of a channel that the cases read, each with its name on the axis interface.
+/// The axis variables of a channel that the cases read: for each, its name on the axis interface
+/// (without the axis) and its description.
 pub(crate) fn axis_variables(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -92,7 +95,8 @@ pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncStri
     names
 }
 
-/// The name, on the axis interface, of the first axis variable.
+/// The name of the first axis variable on the axis interface; `None` if no variable is an axis
+/// variable.
 pub(crate) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
     variables.iter().find_map(|variable| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;

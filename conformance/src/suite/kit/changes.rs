@@ -1,4 +1,4 @@
-//! Values that cases have changed and that have not been read back as the original ones.
+//! Values that cases have changed and not yet restored.
 
 #![cfg_attr(
     not(test),
@@ -18,8 +18,8 @@ use crate::mutex::lock;
 use crate::objects::ValueAddress;
 use crate::text::escape;
 
-/// Changed values that have not been restored yet, or cannot be. Clones share the list, because an
-/// interrupt handler reads it too.
+/// Changed values that have not been restored yet, or that could not be restored. Clones share the
+/// list, because an interrupt handler reads it, too.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
     all: Arc<Mutex<Vec<Change>>>,
@@ -38,11 +38,11 @@ pub(super) struct Change {
     pub(super) what: String,
     pub(super) is_text: bool,
     pub(super) was: Vec<u8>,
-    /// The value as last written or read.
+    /// The value as last written or read; `None` if it is unknown.
     pub(super) is: Option<Vec<u8>>,
     /// Why the gate rejected the last write that restores the value.
-    pub(super) refused: Option<String>,
-    /// Whether the value could not be restored.
+    pub(super) rejected: Option<String>,
+    /// Whether restoring the value was given up, because all attempts failed.
     pub(super) given_up: bool,
 }
 
@@ -54,7 +54,7 @@ impl Changes {
             name: escape(&change.what),
             was: Hex(change.was.clone()).to_string(),
             is: change.is.as_ref().map(|is| Hex(is.clone()).to_string()),
-            refused: change.refused.as_deref().map(escape),
+            rejected: change.rejected.as_deref().map(escape),
         });
         left.collect()
     }
@@ -65,7 +65,7 @@ impl Changes {
         written.iter().cloned().collect()
     }
 
-    /// Whether a changed value is still to be restored.
+    /// Whether a changed value is still to be restored. Values that were given up do not count.
     pub(crate) fn any_pending(&self) -> bool {
         self.last().is_some()
     }
@@ -80,7 +80,7 @@ impl Changes {
         self.all().iter().any(|change| change.given_up)
     }
 
-    /// The last change that has not been restored.
+    /// The last change that is still to be restored. Changes that were given up are left out.
     pub(super) fn last(&self) -> Option<Change> {
         self.all().iter().rfind(|change| !change.given_up).cloned()
     }
@@ -92,14 +92,15 @@ impl Changes {
         self.all().push(change);
     }
 
-    /// Sets the current value, if known.
+    /// Sets the current value at an address; `None` if it is unknown.
     pub(crate) fn is_now(&self, address: &ValueAddress, value: Option<&[u8]>) {
         for change in self.all().iter_mut().filter(|change| change.address == *address) {
             change.is = value.map(<[u8]>::to_vec);
         }
     }
 
-    /// Records that the original value was read back.
+    /// Removes the changes at an address: the original value was read back, or the value changes by
+    /// itself.
     pub(super) fn end(&self, address: &ValueAddress) {
         self.all().retain(|change| change.address != *address);
     }

@@ -1,4 +1,4 @@
-//! Queries of the first items of a channel.
+//! Queries about the first variables, parameters, elements and objects of a channel.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, ClassGroup, ComGroup, ComTable, Group};
 use ads_cnc::dynamic::{DynamicKind, DynamicName};
@@ -18,9 +18,11 @@ use crate::suite::kit::{
 
 /// The first variables and parameters of a channel.
 pub(crate) struct ChannelItems {
-    /// The first variables that are not axis variables: that handles of V.A can be read is assumed.
+    /// The first variables, at most three. Axis variables are left out, because it is only assumed
+    /// that their handles can be read.
     variables: Vec<Description>,
-    /// A variable on the axis interface.
+    /// The first axis variable: the first axis index at which it has a handle, and its name on the
+    /// axis interface.
     of_axis: Option<(ChannelAxis, CncString)>,
     parameters: Vec<(DynamicKind, CncString)>,
 }
@@ -45,7 +47,8 @@ impl ChannelItems {
         Ok(Self { variables, of_axis: axis.zip(name), parameters })
     }
 
-    /// Queries of the items in a channel.
+    /// Queries about these items and the lists of the channel, sent to `channel`: the channel
+    /// itself, its rank or another channel.
     pub(crate) fn requests(&self, channel: Channel) -> Step<Vec<Request<'_>>> {
         let mut requests = Vec::new();
         for variable in &self.variables {
@@ -77,11 +80,12 @@ impl ChannelItems {
     }
 }
 
-/// Maximum number of objects of a channel, and of elements of an instance, that are requested.
+/// Maximum number of objects of a channel, and of elements of an instance, that [`content_reads`]
+/// requests.
 const CONTENTS_MAX: usize = 2;
 
-/// Queries of the elements and objects of a channel, except for the contents of texts: the length
-/// of a reply with a text is not documented.
+/// Queries about the first elements and objects of a channel. The contents of texts are left out,
+/// because the length of a reply with a text is not documented.
 pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec<RawCall>> {
     let mut calls = Vec::new();
     for instance in probe.instances().if_applicable()?.unwrap_or_default() {
@@ -108,7 +112,8 @@ pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec
     Ok(calls)
 }
 
-/// The call with the index group of another channel; `None` if its index group has no channel.
+/// The call with the channel in its index group replaced by `other`; `None` if the index group is
+/// not one of `channel`.
 pub(crate) fn in_channel(call: &RawCall, channel: Channel, other: Channel) -> Option<RawCall> {
     let instance = other.number();
     let group = match call.index_group.parts()? {

@@ -1,4 +1,4 @@
-//! Lists with a number of items, and the request for an item.
+//! Lists whose number of items can be requested, and the request for an item.
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind};
@@ -13,7 +13,7 @@ use crate::judge::{IfPresent as _, Step};
 use crate::objects::ValueList;
 use crate::suite::kit::{Instance, ItemKind, Probe};
 
-/// A list whose items are requested by their number from 1.
+/// A list of items that are numbered from 1; the number of a variable is its index plus 1.
 #[derive(Clone, Debug)]
 pub(crate) enum Counted {
     Objects(ObjectList),
@@ -29,7 +29,7 @@ impl std::fmt::Display for Counted {
 }
 
 impl Counted {
-    /// All claimed lists that have a number, each with that number.
+    /// All claimed lists for which the target returns the number of items, each with that number.
     pub(crate) fn all(probe: &mut Probe<'_>) -> Step<Vec<(Self, u32)>> {
         let mut all: Vec<Self> = probe.lists()?.into_iter().map(Self::Objects).collect();
         for channel in probe.channels()? {
@@ -57,7 +57,7 @@ impl Counted {
         }
     }
 
-    /// The name of the list.
+    /// The list, for a message that contains its name.
     pub(crate) fn list(&self) -> ValueList {
         match *self {
             Self::Objects(list) => list.into(),
@@ -71,7 +71,7 @@ impl Counted {
         }
     }
 
-    /// The number of items according to the target.
+    /// The number of items according to the target; `None` if the target does not return it.
     pub(crate) fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
         Ok(match self {
             Self::Objects(list) => {

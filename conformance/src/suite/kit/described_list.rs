@@ -9,7 +9,8 @@ use ads_cnc::Description;
 pub(crate) struct DescribedList {
     /// The number of variables according to the target.
     pub(crate) count: u32,
-    /// The descriptions that were read, by index; `None` for a name that cannot be requested.
+    /// The descriptions that were read, by index; `None` if the name of the variable is too long
+    /// for a request.
     pub(crate) read: BTreeMap<u32, Option<Description>>,
 }
 

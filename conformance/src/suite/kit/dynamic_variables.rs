@@ -10,7 +10,7 @@ use crate::judge::{Step, Stop};
 use crate::profile::Claim;
 use crate::suite::kit::Probe;
 
-/// The names of V.P, V.L and V.S that exist at the moment.
+/// The V.P, V.L and V.S that exist in the first channel at the moment, at most 64 of each kind.
 fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     let channel = probe.channel()?;
     let mut all = Vec::new();
@@ -27,8 +27,8 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     Ok(all)
 }
 
-/// Whether the V.P, V.L and V.S that exist at the moment can be read as variables, as the German edition
-/// states.
+/// Whether any V.P, V.L or V.S that exists at the moment can be read as a variable, as the German
+/// edition states.
 pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     let (channel, all) = (probe.channel()?, dynamic_names(probe)?);
     for (_, name) in &all {
@@ -40,7 +40,9 @@ pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     Ok(false)
 }
 
-/// The V.P, V.L and V.S that are also variables, by edition and version.
+/// The V.P, V.L and V.S of the first channel that are also variables. Ends the case as not
+/// applicable if they are only parameters according to the edition and the version in the profile,
+/// or, if the version leaves this open, according to the target; also if none exists at the moment.
 pub(crate) fn dynamic_among_variables(
     probe: &mut Probe<'_>,
 ) -> Step<Vec<(DynamicKind, CncString)>> {

@@ -6,7 +6,8 @@ use ads_cnc::address::Channel;
 use crate::judge::{Step, applicable};
 use crate::suite::kit::{Probe, element_size};
 
-/// Calls a function for every variable of every channel.
+/// Calls a function for every variable that the cases read and whose whole value fits into a reply,
+/// in every channel.
 pub(crate) fn each_variable(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
@@ -21,10 +22,12 @@ pub(crate) fn each_variable(
     Ok(())
 }
 
-/// Maximum number of arrays of all channels in a sample, because each is read element by element.
+/// Maximum number of arrays of all channels in a sample, because each array is read element by
+/// element.
 const ARRAYS_MAX: u32 = 64;
 
-/// Calls a function for every array that the cases read.
+/// Calls a function for every array that the cases read; its last argument is the size of an
+/// element in bytes.
 pub(crate) fn each_array(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, usize) -> Step,

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::{Class, ElementAddress};
 
-/// An instance of a class, addressed by the channel and the axis of its request.
+/// An instance of a class, with the channel and the axis in the request for its address.
 #[derive(Clone, Debug)]
 pub(crate) struct Instance {
     pub(crate) class: Class,
@@ -14,7 +14,8 @@ pub(crate) struct Instance {
     /// The number of elements after element 0. The content of element 0 is the reported number; whether
     /// the reported number includes element 0 is not documented.
     pub(crate) count: u32,
-    /// The number of elements up to the last one that has a name.
+    /// The number of the last element that has a name, at most `OBJECTS_MAX`; 0 if no such element
+    /// was found.
     pub(crate) reached: u32,
     /// The numbers of the elements that the cases read; the numbers start at 1.
     pub(super) chosen: Vec<u32>,

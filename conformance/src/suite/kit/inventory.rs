@@ -23,10 +23,10 @@ use crate::suite::kit::{Instance, ItemKind, Probe};
 
 /// Maximum number of objects of a list, and of elements of an instance, that are read.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
-/// Maximum number of axes and spindles that are requested.
+/// The highest axis number and spindle index that the search for instances requests.
 pub(crate) const INSTANCES_MAX: u32 = 255;
 
-/// Classes that have an instance for each channel, and one for each axis of the channel.
+/// Classes that have an instance for each channel, and one for each axis index of the channel.
 pub(crate) const OF_PLACES: [Class; 3] =
     [Class::Interpolator, Class::Decoder, Class::PathPreparation];
 
@@ -57,20 +57,21 @@ impl Walker for Probe<'_> {
 }
 
 impl Probe<'_> {
-    /// Rank and number of each claimed channel.
+    /// Each claimed channel, addressed by its rank and by its number.
     pub(crate) fn ranks(&self) -> Step<Vec<(Channel, Channel)>> {
         let ranked = (1..).zip(self.channels()?);
         ranked.map(|(rank, channel)| Ok((Channel::by_index(rank)?, channel))).collect()
     }
 
-    /// The rank of the channel with this number.
+    /// The rank of the channel with this number; `None` if the channel is not claimed.
     pub(crate) fn rank_of(&self, number: u32) -> Option<u8> {
         let channels = self.target.profile.channels.iter();
         (1..).zip(channels).find(|(_, channel)| **channel == number).map(|(rank, _)| rank)
     }
 
-    /// The address of an object in the group that addresses its channel by rank; `None` if the group of
-    /// the object is not logical. The platform and its axes have the same numbers in both groups.
+    /// The address of an object in the group that addresses its channel by rank; `None` if the
+    /// group of the object is not a logical group of COM, or if its channel is not claimed. The
+    /// platform and its axes have the same numbers in both groups.
     pub(crate) fn address_by_rank(&self, object: &ListedValue) -> Option<ValueAddress> {
         let (group, offset) = object.address.content()?;
         let Some(Group::Com(com)) = group.parts() else { return None };
@@ -87,20 +88,21 @@ impl Probe<'_> {
         })
     }
 
-    /// The axis places that have no axis according to the profile, and those to which the run does not
-    /// write, because it is unknown whether they have an axis.
+    /// Axis indices, each as channel and axis index: those without an axis according to the
+    /// profile, and those at which the run does not write, because it is unknown whether they have
+    /// an axis.
     fn empty_places(&self) -> impl Iterator<Item = &(u32, u32)> {
         self.target.profile.empty_places.iter().chain(&self.target.unwritten_places)
     }
 
-    /// Whether an object belongs to an axis place that has no axis, or may have none: a value written to
-    /// such a place is lost.
+    /// Whether an object belongs to an axis index that has no axis, or may have none: a value that
+    /// is written there is lost.
     pub(crate) fn is_blank(&self, object: &ListedValue) -> bool {
         let ValueList::Channel(number) = object.list else { return false };
         self.empty_places().filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
     }
 
-    /// The length of an element, from its attribute.
+    /// The length of an element in bytes, from its attribute; `None` if it cannot be read.
     pub(crate) fn length_of(&mut self, element: ElementAddress) -> Step<Option<u32>> {
         let length: Option<ElementLength> = self.try_read(ReadElementLength::new(element))?;
         Ok(length.map(ElementLength::get))
@@ -120,7 +122,8 @@ impl Probe<'_> {
         self.target.sample.of(items, self.target.sample_sizes.of(kind))
     }
 
-    /// The numbers of the objects of a list that the cases read, starting at 1.
+    /// The numbers of the objects that the cases read in a list of `count` objects; the first
+    /// object has the number 1.
     pub(crate) fn object_numbers(&self, count: u32) -> Vec<u32> {
         self.sample(ItemKind::Object, 1..count.saturating_add(1))
     }
@@ -149,13 +152,16 @@ impl Probe<'_> {
         all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
-    /// Whether an instance is at an axis place that has no axis, or may have none.
+    /// Whether an instance is at an axis index that has no axis, or may have none.
     pub(crate) fn is_at_empty_place(&self, instance: &Instance) -> bool {
         let at = (instance.channel, instance.axis);
         OF_PLACES.contains(&instance.class) && self.empty_places().any(|empty| *empty == at)
     }
 
-    /// Every instance for which the target returns an address. Other cases judge the address.
+    /// The instances of the claimed channels, of the platform and of the spindles, for which the
+    /// target returns an address. Axes and spindles are requested up to the first one for which the
+    /// target returns no address of an element, or the address of a known instance. Other cases
+    /// judge the addresses.
     pub(crate) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
@@ -183,7 +189,8 @@ impl Probe<'_> {
     ) -> Step<bool> {
         let Some(address) = self.address_of(class, channel, axis)? else { return Ok(false) };
         let Ok(Some(first)) = address.first_element() else { return Ok(false) };
-        // A target that returns the same address for every axis would make the list endless.
+        // Without this check, a target that returns the same address for every axis would have an
+        // instance for each axis number up to `INSTANCES_MAX`.
         if all.iter().any(|known| known.class == class && known.first == first) {
             return Ok(false);
         }
@@ -200,7 +207,7 @@ impl Probe<'_> {
         Ok(true)
     }
 
-    /// Chooses the elements again, after the sample sizes have changed.
+    /// Chooses the elements of each instance again, after the sample sizes have changed.
     pub(crate) fn choose_elements(&mut self) {
         let (sample, sizes) = (self.target.sample, self.target.sample_sizes);
         for one in self.target.instances.iter_mut().flatten() {
@@ -209,7 +216,8 @@ impl Probe<'_> {
         }
     }
 
-    /// The number of elements up to the last one with a name; the target reports `count` elements.
+    /// The number of the last element that has a name, at most `count`; 0 if no element after
+    /// element 0 has a name. Several consecutive elements without a name end the search.
     fn last_named(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
         if self.is_named(first, count)? {
             return Ok(count);
@@ -232,7 +240,7 @@ impl Probe<'_> {
         }
     }
 
-    /// The address of an instance; `None` if the target rejects the request.
+    /// The address of an instance; `None` if the reply is an error or not an address.
     pub(crate) fn address_of(
         &mut self,
         class: Class,
@@ -242,7 +250,7 @@ impl Probe<'_> {
         self.try_read(FindInstance::new(class, channel, axis))
     }
 
-    /// The object list of a channel.
+    /// The object list of the channel with this number.
     pub(crate) fn list_of(&self, number: u32) -> Step<ValueList> {
         Ok(ValueList::Channel(self.channel_of(number)?.number()))
     }

@@ -9,8 +9,8 @@ use crate::judge::{Rule, Step, assumed};
 use crate::number::to_usize;
 use crate::rules::element_count;
 
-/// Size of one element in bytes. The size of a text in an array is the size of the array divided by the
-/// number of its elements.
+/// Size of one element in bytes; `None` if it is unknown. For a type without a fixed size, such as
+/// a text, this is the size of the array divided by the number of its elements.
 pub(crate) fn element_size(variable: &Description) -> Option<usize> {
     let share =
         variable.size.checked_div(element_count(&variable.dimensions)).filter(|size| *size > 0);
@@ -20,23 +20,24 @@ pub(crate) fn element_size(variable: &Description) -> Option<usize> {
 /// Maximum number of elements at the start of an array that are read one by one.
 const ELEMENTS_MAX: usize = 64;
 
-/// Whether the element with this position is read: the first 64 elements, those at the limit of an index
-/// of one byte (255 to 257), and the last two.
+/// Whether the element with this position, counted from 0, is read: the first 64 elements, those at
+/// the limit of an index of one byte (255 to 257), and the last two.
 fn is_tried(number: usize, count: usize) -> bool {
     number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
 }
 
-/// The indices of the elements that are read, each with its position in the array.
+/// The elements of an array that are read: for each, its position in the array, counted from 0, and
+/// its indices.
 pub(crate) fn places_tried(
     dimensions: &[u32],
 ) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
     let count = to_usize(element_count(dimensions));
-    // A value has at most 2048 elements.
+    // A value has at most 2048 bytes, so it has at most 2048 elements.
     let all = places(dimensions).take(2048).enumerate();
     all.filter(move |(number, _)| is_tried(*number, count))
 }
 
-/// Indices of an array in row-major order: the last index runs fastest.
+/// Indices of the elements of an array in row-major order: the last index changes fastest.
 fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
     let mut next = Some(vec![0; dimensions.len()]);
     std::iter::from_fn(move || {
@@ -56,19 +57,21 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
     })
 }
 
-/// The rule for the order of the elements: assumed for several dimensions and for texts; for numbers in
-/// one dimension, the manual prints the order.
+/// The rule for the order of the elements in an array: the assumed order of VAR-21 for several
+/// dimensions and for texts, and otherwise VAR-14, which the manuals state.
 pub(crate) fn order(variable: &Description) -> Rule {
     let texts = variable.var_type == VariableType::STRING;
     if variable.dimensions.len() > 1 || texts { assumed(VAR_21) } else { VAR_14.into() }
 }
 
-/// Extracts the bytes of one element from those of the whole array.
+/// Returns a function that extracts one element from the bytes of the whole array. `number` is the
+/// position of the element, counted from 0; `size` is the size of an element in bytes.
 pub(crate) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
     move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
 }
 
-/// The rule for names with indices: assumed for several pairs of brackets, and for texts in an array.
+/// The rule for names with indices, VAR-20: assumed for several pairs of brackets, and for texts in
+/// an array.
 pub(crate) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
         Some(Level::Info) => assumed(VAR_20),

@@ -1,4 +1,5 @@
-//! The tools of the cases: requests, checks, lists, and writes that are restored.
+//! Functions that the cases share: requests, checks, lists of items, and writes after which the
+//! original value is restored.
 
 mod axis_interface;
 mod changes;

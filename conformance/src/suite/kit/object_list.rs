@@ -16,7 +16,7 @@ pub(crate) fn object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32>
     Ok(number)
 }
 
-/// Like [`object_count`], without a check: other cases judge the number.
+/// Like [`object_count`], but records no check, because other cases judge the number.
 pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     let exchange = probe.send(CountObjects::new(list))?;
     let data = exchange.success().unwrap_or_default();
@@ -27,7 +27,8 @@ pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Ste
     }
 }
 
-/// Requests descriptors; a reply with more than the requested number is rejected.
+/// Requests `count` descriptors, starting with object number `first`. A reply that is not a
+/// success, or does not consist of descriptors, violates `rule` and ends the case.
 pub(crate) fn read_descriptors(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -39,8 +40,8 @@ pub(crate) fn read_descriptors(
     probe.read(rule, request)
 }
 
-/// Reads the descriptors of all objects up to the maximum, each with its own request: other cases
-/// judge ranges.
+/// Reads the descriptors of the first `number` objects, at most [`OBJECTS_MAX`], each with a
+/// separate request, because other cases judge reads of several descriptors.
 pub(crate) fn descriptors_one_by_one(
     probe: &mut Probe<'_>,
     rule: ClauseId,

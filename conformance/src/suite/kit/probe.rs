@@ -28,10 +28,12 @@ use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::suite::kit::{RawCall, TargetState};
 
-/// Number of consecutive requests without a reply after which no more requests are sent.
+/// Number of consecutive requests without a reply after which only requests that restore values are
+/// sent.
 const SILENCES_MAX: usize = 8;
 
-/// Maximum number of requests of a case, because a target may return endless lists.
+/// Maximum number of requests that a case sends with [`Probe::call`], because a target may return
+/// endless lists.
 const REQUESTS_MAX: usize = 50_000;
 
 /// A case's access to the target.
@@ -40,14 +42,16 @@ pub struct Probe<'s> {
     pub target: &'s mut TargetState,
     record: Record,
     last: Option<Evidence>,
-    /// The functions called since the previous check.
+    /// The functions called since the last comparison ended; the next check may compare their
+    /// replies.
     compared: Vec<Function>,
     /// The variable or object that the following checks are about.
     subject: Option<String>,
     requests: usize,
     /// Whether the case was stopped because the run is interrupted.
     pub(crate) interrupted: bool,
-    /// Why the gate rejected the write of a value that the file of `--allow-write` names.
+    /// Why the [gate](crate::gate) rejected the write of a value that the file of `--allow-write`
+    /// names.
     ambiguity: Option<String>,
     /// Whether the target has an item that the case applies to.
     has_subject: bool,
@@ -70,7 +74,7 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Sets a deadline after which no more requests are sent.
+    /// Sets a deadline after which only requests that restore values are sent.
     pub(crate) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
         Self { deadline, ..self }
     }
@@ -79,7 +83,8 @@ impl<'s> Probe<'s> {
         (self.record.judgements, self.record.checks)
     }
 
-    /// The channels that the target claims, by number.
+    /// The channels that the profile claims, addressed by their numbers, in the order of their
+    /// ranks.
     pub fn channels(&self) -> Step<Vec<Channel>> {
         let numbers = &self.target.profile.channels;
         numbers.iter().map(|&number| Ok(Channel::new(number)?)).collect()
@@ -91,8 +96,8 @@ impl<'s> Probe<'s> {
         first.or_not_applicable("the target claims no channel")
     }
 
-    /// Whether the gate allows a request to a claimed function. For a write by handle, queries first
-    /// confirm the handle.
+    /// Whether the function of a request is claimed and the [gate](crate::gate) allows the request.
+    /// For a write by handle, first sends the queries that confirm the handle to the gate.
     pub(crate) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
         if self.claims(request.function()) == Claim::No {
@@ -108,8 +113,9 @@ impl<'s> Probe<'s> {
         Ok(checked.is_ok())
     }
 
-    /// The result of the case. If the gate rejected the write of a value that the file of
-    /// `--allow-write` names, the case is not complete.
+    /// Returns the result of the case, given the result of its last step. A case that succeeded or
+    /// is not applicable ends as [`Stop::NotPermitted`] if the gate rejected the write of a value
+    /// that the file of `--allow-write` names.
     pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.ambiguity.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::NotPermitted(why)),
@@ -118,7 +124,8 @@ impl<'s> Probe<'s> {
     }
 
     /// Notes for [`finish`](Self::finish) that the target has an item that the case applies to,
-    /// even if no check is made, for example because no other value of its type can be written.
+    /// even if no check is made, for example because the value and its name are too long for a
+    /// write.
     pub(crate) fn found_subject(&mut self) {
         self.has_subject = true;
     }
@@ -139,8 +146,8 @@ impl<'s> Probe<'s> {
         self.check(rules, true, "", "");
     }
 
-    /// Like `check`, for a reply whose whole data is known: the evidence shows the
-    /// data expected and received.
+    /// Like `check`, for a reply whose expected data is `reply`: the evidence of a failure contains
+    /// the expected data, too.
     pub fn check_reply(
         &mut self,
         rules: impl Rules,
@@ -207,14 +214,13 @@ impl<'s> Probe<'s> {
         let exchange = self.target.client.call(&call);
         let fault = exchange.outcome.as_ref().err();
         self.record_exchange(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
-        if exchange.violations.is_empty()
-            && matches!(exchange.outcome, Ok(_) | Err(ExchangeError::Malformed(_)))
-        {
+        if exchange.violations.is_empty() && exchange.outcome.is_ok() {
             let cnc = self.target.client.target().net_id;
             self.target.rules.reply(&exchange, cnc, &call, &exchange, &[]);
         }
         if let Some(fault @ ExchangeError::Malformed(_)) = fault {
-            // Without a valid frame, the reply data is unknown. Another check judges the frame.
+            // Without a valid frame, the reply data is unknown. The case `ads-every-frame` judges
+            // the frame.
             return Err(Stop::Inconclusive(format!("{exchange}: {fault}")));
         }
         if exchange.contradicts_itself() {
@@ -234,7 +240,9 @@ impl<'s> Probe<'s> {
         Ok(exchange)
     }
 
-    /// Ends the case if the run is interrupted, the deadline has passed, or the target no longer answers.
+    /// Ends the case if the run is interrupted, the deadline has passed, or the target no longer
+    /// answers; also if the file of `--allow-write` would expire before the changed values could be
+    /// restored.
     pub(crate) fn target(&mut self) -> Step {
         if interrupt::is_requested() {
             self.interrupted = true;
@@ -252,7 +260,8 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Records the result of a request.
+    /// Counts a request and records its result and the violations in its reply. Ends the case if
+    /// the gate rejected the request or the connection could not be opened.
     pub(crate) fn record_exchange(
         &mut self,
         fault: Option<&ExchangeError>,
@@ -264,8 +273,8 @@ impl<'s> Probe<'s> {
         match fault {
             Some(ExchangeError::NotPermitted(rejection)) => {
                 let why = format!("{what}: {rejection}");
-                // If the file of `--allow-write` is not the reason, the request has an address from a
-                // reply of the target, which the user cannot correct.
+                // If the file of `--allow-write` is not the reason, the request contains an address
+                // that the target returned, and the user cannot correct this address.
                 let is_of_user = rejection.reason.is_of_file();
                 return Err(if is_of_user {
                     Stop::NotPermitted(why)
@@ -311,7 +320,7 @@ impl<'s> Probe<'s> {
         self.call(&RawCall::new(request)?)
     }
 
-    /// Sends a request that must succeed, and returns the data.
+    /// Sends a request that must succeed, and returns the data. A failure ends the case.
     pub fn ask<'a>(&mut self, rules: impl Rules, request: impl Into<Request<'a>>) -> Step<Vec<u8>> {
         let request = request.into();
         let exchange = self.send(request)?;
@@ -363,7 +372,7 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Ends the subject set by [`set_subject`](Self::set_subject).
+    /// Clears the subject set by [`set_subject`](Self::set_subject).
     pub(crate) fn end_subject(&mut self) {
         self.subject = None;
     }
@@ -380,12 +389,13 @@ impl<'s> Probe<'s> {
         self.compared.clear();
     }
 
-    /// The evidence of the last call.
+    /// The evidence of the following checks: the exchange of the last call, unless
+    /// [`set_evidence`](Self::set_evidence) has replaced it.
     pub(crate) fn evidence(&self) -> Option<Evidence> {
         self.last.clone()
     }
 
-    /// Sets the evidence of the following checks.
+    /// Sets the evidence of the checks until the next call.
     pub(crate) fn set_evidence(&mut self, evidence: Option<Evidence>) {
         self.last = evidence;
     }
@@ -399,7 +409,8 @@ impl Checks for Probe<'_> {
         expected: impl Describe,
         found: impl Describe,
     ) -> bool {
-        // After an interrupt no more requests are sent; that is not a fault of the target.
+        // After an interrupt, replies are missing through no fault of the target, so no check is
+        // recorded.
         if !self.interrupted {
             self.record.add_all(rules, kept, expected, found, || self.last.clone());
         }
@@ -408,18 +419,17 @@ impl Checks for Probe<'_> {
     }
 }
 
-/// An exchange with any reply. Without a reply, the target may or may not have executed the
-/// request, so later replies prove nothing: the case is inconclusive.
+/// Returns the exchange, or ends the case as inconclusive if no reply arrived: the target may or may
+/// not have executed the request, so later replies prove nothing.
 pub(crate) fn with_reply(exchange: Exchange) -> Step<Exchange> {
     match &exchange.outcome {
-        Err(fault @ ExchangeError::Silence(_)) => {
-            Err(Stop::Inconclusive(format!("{exchange}: {fault}")))
-        }
-        _ => Ok(exchange),
+        Err(fault) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
+        Ok(_) => Ok(exchange),
     }
 }
 
-/// The data of a request, if its function is claimed: other cases judge whether it is answered.
+/// The data of the reply to a request; `None` if the function is not claimed, or if the reply is
+/// not a success, which other cases judge.
 pub(crate) fn ask_if_claimed<'a>(
     probe: &mut Probe<'_>,
     request: impl Into<Request<'a>>,
@@ -428,5 +438,30 @@ pub(crate) fn ask_if_claimed<'a>(
     match probe.claims(request.function()) {
         Claim::No => Ok(None),
         Claim::Yes | Claim::Open => probe.try_ask(request),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use ads_cnc::operation::WriteProgramStream;
+
+    use super::*;
+
+    /// A closed connection and a network error leave it open whether a write was executed, as a
+    /// timeout does.
+    #[test]
+    fn without_a_reply_the_effect_of_a_request_is_unknown() {
+        let packet = WriteProgramStream::new(Channel::new(1).unwrap(), b"\r\n");
+        let request = RawCall::new(packet).unwrap();
+        for fault in [
+            ExchangeError::Closed,
+            ExchangeError::Io("connection reset".to_owned()),
+            ExchangeError::Silence(Duration::from_secs(1)),
+        ] {
+            let exchange = Exchange { outcome: Err(fault), ..Exchange::new(&request.call()) };
+            assert!(matches!(with_reply(exchange), Err(Stop::Inconclusive(_))));
+        }
     }
 }

@@ -35,7 +35,7 @@ impl RawCall {
         Ok(Self { port, service, index_group, index_offset, read_length, data })
     }
 
-    /// A changed copy.
+    /// A copy to which `change` was applied.
     pub(crate) fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
         let mut changed = self.clone();
         change(&mut changed);
@@ -48,7 +48,7 @@ impl RawCall {
     }
 }
 
-/// A request, or a changed request.
+/// A typed [`Request`], or a [`RawCall`].
 pub(crate) trait IntoRawCall<'a> {
     fn into_raw_call(self) -> Step<RawCall>;
 }

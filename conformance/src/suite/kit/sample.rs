@@ -5,22 +5,24 @@ use std::ops::Range;
 use crate::judge::order;
 use crate::number::to_u32;
 
-/// Maximum number of items that are read of every list.
+/// Maximum number of items of a list that are read.
 const ITEMS_MAX: u32 = 10_000;
 
 /// Which items of each list the cases read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
-    /// Items selected with this seed, up to a number that depends on how many lists there are.
+    /// Items selected with this seed; how many items depends on the lengths of all lists of the
+    /// same kind.
     BySeed(u32),
     /// The first 10,000 items of every list.
     All,
 }
 
 impl Sample {
-    /// The selected items in order: all items, or `most` items of a longer list. A quarter of these
-    /// are the first, a quarter the last, and the rest are spread over the items in between. Lists
-    /// of the same length have the same selection.
+    /// The selected items in ascending order. [`All`](Self::All) selects the first 10,000 items.
+    /// [`BySeed`](Self::BySeed) selects all items, or `most` items of a longer list: a quarter of
+    /// these are the first, a quarter the last, and the rest are spread over the items in between.
+    /// The same seed and the same `most` select the same positions in all lists of the same length.
     ///
     /// ```
     /// use ads_cnc_conformance::suite::Sample;
@@ -42,7 +44,8 @@ impl Sample {
         let at_end = most / 4;
         let parts = most.saturating_sub(at_end.saturating_mul(2));
         let (first, last) = (start.saturating_add(at_end), end.saturating_sub(at_end));
-        // The lengths of the parts differ by at most one item.
+        // The items in between are divided into `parts` ranges, whose lengths differ by at most one
+        // item; one item of each range is selected.
         let begin = |part: u32| {
             let items = u64::from(last.saturating_sub(first)).saturating_mul(part.into());
             let items = items.checked_div(parts.into()).unwrap_or_default();
@@ -84,11 +87,11 @@ pub(crate) struct SampleSizes {
 }
 
 impl SampleSizes {
-    /// Maximum for any list.
+    /// The largest size.
     const MOST: u32 = 256;
-    /// Minimum, however many lists there are.
+    /// The smallest size, even for a very large number of lists.
     const LEAST: u32 = 4;
-    /// The sizes before the lists are counted, and if the target has few.
+    /// The sizes until the lists are counted; they remain the same if the target has few items.
     pub(crate) const DEFAULT: Self =
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 
@@ -124,7 +127,8 @@ impl SampleSizes {
 mod tests {
     use super::*;
 
-    /// Every part contributes one item, whatever the length of the list.
+    /// A sample of a longer list has `most` different items in ascending order, among them the
+    /// first and the last item of the list, without large gaps.
     #[test]
     fn a_sample_is_spread_over_the_list() {
         for most in [4, 5, 17, 255, 256] {
@@ -141,8 +145,8 @@ mod tests {
         assert_eq!(Sample::All.of(0..u32::MAX, 256).len(), 10_000);
     }
 
-    /// If there are few lists, a list of 256 items is read whole; if there are many, fewer items of
-    /// each.
+    /// If there are few lists, a list of 256 items is read completely; if there are many, fewer
+    /// items of each list are read.
     #[test]
     fn many_lists_share_the_requests() {
         let sizes = |lists: &[u32]| {

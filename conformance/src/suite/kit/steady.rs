@@ -1,4 +1,5 @@
-//! Comparisons while the machine moves: only values that do not change by themselves are judged.
+//! Comparisons of values that may change by themselves, as on a moving machine: such a change is
+//! not a failure.
 
 use std::fmt::Display;
 
@@ -11,25 +12,27 @@ use crate::evidence::{Describe, Evidence};
 use crate::judge::{Checks as _, Rule, Rules, Step, Stop};
 use crate::suite::kit::{Probe, RawCall};
 
-/// How often a value that changes is read again.
+/// Maximum number of attempts of a comparison whose two values differ.
 const TRIES: usize = 3;
 
-/// The result of a comparison: a value is read twice, and another reading is made between the two reads.
+/// The result of a comparison: a value is read, then another reading is made. If the two do not
+/// agree, the value is read again, to find out whether it changes by itself; at most [`TRIES`] times.
 pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
-    /// The reading in between got no reply.
+    /// The other reading returned no data, because the reply was an error or did not arrive.
     NoReply,
     Same,
-    /// In the last attempt both readings of the value were equal, and the reading between them
-    /// differed. The evidence is that of the reading between them.
+    /// In the last attempt, both reads of the value returned the same, and the other reading
+    /// between them differed. The evidence is that of the other reading.
     Differs(B, R, Option<Box<Evidence>>),
-    /// In the last attempt the two readings of the value differed.
+    /// In the last attempt, the two reads of the value returned different data.
     Moved,
 }
 
-/// Compares the result of `other` with the value that `value` reads before and after it, at most
-/// [`TRIES`] times, until `same` returns true.
+/// Compares the result of `other` with the value that `value` reads before it, at most [`TRIES`]
+/// times, until `same` returns true. After a difference, `value` is called again, to detect a value
+/// that changes by itself.
 pub(crate) fn compare<B: PartialEq, R>(
     probe: &mut Probe<'_>,
     mut value: impl FnMut(&mut Probe<'_>) -> Step<Option<B>>,
@@ -53,7 +56,8 @@ pub(crate) fn compare<B: PartialEq, R>(
     Ok(last)
 }
 
-/// Compares two ways of reading the same value.
+/// Compares two ways of reading a value, for one value after another, and records whether any of
+/// these values could be judged.
 #[derive(Debug, Default)]
 pub(crate) struct Steady {
     judged: bool,
@@ -61,9 +65,11 @@ pub(crate) struct Steady {
 }
 
 impl Steady {
-    /// Compares the value that `other` reads with the value that `one` reads before and after it.
+    /// Compares the value that the request `other` reads with the value that the request `one`
+    /// reads.
     ///
-    /// `rules` fail if the values differ. `what` names the value in the message.
+    /// `rules` fail if the values differ, or if only `one` returns a value. `what` names the value
+    /// in the message.
     pub(crate) fn same<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -73,7 +79,7 @@ impl Steady {
         other: impl Into<Request<'b>>,
     ) -> Step {
         let (one, other) = (one.into(), other.into());
-        // Another case judges whether the request is answered.
+        // Another case judges whether `one` returns a value.
         let compared = compare(
             probe,
             |probe| probe.try_ask(one),
@@ -90,7 +96,8 @@ impl Steady {
 
     /// Compares the value that the request `by_index` reads with the value that `logical` reads.
     ///
-    /// `clause` fails if they differ.
+    /// If the values differ, or if only `logical` returns a value, the clauses of
+    /// [`rules_by_index`] fail.
     pub(crate) fn by_index<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -146,7 +153,8 @@ impl Steady {
         }
     }
 
-    /// Ends the case: inconclusive if every value changed by itself.
+    /// Ends the comparisons. The case is inconclusive if no value could be judged and at least one
+    /// value changed by itself.
     pub(crate) fn finish(self) -> Step {
         match (self.judged, self.moved) {
             (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
@@ -155,12 +163,13 @@ impl Steady {
     }
 }
 
-/// The clauses for which the reply to a request by index is judged. `found`: whether the reply is the
-/// expected one; `None` for an error.
+/// The clauses for which the reply to a request by index is judged. `found` is whether the reply is
+/// the expected one, or `None` for an error.
 ///
-/// A function that returns an error even if the index equals the logical number rejects every group
-/// without the logical bit: its errors violate ADR-12 only. Any other wrong reply shows that the index
-/// addresses a wrong instance, which violates `clause`.
+/// A correct reply passes `clause` and ADR-12. A function that has returned an error although the
+/// index equals the logical number lacks the groups without the logical bit: its errors violate
+/// ADR-12 only. Any other wrong reply shows that the index addresses a wrong instance, which
+/// violates `clause`.
 pub(crate) fn rules_by_index(
     probe: &mut Probe<'_>,
     clause: ClauseId,
@@ -186,8 +195,8 @@ pub(crate) fn rules_by_index(
     })
 }
 
-/// The result of `act` between two equal readings of a guard; `None` if the guard changed or could
-/// not be read.
+/// Calls `guard`, `act` and `guard` again, and returns the result of `act`; `None` if the results
+/// of `guard` differ or are `None`.
 pub(crate) fn between<G: PartialEq, T>(
     probe: &mut Probe<'_>,
     guard: impl Fn(&mut Probe<'_>) -> Step<Option<G>>,
@@ -198,9 +207,11 @@ pub(crate) fn between<G: PartialEq, T>(
     Ok((guard(probe)?.as_ref() == Some(&before)).then_some(found))
 }
 
-/// Maximum number of attempts, because parameters may be created and deleted during an attempt.
+/// Maximum number of attempts of [`steadily`], because parameters may be created and deleted during
+/// an attempt.
 const TRIES_OF_PARAMETERS: usize = 5;
-/// Number of failed attempts after which a failure is recorded, if no attempt has passed.
+/// Minimum number of failed attempts for which [`steadily`] records a failure, if no attempt has
+/// passed.
 const FAILURES: usize = 3;
 
 /// A check before it is recorded.
@@ -213,7 +224,7 @@ pub(crate) struct PendingCheck {
 }
 
 impl PendingCheck {
-    /// Creates a check with the last call as its evidence.
+    /// Creates a check with the current evidence, usually that of the last call.
     pub(crate) fn new(
         probe: &mut Probe<'_>,
         rules: impl Rules,
@@ -236,9 +247,12 @@ impl PendingCheck {
     }
 }
 
-/// Judges the result of `act` if the guards return the same data before and after it; `act` receives
-/// this data. A failed check must fail again in repeated attempts. If the guards change in every
-/// attempt, no check is recorded.
+/// Records the checks that `act` returns in the first attempt in which all of them pass. If no
+/// attempt passes and at least [`FAILURES`] attempts fail, records the checks of the last of these;
+/// otherwise records no check.
+///
+/// An attempt counts only if the requests `guards` succeed and return the same data before and
+/// after `act`, which receives this data.
 pub(crate) fn steadily(
     probe: &mut Probe<'_>,
     guards: &[Request<'_>],

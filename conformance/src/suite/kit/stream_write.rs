@@ -11,33 +11,28 @@ use crate::evidence::Describe;
 use crate::judge::Step;
 use crate::suite::kit::{Probe, RawCall, with_reply};
 
-/// The reply to a write. Which error numbers mean "busy" and "rejected" is not documented; their
-/// meaning is assumed.
+/// The reply to a write to a program stream. No manual states which error numbers mean a temporary
+/// and which a permanent rejection, so the meaning of the error numbers is assumed.
 #[derive(Debug)]
 pub(crate) struct StreamWrite {
     /// The error of the AMS header or of the service; `None` if the write was accepted.
     error: Option<AdsError>,
-    answered: bool,
     shown: String,
 }
 
 impl StreamWrite {
     pub(crate) const fn is_taken(&self) -> bool {
-        self.answered && self.error.is_none()
+        self.error.is_none()
     }
 
-    /// Whether the write was rejected with an error; a missing reply is not a rejection.
-    pub(crate) const fn is_refused(&self) -> bool {
-        self.answered && self.error.is_some()
+    /// Whether the write was rejected with an error.
+    pub(crate) const fn is_rejected(&self) -> bool {
+        self.error.is_some()
     }
 
     /// The assumed meaning of the error number.
     pub(crate) fn assumed(&self) -> Ack {
-        match self.error {
-            Some(error) => Ack::from_result(error),
-            None if self.answered => Ack::Accepted,
-            None => Ack::Rejected,
-        }
+        self.error.map_or(Ack::Accepted, Ack::from_result)
     }
 }
 
@@ -53,15 +48,13 @@ impl fmt::Display for StreamWrite {
     }
 }
 
-/// Sends bytes to the program stream, valid or not.
+/// Sends bytes to the program stream, valid or not. Without a reply, the case is inconclusive.
 pub(crate) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<StreamWrite> {
     let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
     let exchange = with_reply(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;
-    let reply = exchange.reply();
-    let errors = reply.map(|reply| [reply.ams_error, reply.result]);
+    let errors = exchange.reply().map(|reply| [reply.ams_error, reply.result]);
     Ok(StreamWrite {
         error: errors.into_iter().flatten().find(|error| !error.is_ok()),
-        answered: reply.is_some(),
         shown: exchange.result(),
     })
 }

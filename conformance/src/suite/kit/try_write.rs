@@ -1,4 +1,4 @@
-//! Writes of a case: each writes another value, reads it back and restores the original value.
+//! Writes of a case. A write sends another value, reads it back, and restores the original value.
 
 #![cfg_attr(
     not(test),
@@ -25,8 +25,9 @@ pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()
 }
 
-/// Returns a value that differs from `value` as little as possible: in one bit of the first byte. A text
-/// gets another first character; a text of a single byte has no space for one, and stays unchanged.
+/// Returns a value that differs from `value` as little as possible: in one bit of the first byte. A
+/// text gets another first character; a text of a single byte has no space for a character, and is
+/// returned unchanged.
 pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
@@ -39,7 +40,7 @@ pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
             (false, byte) => byte ^ 1,
         };
     }
-    // An empty text gets one character and a NUL.
+    // An empty text gets one character; all following bytes become NUL.
     if is_text && value.first() == Some(&0) {
         other.iter_mut().skip(1).for_each(|byte| *byte = 0);
     }
@@ -61,7 +62,7 @@ pub(crate) struct WriteCheck<'t> {
 }
 
 impl Probe<'_> {
-    /// The current value; other cases judge whether the request is answered.
+    /// The current value; `None` if it cannot be read, which other cases judge.
     pub(crate) fn value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
         match address.read() {
             Ok(read) => self.try_ask(read),
@@ -74,13 +75,13 @@ impl Probe<'_> {
         Ok(self.value_at(address)?.filter(|value| !value.is_empty()))
     }
 
-    /// Whether a value changes by itself between two reads. False without a reply.
+    /// Whether a value changes by itself between two reads. False if the value cannot be read.
     pub(crate) fn moves(&mut self, address: &ValueAddress, is_text: bool) -> Step<bool> {
         let values = self.value_at(address)?.zip(self.value_at(address)?);
         Ok(values.is_some_and(|(first, second)| !same(&first, &second, is_text)))
     }
 
-    /// Whether a value equals the original one. False without a reply.
+    /// Whether a value equals the original one. False if the value cannot be read.
     pub(crate) fn is_as_before(
         &mut self,
         address: &ValueAddress,
@@ -99,7 +100,8 @@ impl Probe<'_> {
         }
     }
 
-    /// Whether a write is accepted.
+    /// Writes a value, and returns whether the write was accepted. Returns false without a request
+    /// if the write cannot be encoded.
     pub(crate) fn write_value(&mut self, address: &ValueAddress, value: &[u8]) -> Step<bool> {
         let Some(write) = address.write(value).ok().filter(is_sendable) else { return Ok(false) };
         self.target.changes.is_now(address, Some(value));
@@ -107,7 +109,8 @@ impl Probe<'_> {
         Ok(exchange.success().is_some())
     }
 
-    /// Writes a value that must be accepted.
+    /// Writes a value, checks that the write is accepted, and returns whether it was. The case is
+    /// inconclusive if the write cannot be encoded.
     pub(crate) fn write_checked(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -130,8 +133,10 @@ impl Probe<'_> {
         Ok(passed)
     }
 
-    /// Writes another value, reads it back and restores the original one in any case. Before
-    /// restoring, `then` is called with the original and the written value.
+    /// Writes the current value and, if that is accepted, another value; reads it back, and
+    /// restores the original value in any case. Before the restoring, `then` is called with the
+    /// original and the written value, unless the write was rejected or the value changes by
+    /// itself.
     pub(crate) fn try_write(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -172,7 +177,7 @@ impl Probe<'_> {
         }
         let after = self.value_at(address)?.unwrap_or_default();
         let passed = same(&after, other, write_check.is_text);
-        // A value that changes by itself proves nothing.
+        // A value that changes by itself is not judged.
         if !passed && self.moves(address, write_check.is_text)? {
             return Ok(());
         }
@@ -185,9 +190,10 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Writes a value that differs from the original one in every byte. If the CNC accepts the write, the
-    /// written value must be read back. If the CNC limits the value to its range, another value may be
-    /// read back, but neither the original value nor a mixture of the bytes of both values.
+    /// Writes a value that differs from the original one in every byte. If the CNC accepts the
+    /// write, the value that is read back must not be the original one nor a mixture of the bytes
+    /// of both values. It may be another value than the written one, because the CNC may limit a
+    /// value to its range.
     fn change_every_byte(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -198,7 +204,7 @@ impl Probe<'_> {
         if other.len() < 2 || !self.write_value(address, &other)? {
             return Ok(());
         }
-        // Without a reply the value is unknown.
+        // Without a successful read, the value is unknown.
         let Some(after) = self.value_at(address)? else { return Ok(()) };
         let mut bytes = after.iter().zip(before.iter().zip(&other));
         let is_mixed = bytes.all(|(byte, (old, new))| byte == old || byte == new);
@@ -210,7 +216,8 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Whether the original value was restored, or the value changes by itself.
+    /// Writes the original value and checks that it is read back. Returns whether it was; for a
+    /// value that changes by itself, returns whether the write was accepted.
     fn restore_checked(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -218,7 +225,7 @@ impl Probe<'_> {
         before: &[u8],
     ) -> Step<bool> {
         let taken = self.write_checked(write_check, address, before)?;
-        // Without a reply the value is unknown.
+        // Without a successful read, the value is unknown.
         let Some(after) = self.value_at(address)? else { return Ok(false) };
         let passed = same(&after, before, write_check.is_text);
         if !passed && self.moves(address, write_check.is_text)? {
@@ -229,9 +236,9 @@ impl Probe<'_> {
         Ok(passed)
     }
 
-    /// Writes the current value to a read-only address, which must be rejected; `sibling` is an
-    /// address that must accept its own value.
-    pub(crate) fn write_refused(
+    /// Checks that a write of the current value to a read-only address is rejected. `sibling` is a
+    /// writable address: if it rejects a write of its current value, too, the case is inconclusive.
+    pub(crate) fn write_rejected(
         &mut self,
         write_check: &WriteCheck<'_>,
         address: &ValueAddress,

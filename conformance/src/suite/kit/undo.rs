@@ -23,7 +23,8 @@ use crate::text::Moment;
 /// Maximum number of attempts to write a value back.
 const WRITES_MAX: u32 = 5;
 
-/// Pause before the second attempt; it doubles for each further attempt.
+/// Pause before the third attempt; it doubles for each further attempt and for the read after the
+/// last attempt. There is no pause before the first two attempts.
 const PAUSE: Duration = Duration::from_millis(200);
 
 /// Maximum number of requests to restore a value, not counting lists of objects that are read again
@@ -35,8 +36,8 @@ const PAUSES: Duration = Duration::from_secs(8);
 
 impl Probe<'_> {
     /// Runs a function that changes a value, and restores the value in any case. `restore` restores
-    /// it as a part of the case, and returns whether the value is the original one; if not, the
-    /// original value is written back again.
+    /// it as a part of the case, and returns whether the value is restored; if it returns false or
+    /// an error, the original value is written back again.
     pub(crate) fn changing(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -63,7 +64,7 @@ impl Probe<'_> {
             is_text: write_check.is_text,
             was: was.to_vec(),
             is: None,
-            refused: None,
+            rejected: None,
             given_up: false,
         });
         let changed = change(self);
@@ -93,8 +94,8 @@ impl Probe<'_> {
         })
     }
 
-    /// Restores all changed values, the last change first, even if the run is interrupted or no other
-    /// requests are sent any more.
+    /// Restores all changed values that were not given up, the last change first, even if the run
+    /// is interrupted, the deadline has passed or the target no longer answers.
     pub(crate) fn restore_all(&mut self) -> Step {
         let mut all = Ok(());
         while let Some(change) = self.target.changes.last() {
@@ -103,10 +104,10 @@ impl Probe<'_> {
         all
     }
 
-    /// Tries again to restore the remaining values.
+    /// Tries again to restore the values that remain changed, including those that were given up.
     pub(crate) fn restore_rest(&mut self) {
         self.target.changes.all().iter_mut().for_each(|change| change.given_up = false);
-        // Values that remain changed are reported.
+        // The report lists the values that still remain changed.
         let _left = self.restore_all();
     }
 
@@ -122,11 +123,12 @@ impl Probe<'_> {
                     change.address = by_name;
                 }
             }
-            // A write without a reply may have been executed.
+            // The value is read first, because a write without a reply may have been executed.
             let now = self.present_value(&change);
             changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
-            // A value that changes by itself never equals the original one; two reads detect that.
+            // A value that changes by itself may never equal the original one; two reads detect
+            // this case.
             let moves = !is_same && written && now.is_some() && {
                 let values = now.as_ref().zip(self.present_value(&change));
                 values.is_some_and(|(now, next)| !same(now, &next, change.is_text))
@@ -140,7 +142,7 @@ impl Probe<'_> {
             }
         }
         for one in changes.all().iter_mut().filter(|one| one.address == address) {
-            (one.given_up, one.refused) = (true, change.refused.clone());
+            (one.given_up, one.rejected) = (true, change.rejected.clone());
         }
         Err(Stop::Inconclusive(format!("{} could not be restored", change.what)))
     }
@@ -164,14 +166,15 @@ impl Probe<'_> {
             self.request_again(change);
             sent = send(self, change);
         }
-        change.refused = match sent.as_ref().map(|sent| &sent.outcome) {
+        change.rejected = match sent.as_ref().map(|sent| &sent.outcome) {
             Some(Err(ExchangeError::NotPermitted(why))) => Some(why.to_string()),
             _ => None,
         };
         sent.is_some_and(|sent| sent.success().is_some())
     }
 
-    /// Sends the queries by which the gate confirms the name of the address.
+    /// Sends the queries whose replies show the gate that the address belongs to a name in the file
+    /// of `--allow-write`.
     fn request_again(&mut self, change: &mut Change) {
         match (&change.address, change.name.clone()) {
             (ValueAddress::Handle { channel, .. }, Some(name)) => {
@@ -199,7 +202,8 @@ impl Probe<'_> {
         }
     }
 
-    /// Sends a request even after the end of the case or the run.
+    /// Sends a request even if the run is interrupted, the deadline has passed or the target no
+    /// longer answers. `None` if the request cannot be encoded.
     fn send_anyway<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
         let request = RawCall::new(request).ok()?;
         self.target.frames = self.target.frames.saturating_add(1);

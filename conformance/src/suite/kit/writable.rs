@@ -19,7 +19,9 @@ pub(crate) fn is_of_service(variable: &Description) -> bool {
     ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
 }
 
-/// Calls a function for every variable with this access in every channel.
+/// Calls a function for every variable that the cases read and that has this access, in every
+/// channel, except the variables of the Service Interface. Afterwards, ends the case as not
+/// applicable if `judge` found no value that may be written.
 pub(crate) fn each_of_access(
     probe: &mut Probe<'_>,
     access: VariableAccess,
@@ -44,8 +46,8 @@ pub(crate) fn write_check<'t>(
     WriteCheck { what, rules, is_text, name: Some(&variable.name.text) }
 }
 
-/// Requests the handle of a name, which also confirms it if the file of `--allow-write` names the
-/// variable.
+/// Requests the handle of a variable by its name, which also helps to confirm the handle to the
+/// gate. If the target returns no handle, this is the handle in the description.
 pub(crate) fn handle_of(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -80,8 +82,8 @@ impl WritableNumber {
     }
 }
 
-/// The first writable number of each type whose value can be read with the described size; other
-/// cases judge the rest.
+/// The first variable of each type that is a single number, may be written, and can be read with
+/// the described size. Other cases judge the other variables.
 pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
     let mut all: Vec<WritableNumber> = Vec::new();
     for channel in probe.channels()? {
@@ -108,7 +110,7 @@ pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber
     Ok(all)
 }
 
-/// Whether the target accepts a request; a missing reply fails `rule`.
+/// Whether the target accepts a request. A missing reply fails `rule` and ends the case.
 pub(crate) fn is_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
@@ -123,7 +125,8 @@ pub(crate) fn is_taken(
     Ok(exchange.success().is_some())
 }
 
-/// Ends the case as inconclusive unless the target accepts `good`, the same request without the fault.
+/// Ends the case as inconclusive unless the target accepts `valid`: the request that the caller
+/// checks, but without the fault.
 pub(crate) fn require_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
@@ -136,7 +139,8 @@ pub(crate) fn require_taken(
     }
 }
 
-/// An element with its name, and whether it is a text.
+/// An element that the gate and the profile permit to write, with its name and whether it is a
+/// text.
 pub(crate) struct WritableElement {
     pub(crate) instance: Instance,
     pub(crate) element: ElementAddress,
@@ -145,7 +149,8 @@ pub(crate) struct WritableElement {
     pub(crate) is_text: bool,
 }
 
-/// Elements whose write flags have this value.
+/// The elements with this write flag that the gate and the profile permit to write, except those at
+/// axis indices that have no axis, or may have none.
 pub(crate) fn elements_with_flag(
     probe: &mut Probe<'_>,
     is_writable: bool,

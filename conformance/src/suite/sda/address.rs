@@ -1,4 +1,4 @@
-//! Addresses of instances.
+//! Cases of the addresses of instances.
 
 use std::collections::HashSet;
 
@@ -24,8 +24,8 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let own = seen.insert((group, offset));
         probe.check(SDA_1, own, "an address that no other instance has", found);
     }
-    // The list of instances ends before an axis that has the address of another instance, so the axis
-    // after each instance is requested here.
+    // The list of instances ends before an axis that has the address of another instance.
+    // Therefore, the axis after each instance is requested here.
     for one in probe.instances()? {
         let beyond = probe.address_of(one.class, one.channel, one.axis.saturating_add(1))?;
         let Some(beyond) = beyond.filter(|address| *address != ObjectAddress::NONE) else {
@@ -35,7 +35,8 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{beyond:?} also for the axis after {one}");
         probe.check(SDA_1, own, "an address that no other instance has", found);
     }
-    // Requested in reverse order, every instance must have the same address as before.
+    // If the addresses are requested in reverse order, every instance must have the same address as
+    // before.
     for one in probe.instances()?.iter().rev() {
         let again = probe.address_of(one.class, one.channel, one.axis)?;
         let first = ObjectAddress::from(one.first);
@@ -56,7 +57,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             let Some(logical) = probe.address_of(class, number, 0)? else { continue };
             let Ok(Some(first)) = logical.first_element() else { continue };
             let by_index = element_by_rank(first, rank);
-            // That this function accepts channel ranks is not stated.
+            // That the function FindInstance accepts ranks of channels is assumed.
             let exchange = probe.send(FindInstance::new(class, rank.into(), 0).by_index())?;
             let found = exchange.success().and_then(|data| ObjectAddress::decode(data).ok());
             let same = found == Some(ObjectAddress::from(by_index)) || found == Some(logical);
@@ -73,7 +74,8 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target names no instance")
 }
 
-/// Sends requests with too many or too few bytes, and a read length shorter than the reply.
+/// Sends requests for an address with too many or too few bytes, and with a read length shorter
+/// than the reply.
 pub(super) fn bad_queries(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
     for class in OF_PLACES.into_iter().chain([Class::Hld]) {

@@ -1,4 +1,4 @@
-//! Axis places without an axis.
+//! A case of the contents at axis indices without an axis.
 
 use ads_cnc::address::{ElementAddress, Group};
 use ads_cnc::operation::{CountElements, ReadElement};
@@ -12,7 +12,7 @@ pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     let places = probe.target.profile.empty_places.clone();
     if places.is_empty() {
         return Err(Stop::not_applicable(
-            "no axis place without an axis is known; a profile can name one",
+            "no axis index without an axis is known; a profile can name one",
         ));
     }
     let all = probe.instances()?;
@@ -34,7 +34,7 @@ pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The content of an element; `None` if it has none.
+/// The content of an element; `None` if it cannot be read.
 fn content(probe: &mut Probe<'_>, element: ElementAddress) -> Step<Option<Vec<u8>>> {
     let Some(length) = probe.length_of(element)? else { return Ok(None) };
     match ReadElement::new(element, length) {
@@ -67,7 +67,8 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
         };
         let content = probe.ask(SDA_11, read)?;
         let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
-        // The content at a place without an axis must not equal that of an axis, unless it is zero.
+        // The content at an axis index without an axis must not equal that of an axis, unless it is
+        // zero.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
         probe.check(SDA_11, !of_axis, "blank content, different from that of any axis", found);
         probe.check(assumed(SDA_11), is_blank(&content), "zeros", found);

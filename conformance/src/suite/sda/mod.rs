@@ -22,7 +22,7 @@ pub(super) const CASES: &[CaseRow] = &[
     case("sda-far-instance", &[SDA_2, SDA_5, ADR_7], Needs::Malformed, range::far,
         "No instance has a channel or an axis number that exceeds the index group or offset"),
     case("sda-axes-agree", &[SDA_1, SDA_5], Needs::Queries, range::axes_agree,
-        "All classes have the same number of axes in a channel and on the platform"),
+        "The classes with axes of a channel, or of the platform, have the same number of axes"),
     case("sda-bad-queries", &[SDA_1], Needs::Malformed, address::bad_queries,
         "A request for an instance with a wrong length returns an error"),
     case("sda-address-by-index", &[SDA_1, ADR_1, ADR_12], Needs::Queries, address::address_by_index,
@@ -30,5 +30,5 @@ pub(super) const CASES: &[CaseRow] = &[
     case("sda-platform-axes-of-hld", &[SDA_13], Needs::Queries, platform::platform_axes_of_hld,
         "The HLD of the first channel has all axes of the platform"),
     case("sda-empty-place", &[SDA_11], Needs::Queries, empty_places::empty_place,
-        "An axis place without an axis has blank content"),
+        "An axis index without an axis has blank content"),
 ];

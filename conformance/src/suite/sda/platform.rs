@@ -1,4 +1,4 @@
-//! The axes of the platform, in the HLD of the first channel.
+//! A case of the platform axes in the HLD of the first channel.
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{ReadElement, ReadElementName};

@@ -1,4 +1,4 @@
-//! Instances that must exist, and instances that cannot exist.
+//! Cases of instances that must exist, and of instances that cannot exist.
 
 use ads_cnc::Decode as _;
 use ads_cnc::address::{Class, ElementAddress, IndexOffset};
@@ -10,8 +10,8 @@ use ads_cnc_vectors::{ClauseId, Hex};
 use crate::judge::{Checks as _, OrStop as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe, attribute_reads};
 
-/// Requests an instance that must exist. Another task may serve the class, so a rejection is judged
-/// only for the decoder, which SDA serves.
+/// Requests an instance that must exist. Another task than SDA may serve a class, so an error is
+/// judged only for the decoder, which SDA serves.
 fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, axis: u32) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
     let exchange = probe.send(request)?;
@@ -41,7 +41,7 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let expected =
             || format!("the {} ({channel}, {axis}) in a group that no other class has", class);
         probe.check(SDA_1, same, expected, found);
-        // Every instance must return its number of elements.
+        // The number of elements must be readable at the address of the instance.
         let count = CountElements::new(first)?;
         let exchange = probe.send(count)?;
         let read = exchange.success().is_some();
@@ -53,13 +53,14 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     Ok(())
 }
 
-/// The rule for axes of a class: one section of the manual gives axes to path preparation, another
-/// does not.
+/// The rule for axes of a class. For path preparation it is assumed, because only one of two
+/// sections of the manual mentions axes of this class (E-40).
 fn of_axes(class: Class, id: ClauseId) -> Rule {
     if class == Class::PathPreparation { assumed(id) } else { id.into() }
 }
 
-/// Requests an instance that cannot exist: `rules` are violated if the reply contains its address.
+/// Requests an instance that cannot exist. The reply must be (0, 0); if it is the address of an
+/// element, `rules` are violated, too.
 fn is_nowhere(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -72,7 +73,7 @@ fn is_nowhere(
     probe.expect_rejection();
     let data = exchange.success();
     let Some(data) = data else {
-        // An error instead of the result (0, 0): that this is wrong is assumed.
+        // That an error instead of the address (0, 0) is wrong is assumed.
         let found = exchange.result();
         probe.check(assumed(SDA_2), false, "the reply (0, 0)", found);
         return Ok(());
@@ -101,7 +102,7 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
             probe.check(SDA_1, is_address, "an address of the first axis, or (0, 0)", found);
         }
     }
-    // An axis place must have an instance even if it has no axis.
+    // An axis index must have an instance even if it has no axis.
     let empty_places = probe.target.profile.empty_places.clone();
     for class in OF_PLACES.into_iter().filter(|_| !empty_places.is_empty()) {
         // If no instance of the first channel is found, the group of the class may be wrong.
@@ -147,13 +148,15 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The last axis of a channel in a class; `None` if the class does not have the channel.
+/// The highest axis index of a channel in a class; `None` if the class has no instance of the
+/// channel.
 fn last_axis(all: &[Instance], class: Class, channel: u32) -> Option<u32> {
     let class_last = all.iter().filter(|one| (one.class, one.channel) == (class, channel));
     class_last.map(|one| one.axis).max()
 }
 
-/// Compares the numbers of axes of the classes.
+/// Checks that the classes that have axes of a channel have the same number of them, and likewise
+/// the classes that have axes of the platform.
 pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let mut any = false;
@@ -181,20 +184,22 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     applicable(any, "no class has an axis")
 }
 
-/// Checks that the axis after the last one does not exist, nor an axis with the lower 16 bits of the last
-/// one.
+/// Checks that the class has no axis `last + 1`, and no axis whose number has the lower 16 bits of
+/// `last`.
 fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Step {
     is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
     is_nowhere(probe, &[SDA_5], class, channel, last | 0x1_0000)
 }
 
-/// Checks that no instance exists after the last instance of each class, in any configuration.
+/// Checks that no instance exists after the last instance of each class that the target has, and no
+/// instance in channels that the class cannot have. The numbers of axes and spindles in the profile
+/// are not used.
 pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let has = |class| all.iter().any(|one| one.class == class);
     let channels: Vec<u32> =
         probe.channels()?.into_iter().map(|channel| channel.number().into()).collect();
-    // A class without any instance may be served by another task.
+    // A class without any instance is left out, because another task may serve it.
     for class in OF_PLACES.into_iter().filter(|class| has(*class)) {
         for &channel in &channels {
             let last = last_axis(&all, class, channel).unwrap_or(INSTANCES_MAX);
@@ -225,8 +230,9 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Requests instances whose lower bits are those of an existing one: a group has 8 bits for the
-/// channel, an offset 16 bits for the axis.
+/// Requests instances whose channel or axis number does not fit into an address, but has the lower
+/// bits of an existing one: a group has 8 bits for the channel, and an offset has 16 bits for the
+/// axis.
 pub(super) fn far(probe: &mut Probe<'_>) -> Step {
     for one in probe.instances()? {
         let channels: &[u32] = match one.axis {
@@ -237,8 +243,9 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
             let channel = one.channel.wrapping_add(bit);
             is_nowhere(probe, &[SDA_5], one.class, channel, one.axis)?;
         }
-        // A read at such an address must fail too. This is checked for the decoder only, because the
-        // manuals print addresses of axes only for this class.
+        // A read at an axis that does not exist must fail, too. This is checked for the decoder
+        // only, because only for this class do the manuals print the stride 0x10000 between axes
+        // (ADR-7).
         if one.class == Class::Decoder && one.axis < 0x100 {
             let group = one.first.class_group();
             for bit in [0x100_0000, 0x8000_0000_u32] {

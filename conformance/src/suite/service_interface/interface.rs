@@ -1,4 +1,4 @@
-//! The Service Interface of a channel, read, written and restored.
+//! Reads, writes and restores the variables of the Service Interface of a channel.
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -43,8 +43,9 @@ pub(super) const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 /// The texts of a request and its response.
 const TEXTS: [ServiceVariable; 2] = [ServiceVariable::Request, ServiceVariable::Response];
 
-/// Calls a function in each channel in which all these variables may be written, and restores them,
-/// the last variable first.
+/// Calls a function for each channel in which all these variables may be written, and then restores
+/// the variables, the last one first. The case is inconclusive if an NC program has requested a
+/// service.
 pub(super) fn in_each_channel(
     probe: &mut Probe<'_>,
     variables: &[ServiceVariable],
@@ -68,7 +69,7 @@ pub(super) fn in_each_channel(
     probe.finish("no variable of the Service Interface may be written")
 }
 
-/// Like [`in_each_channel`], for each text separately.
+/// Like [`in_each_channel`], but separately for each variable in [`TEXTS`].
 pub(super) fn for_each_text(
     probe: &mut Probe<'_>,
     mut then: impl FnMut(&mut Probe<'_>, Channel, ServiceVariable) -> Step,

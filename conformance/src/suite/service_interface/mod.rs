@@ -65,7 +65,7 @@ fn variables(probe: &mut Probe<'_>) -> Step {
             // A type number without a name violates VAR-5, which another case judges.
             let is_other = own.var_type.name().is_some() && own.var_type != variable.var_type();
             probe.check(SVC_1, !is_other, expected, found);
-            // A service writes these two variables.
+            // A service writes RESPONSE and RESPONSE_STATE, so their access must be READ_WRITE.
             if [ServiceVariable::Response, ServiceVariable::ResponseState].contains(&variable) {
                 let written = own.access == VariableAccess::READ_WRITE;
                 let found = || format!("access {} of {name}", own.access.0);
@@ -78,12 +78,12 @@ fn variables(probe: &mut Probe<'_>) -> Step {
 
 fn response(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Response, ResponseState};
-    // The response is restored before the state, because the state tells a program that a response
-    // exists.
+    // The response is restored before the response state, because a response state other than 0
+    // tells an NC program that a response exists.
     in_each_channel(probe, &[ResponseState, Response], answer)
 }
 
-/// Writes a response like a service, without a request.
+/// Writes a response like a service, although no request exists, and checks the effects.
 fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
     let accepted = write_variable(probe, channel, Response, b"unrequested\0")?;
@@ -91,7 +91,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     let read = read_variable(probe, channel, Response)?;
     let same = until_nul(&read) == b"unrequested";
     probe.check(SVC_1, same, "the response as written", || Hex(read));
-    // The state may be any number: its meaning is agreed between program and service.
+    // The response state may be any number, because program and service agree on its meaning.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
         let accepted = write_variable(probe, channel, ResponseState, &state)?;
         probe.check(SVC_1, accepted, "the response state accepted", "an error");
@@ -100,7 +100,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     }
     let read = read_variable(probe, channel, RequestState)?;
     probe.check(SVC_4, read == NONE, "request state 0 after the response", || Hex(read));
-    // That every write of REQUEST_STATE has this effect, also over ADS, is assumed.
+    // That a write of REQUEST_STATE over ADS, even of 0, resets RESPONSE_STATE is assumed.
     write_variable(probe, channel, RequestState, &NONE)?;
     let kept = read_variable(probe, channel, Response)?;
     let same = until_nul(&kept) == b"unrequested";

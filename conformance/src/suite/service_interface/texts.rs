@@ -1,4 +1,4 @@
-//! Writes and reads of the five variables.
+//! Cases that write and read the variables of the Service Interface.
 
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
@@ -8,7 +8,8 @@ use ads_cnc_vectors::ids::*;
 
 use super::interface::{ONE, WIDE, for_each_text, in_each_channel, read_variable, write_variable};
 use crate::judge::{Checks as _, Step};
-use crate::suite::kit::Probe;
+use crate::suite::kit::{Probe, with_reply};
+use crate::suite::texts::UNASSIGNED;
 use crate::text::plural;
 use crate::values::until_nul;
 
@@ -31,11 +32,10 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Returns `len` printable characters, starting with the character that has the index `first` among all
-/// printable characters.
+/// Returns `len` printable characters of CP1252 in ascending order, starting with the printable
+/// character that has the index `first`; the first printable character follows the last one.
 fn characters(first: u8, len: usize) -> Vec<u8> {
-    let no_character = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
-    let all = (b' '..=0xFF).filter(|byte| *byte != 0x7F && !no_character.contains(byte));
+    let all = (b' '..=0xFF).filter(|byte| *byte != 0x7F && !UNASSIGNED.contains(byte));
     let mut all: Vec<u8> = all.collect();
     let before = usize::from(first).checked_rem(all.len()).unwrap_or_default();
     all.rotate_left(before);
@@ -78,7 +78,7 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
             if !probe.may(write)? {
                 continue;
             }
-            probe.send(write)?;
+            with_reply(probe.send(write)?)?;
             let read = read_variable(probe, channel, variable)?;
             let same = until_nul(&read) == until_nul(&value);
             probe.check(SVC_1, same, expected, || Hex(read));
@@ -87,11 +87,11 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// The UUID of the square root service.
+/// The UUID of the square root service, an example in the manuals (SVC-9).
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
 
-/// Requests a service with a UUID that no service has: REQUEST and REQUEST_STATE keep the written
-/// values until a service answers.
+/// Requests a service with a UUID that no service has, and checks that REQUEST and REQUEST_STATE
+/// keep the written values.
 pub(super) fn request(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Uuid};
     const NO_SERVICE: &[u8] = b"00000000-0000-0000-0000-000000000000\0";
@@ -112,7 +112,8 @@ pub(super) fn request(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// A write to one variable changes no other. REQUEST_STATE stays 0, so that no service is requested.
+/// Checks that a write to one variable changes none of the variables written before. REQUEST_STATE
+/// is not written, so that no service is requested.
 pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, Response, ResponseState, Uuid};
     in_each_channel(probe, &[ResponseState, Response, Request, Uuid], |probe, channel| {
@@ -134,7 +135,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 probe.check(rule, same, expected, || Hex(read));
             }
         }
-        // Neither a read nor a write to another variable resets a state.
+        // Neither a read nor a write of UUID or REQUEST resets the response state.
         for value in [&b"another\0"[..], b"the request\0"] {
             write_variable(probe, channel, Request, value)?;
             write_variable(probe, channel, Uuid, UUID)?;

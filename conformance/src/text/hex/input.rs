@@ -25,8 +25,8 @@ impl fmt::Display for HexError {
 
 impl std::error::Error for HexError {}
 
-/// Parses hex: two digits for each byte, optionally prefixed with `0x`, and separated by blanks,
-/// line ends, commas, semicolons, colons or hyphens.
+/// Parses hex: two digits for each byte. Bytes may be separated by white space, commas, semicolons,
+/// colons or hyphens; after a separator, `0x` may precede the digits.
 ///
 /// ```
 /// use ads_cnc_conformance::explain::parse_hex;
@@ -39,7 +39,7 @@ impl std::error::Error for HexError {}
 /// ```
 ///
 /// # Errors
-/// The first character that is not a hex digit, or a digit without a second one.
+/// The first character that is not a hex digit, or the first byte with only one digit.
 pub fn parse_hex(text: &str) -> Result<Vec<u8>, HexError> {
     let mut bytes = Vec::with_capacity(text.len().checked_div(2).unwrap_or(0));
     let (mut line, mut column) = (1_usize, 0_usize);

@@ -15,7 +15,7 @@ pub(crate) fn spaced(bytes: &[u8]) -> String {
     Hex(bytes.to_vec()).to_string()
 }
 
-/// A byte as a character if it is graphic, otherwise a dot.
+/// A byte as a character if it is a graphic ASCII character, otherwise a middle dot.
 pub(crate) fn character(byte: u8) -> char {
     if byte.is_ascii_graphic() { char::from(byte) } else { '·' }
 }
@@ -27,7 +27,7 @@ pub(crate) fn line(mark: char, offset: usize, bytes: &[u8], name: &str) -> Strin
     line.trim_end().to_owned()
 }
 
-/// Formats bytes as lines.
+/// Formats bytes as lines of 16 bytes, each with offset, bytes and characters.
 pub fn dump(bytes: &[u8]) -> Vec<String> {
     let chunks = (0_usize..).step_by(LINE).zip(bytes.chunks(LINE));
     chunks.map(|(offset, chunk)| line(' ', offset, chunk, "")).collect()

@@ -153,7 +153,7 @@ fn success(frame: &FrameRef<'_>, data: &[u8]) -> Vec<u8> {
     FrameRef::new(frame.header().response(), &payload).unwrap().encode_to_vec().unwrap()
 }
 
-fn refusal(frame: &FrameRef<'_>) -> Vec<u8> {
+fn rejection(frame: &FrameRef<'_>) -> Vec<u8> {
     let data = ads_cnc::ads::WriteReply { result: AdsError(1793) }.encode_to_vec().unwrap();
     FrameRef::new(frame.header().response(), &data).unwrap().encode_to_vec().unwrap()
 }
@@ -265,7 +265,9 @@ fn replies_of_a_megabyte_with_wrong_flags_and_addresses() {
 fn everything() -> SocketAddr {
     const DESCRIPTION: &[u8] = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
     serving(|frame, out| {
-        let Ok(Some(call)) = Call::from_frame(frame) else { return out.write_all(&refusal(frame)) };
+        let Ok(Some(call)) = Call::from_frame(frame) else {
+            return out.write_all(&rejection(frame));
+        };
         let number = frame.header().invoke_id;
         let data = match call.dispatch() {
             Ok(
@@ -284,7 +286,7 @@ fn everything() -> SocketAddr {
                 };
                 (0..call.read_length / 84).flat_map(one).collect()
             }
-            _ => return out.write_all(&refusal(frame)),
+            _ => return out.write_all(&rejection(frame)),
         };
         out.write_all(&success(frame, &data))
     })
@@ -366,7 +368,7 @@ fn listens_on(stderr: &str) -> Option<SocketAddr> {
     addr.parse().ok()
 }
 
-/// A client that sends requests without end, over more connections than the limit.
+/// A client that sends 5,000 requests of 60 kB, and opens more connections than the limit.
 #[test]
 fn a_client_without_end() {
     let long = {

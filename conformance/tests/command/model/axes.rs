@@ -1,4 +1,5 @@
-//! Axis exchange between places of channels, and activation of channels.
+//! Axis exchange between places of channels (a place is the index of an axis in its channel), and
+//! activation of channels.
 
 use ads_cnc_conformance::simulator::DEFAULT_MODEL;
 

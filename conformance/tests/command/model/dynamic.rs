@@ -160,6 +160,19 @@ fn a_recreated_parameter_has_its_initial_value() {
     assert_eq!(read("V.P.often"), Err(0x710));
 }
 
+/// A parameter that its object creates again has its initial value, too.
+#[test]
+fn a_parameter_recreated_by_an_object_has_its_initial_value() {
+    let edition = ["edition = \"en-1.05\"", "edition = \"de-1.051\""];
+    let cnc = Timed::new(&DEFAULT_MODEL.replace(edition[0], edition[1]));
+    for _ in 0..2 {
+        assert_eq!(cnc.write_object(0x1F, &[1]), Ok(()));
+        assert_eq!(cnc.ask(VL[2], b"V.L.temporary\0"), real(0.5));
+        assert_eq!(cnc.write("V.L.temporary", &9_f64.to_le_bytes()), Ok(()));
+        assert_eq!(cnc.write_object(0x1F, &[0]), Ok(()));
+    }
+}
+
 /// A parameter for which the model names both times and an object exists only while both conditions are
 /// true.
 #[test]

@@ -99,10 +99,11 @@ fn the_first_element_describes_the_instance() {
         assert_eq!(sda.read(group + 0x200, offset, 256), Ok(b"UNS32\0".to_vec()));
         assert_eq!(sda.read(group + 0x300, offset, 4), Ok(vec![4, 0, 0, 0]));
         assert_eq!(sda.read(group + 0x500, offset, 1), Ok(vec![0]));
-        // The number of elements cannot be written. At an offset of the printed stride it is the
-        // content of an element, otherwise the reply of a function, so the errors differ.
-        let refused = if offset == 0x1000 { 0x704 } else { 0x701 };
-        assert_eq!(sda.write(group, offset, &[9, 0, 0, 0]), Err(refused));
+        // The number of elements cannot be written. With the offset 0x1000, the request is a write
+        // of the content of an element, which is read-only; with other offsets, the function
+        // supports only Read.
+        let rejected = if offset == 0x1000 { 0x704 } else { 0x701 };
+        assert_eq!(sda.write(group, offset, &[9, 0, 0, 0]), Err(rejected));
         // No attribute has an element after the last one.
         for attribute in [0, 0x100, 0x200, 0x300, 0x400, 0x500] {
             let behind = offset + u32::from(count) + 1;

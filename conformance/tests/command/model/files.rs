@@ -70,6 +70,29 @@ fn invalid_models_are_usage_errors() {
     assert!(errors.contains("no such file: "), "{errors}");
 }
 
+/// The default handles of axis variables end before the bits of the place and the channel.
+#[test]
+fn the_257th_axis_variable_needs_a_handle() {
+    let row = |number| format!("{{ name = \"V.A.x{number}\", type = \"UNS08\" }},\n");
+    let rows: String = (1..=257).map(row).collect();
+    let model = format!("[[channel]]\nnumber = 1\n[channel-axis]\nvariables = [\n{rows}]\n");
+    let error = Model::from_toml(&model, "m").unwrap_err().to_string();
+    assert!(error.starts_with("m:261: only the first 256 axis variables"), "{error}");
+}
+
+/// A handle belongs to its channel, so that two channels may have the same handle.
+#[test]
+fn channels_may_have_equal_handles() {
+    let channel = |number: u8| {
+        let row = format!("name = \"V.E.x\", type = \"UNS08\", handle = 5, value = {number}");
+        format!("[[channel]]\nnumber = {number}\nvariables = [{{ {row} }}]\n")
+    };
+    let file = TestFile::new(".toml", (channel(1) + &channel(2)).as_bytes());
+    let cnc = Cnc::start(&["--model", file.path()]);
+    let read = |group| cnc.sda().ask(group, 0x47, &[5, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!((read(0x12_2301), read(0x12_2302)), (Ok(vec![1]), Ok(vec![2])));
+}
+
 /// Each change makes the default model invalid; the error contains the reason and the line.
 #[test]
 fn each_error_has_its_line() {
@@ -108,6 +131,11 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("name = \"Y\"", "name = \"Y.1\"", "without . [ ]"),
     ("name = \"Y\"", "name = \"\"", "expected a name of an axis"),
     ("name = \"Y\"", "name = \"\u{3A9}\"", "not in CP1252"),
+    (
+        "name = \"Y\"",
+        "name = \"YYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYYY\"",
+        "at most 63 bytes",
+    ),
     ("name = \"Y\"", "number = 0\nname = \"Y\"", "greater than 0"),
     ("name = \"Y\"", "number = 1 # again\nname = \"Y\"", "two axes have the logical number 1"),
     // Channels and their places.
@@ -120,7 +148,7 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("places = [4, 0, 0]", "places = [4, 5, 0]", "two axes of a channel are named X"),
     // Objects.
     ("\"example_byte_r\"", "\"example_name_of_33_characters____r\"", "name"),
-    ("type = \"BYTE\"", "type = \"UNS08\"", "types: BOOL BYTE"),
+    ("type = \"BYTE\"", "type = \"UNS08\"", "types: BOOL SINT BYTE"),
     ("0x11, value = 0xB5", "0x11, value = 0x100", "expected a number from 0 to 255, found 256"),
     ("0x11, value = 0xB5", "0x11, value = 1.5", "a float is not a value"),
     ("0x11, value = 0xB5", "0x11, value = [1]", "not a value"),

@@ -146,7 +146,7 @@ fn the_program_sends_the_requests_of_the_model() {
 
 /// Each change makes the model above invalid; the error contains the reason and the line.
 #[test]
-fn each_fault_is_refused_with_its_line() {
+fn each_fault_is_rejected_with_its_line() {
     let long = format!("request = \"{}\"", "3".repeat(128));
     for (from, to, reason) in [
         ("number = 1", "number = 1 #\n[[channel]]\nnumber = 1", "configured twice"),

@@ -155,7 +155,7 @@ fn each_variable_has_its_own_extended_description() {
     let sda = cnc.sda();
     // The printed example: the variable with index 3.
     assert_eq!(sda.ask(CHANNEL_1, 0x4B, b"\x03\0\0\0V.E\0"), Ok(vec![2, 0, 0, 0, 2, 0, 0, 0]));
-    // V.E.real64 has index 28; it is not synchronised and valid for its channel.
+    // V.E.real64 has index 28; it is not synchronised, and is valid for its channel.
     let described = sda.ask(CHANNEL_1, 0x45, b"\x1C\0\0\0V.E\0").unwrap();
     assert!(described.ends_with(b"V.E.real64\0"), "{described:?}");
     assert_eq!(sda.ask(CHANNEL_1, 0x4B, b"\x1C\0\0\0V.E\0"), Ok(vec![1, 0, 0, 0, 1, 0, 0, 0]));

@@ -6,13 +6,13 @@ use std::fs;
 use ads_cnc_conformance::report::{self, Report};
 use serde_json::{Value, json};
 
-use super::{FORMS, Folder, VERBOSE, ads_cnc, elements, everything};
+use super::{FORMS, TestFolder, VERBOSE, ads_cnc, elements, everything};
 use crate::common::Serve;
 
 /// Texts that a device sends are escaped on the console and in every format of a report.
 #[test]
 fn texts_of_a_device_are_escaped() {
-    let folder = Folder::new("text");
+    let folder = TestFolder::new();
     let mut document = everything(&folder);
     let odd = "</script><script>alert(1)</script> | `x` ]]> & \u{1}\u{fffe}";
     let acting = "C\u{1b}[31m\u{9b}2J\0\u{202e}\n\n# A heading";
@@ -63,9 +63,9 @@ fn texts_of_a_device_are_escaped() {
 /// Replaces each text of a report in turn by active content, which must be escaped in every format.
 #[test]
 fn all_texts_of_a_foreign_report_are_escaped() {
-    let folder = Folder::new("foreign");
+    let folder = TestFolder::new();
     let mut document = everything(&folder);
-    // Keeps only one case with each combination of parts, because most cases are alike.
+    // Keeps only one case, with every kind of text, because most cases are alike.
     let cases = document["cases"].as_array_mut().unwrap();
     let failed = cases.iter().position(|case| case.get("failures").is_some()).unwrap();
     let mut case = cases[failed].clone();
@@ -124,7 +124,7 @@ fn all_texts_of_a_foreign_report_are_escaped() {
     assert!(seen.len() > 40, "{seen:?}");
 
     // The error for an invalid report is escaped, too.
-    let file = folder.path("odd.json");
+    let file = folder.file("odd.json");
     let mut odd = document;
     odd["\u{1b}[2J\u{9b}"] = json!(1);
     fs::write(&file, odd.to_string()).unwrap();
@@ -154,9 +154,9 @@ fn texts(value: &Value) -> Vec<String> {
 /// Names and reasons in a profile and in waivers are escaped, too.
 #[test]
 fn texts_of_profiles_and_waivers_are_escaped() {
-    let folder = Folder::new("acting");
+    let folder = TestFolder::new();
     let serve = Serve::start(&[]);
-    let (profile, waivers) = (folder.path("profile.toml"), folder.path("waivers.toml"));
+    let (profile, waivers) = (folder.file("profile.toml"), folder.file("waivers.toml"));
     let acting = "\\u001b[2J\\u009b\\u007f\\n# H <img src=x>";
     fs::write(&profile, format!("name = \"{acting}\"\n")).unwrap();
     let waiver = format!(
@@ -164,7 +164,7 @@ fn texts_of_profiles_and_waivers_are_escaped() {
          reason = \"{acting}\"\nexpires = 9999-12-31\n"
     );
     fs::write(&waivers, waiver).unwrap();
-    let forms = FORMS.map(|form| (format!("--{form}"), folder.path(form)));
+    let forms = FORMS.map(|form| (format!("--{form}"), folder.file(form)));
     let forms: Vec<&str> =
         forms.iter().flat_map(|(form, file)| [form.as_str(), file.as_str()]).collect();
     let target = ["--target", &serve.addr, "--net-id", &serve.net_id, "--only", "VAR-1"];

@@ -3,40 +3,15 @@
 
 mod foreign;
 
-use std::path::{Path, PathBuf};
-use std::{env, fs, process};
+use std::fs;
+use std::path::Path;
 
-use crate::common::Serve;
-use crate::common::ads_cnc;
+use crate::common::file::TestFolder;
+use crate::common::{Serve, ads_cnc};
 use ads_cnc_conformance::report::{self, Detail, DisplayOptions, Report};
 use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
 use serde_json::{Value, json};
-
-/// A temporary folder that is removed when this value is dropped.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let folder = env::temp_dir().join(format!("ads-cnc-{name}-{}", process::id()));
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-
-    fn path(&self, name: &str) -> String {
-        self.0.join(name).to_str().unwrap().to_owned()
-    }
-
-    fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.0.join(name)).unwrap()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _gone = fs::remove_dir_all(&self.0);
-    }
-}
 
 fn run(args: &[&str]) -> Value {
     let output = ads_cnc(&[&["run", "--json", "-"], args].concat());
@@ -49,8 +24,8 @@ const VERBOSE: DisplayOptions =
     DisplayOptions { detail: Detail::Verbose, color: false, found_shown: false };
 
 /// A report with all parts: failures with bytes, waivers, a selection.
-fn everything(folder: &Folder) -> Value {
-    let waivers = folder.path("waivers.toml");
+fn everything(folder: &TestFolder) -> Value {
+    let waivers = folder.file("waivers.toml");
     let entry = |test: &str, requirement: &str| {
         format!(
             "[[waiver]]\ntest = \"{test}\"\nrequirement = \"{requirement}\"\nverdict = \"fail\"\n\
@@ -68,22 +43,22 @@ fn json_matches_its_schema_and_is_read_back() {
     let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     jsonschema::draft202012::meta::validate(&schema).unwrap();
     let schema = jsonschema::validator_for(&schema).unwrap();
-    let folder = Folder::new("schema");
+    let folder = TestFolder::new();
     let testee = format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"));
     let noisy = format!("{testee} --miniature noisy");
-    let refusing = format!("{testee} --miniature refuses-all");
+    let rejecting = format!("{testee} --miniature refuses-all");
     let client = format!("\"{}\" client", env!("CARGO_BIN_EXE_ads-cnc"));
     let dying = format!("{client} --defect client.dies");
     let dying = run(&["--client", &dying, "--only", "client-name-data-length-huge"]);
     let serve = Serve::start(&[]);
-    let capture = folder.path("run.pcapng");
+    let capture = folder.file("run.pcapng");
     run(&["--only", "VAR-11", "--capture", &capture]);
     let checked = ads_cnc(&["check", &capture, "--any-port", "--json", "-"]);
     let checked: Value = serde_json::from_slice(&checked.stdout).unwrap();
     let reports = [
         run(&[]),
         run(&["--testee", &noisy, "--only", "VAR-11"]),
-        run(&["--testee", &refusing, "--only", "VAR-11"]),
+        run(&["--testee", &rejecting, "--only", "VAR-11"]),
         run(&["--target", &serve.addr, "--net-id", &serve.net_id]),
         everything(&folder),
         run(&["--defect", "object-descriptor.size.flip"]),
@@ -128,12 +103,12 @@ fn protocol_failures_name_their_document() {
 
 #[test]
 fn formats_are_converted_from_the_json_only() {
-    let folder = Folder::new("forms");
-    let json = folder.path("report.json");
+    let folder = TestFolder::new();
+    let json = folder.file("report.json");
     let mut args = vec!["run".to_owned(), "--defect".to_owned(), DEFECT.to_owned()];
     args.extend(["--json".to_owned(), json.clone()]);
     for form in FORMS {
-        args.extend([format!("--{form}"), folder.path(&format!("with-run.{form}"))]);
+        args.extend([format!("--{form}"), folder.file(&format!("with-run.{form}"))]);
     }
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
     let output = ads_cnc(&args);
@@ -150,8 +125,8 @@ fn formats_are_converted_from_the_json_only() {
 
 #[test]
 fn invalid_reports_are_rejected() {
-    let folder = Folder::new("odd");
-    let odd = folder.path("odd.json");
+    let folder = TestFolder::new();
+    let odd = folder.file("odd.json");
     for (text, why) in [
         ("", "the JSON ends too early, at line 1"),
         ("{\"format\":2}", "report format 2 instead of 1"),
@@ -194,7 +169,7 @@ fn elements(xml: &str) -> Vec<(String, Vec<(String, String)>)> {
 
 #[test]
 fn junit_has_a_test_for_each_case() {
-    let folder = Folder::new("junit");
+    let folder = TestFolder::new();
     let mut document = everything(&folder);
     document["ended"] = json!("interrupted");
     let report = Report::from_json(&document.to_string()).unwrap();
@@ -238,16 +213,16 @@ fn junit_has_a_test_for_each_case() {
     }
 }
 
-/// A conformance statement contains each clause once for each subject. A comparison of two reports fails
-/// if there are new failures.
+/// Reports are converted to conformance statements. A comparison of two reports fails if there are
+/// new failures.
 #[test]
 fn reports_are_converted_to_statements_and_compared() {
-    let folder = Folder::new("statement");
-    let (now, before) = (folder.path("now.json"), folder.path("before.json"));
+    let folder = TestFolder::new();
+    let (now, before) = (folder.file("now.json"), folder.file("before.json"));
     fs::write(&now, everything(&folder).to_string()).unwrap();
     fs::write(&before, run(&["--only", "VAR", "--seed", "7"]).to_string()).unwrap();
     for form in ["statement.md", "statement.html"] {
-        let file = folder.path(form);
+        let file = folder.file(form);
         assert_eq!(ads_cnc(&["report", &now, "--statement", &file]).status.code(), Some(0));
         let text = folder.read(form);
         for part in
@@ -275,11 +250,11 @@ fn reports_are_converted_to_statements_and_compared() {
 }
 
 /// A comparison with an interrupted run states the interruption in one line, and is not a success. A
-/// comparison of different kinds of runs has warnings.
+/// comparison of runs with different settings has warnings.
 #[test]
 fn a_comparison_with_fewer_verdicts_is_not_a_success() {
-    let folder = Folder::new("less");
-    let (now, before) = (folder.path("now.json"), folder.path("before.json"));
+    let folder = TestFolder::new();
+    let (now, before) = (folder.file("now.json"), folder.file("before.json"));
     let mut document = run(&["--only", "VAR-11", "--seed", "7"]);
     fs::write(&before, document.to_string()).unwrap();
     for case in document["cases"].as_array_mut().unwrap() {
@@ -315,7 +290,7 @@ fn a_comparison_with_fewer_verdicts_is_not_a_success() {
 /// previous page would stay empty.
 #[test]
 fn long_rows_may_break_in_print() {
-    let folder = Folder::new("print");
+    let folder = TestFolder::new();
     let mut document = everything(&folder);
     let case = document["cases"].as_array().unwrap();
     let mut failed = case.iter().find(|case| case.get("failures").is_some()).unwrap().clone();
@@ -338,7 +313,7 @@ fn long_rows_may_break_in_print() {
 /// The HTML report loads no resources, and contains the verdicts even without a script.
 #[test]
 fn html_is_self_contained() {
-    let folder = Folder::new("html");
+    let folder = TestFolder::new();
     let report = Report::from_json(&everything(&folder).to_string()).unwrap();
     let mut html = Vec::new();
     report::to_html(&report, &mut html).unwrap();

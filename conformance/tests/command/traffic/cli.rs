@@ -1,40 +1,19 @@
 //! `ads-cnc check` and `--capture` as users call them.
 
+use crate::common::file::TestFolder;
 use crate::common::{ads_cnc, text};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
 use super::maker::{Link, pcap, segments};
 use super::talk::{conversation, everything};
 
-/// A temporary folder that is removed when this value is dropped.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path =
-            std::env::temp_dir().join(format!("ads-cnc-capture-{}-{name}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn file(&self, name: &str) -> String {
-        self.0.join(name).to_str().unwrap().to_owned()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _gone = fs::remove_dir_all(&self.0);
-    }
-}
-
-/// `check` passes the captured traffic of every command that connects to a CNC.
+/// `check` passes the captured traffic of the commands `browse`, `get`, `set` and `stream`.
 #[test]
 fn the_traffic_of_commands_passes() {
-    let folder = Folder::new("tools");
+    let folder = TestFolder::new();
     let program = folder.file("program.nc");
     fs::write(&program, "N10 G01 X100 F1000\n".repeat(200) + "N20 M30\n").unwrap();
     let calls: [&[&str]; 5] = [
@@ -78,7 +57,7 @@ fn an_incomplete_capture_is_an_error() {
 /// Every form of the report states that a part of the conversation is missing.
 #[test]
 fn every_report_states_missing_traffic() {
-    let folder = Folder::new("cut");
+    let folder = TestFolder::new();
     let (file, page, note) =
         (folder.file("cut.pcapng"), folder.file("cut.html"), folder.file("cut.md"));
     let said = ads_cnc(&["get", "V.E.matrix", "--capture", &file]);
@@ -100,7 +79,7 @@ fn every_report_states_missing_traffic() {
 /// The list of exchanges contains the requested names and the values of replies.
 #[test]
 fn exchanges_have_names_and_values() {
-    let folder = Folder::new("list");
+    let folder = TestFolder::new();
     let file = folder.file("list.pcapng");
     let shown = |name: &str| {
         ads_cnc(&["get", name, "--capture", &file]);
@@ -108,14 +87,14 @@ fn exchanges_have_names_and_values() {
     };
     let value = "read variable value by name V.E.matrix: 0b 00 0c 00 0d 00 15 00 16 00 17 00\n";
     assert!(shown("V.E.matrix").contains(value));
-    let refused = "read variable value by name V.E.none: ADS error 0x710 (no such name)\n";
-    assert!(shown("V.E.none").contains(refused));
+    let rejected = "read variable value by name V.E.none: ADS error 0x710 (no such name)\n";
+    assert!(shown("V.E.none").contains(rejected));
 }
 
 /// A name in a capture is escaped on the console and in every report that is shown as text or markup.
 #[test]
 fn texts_of_a_capture_are_escaped() {
-    let folder = Folder::new("acting");
+    let folder = TestFolder::new();
     let files = ["x.pcapng", "x.html", "x.md", "x.xml"].map(|name| folder.file(name));
     let [file, page, note, junit] = &files;
     ads_cnc(&["get", "V.E.a\u{1b}c<img src=x>", "--capture", file]);
@@ -134,7 +113,7 @@ fn texts_of_a_capture_are_escaped() {
 /// to stderr.
 #[test]
 fn reports_contain_the_exchanges_and_notes() {
-    let folder = Folder::new("exchanges");
+    let folder = TestFolder::new();
     let files = ["x.pcapng", "x.html", "x.json"].map(|name| folder.file(name));
     let [file, page, report] = &files;
     ads_cnc(&["get", "V.E.matrix", "--capture", file]);
@@ -155,7 +134,7 @@ fn reports_contain_the_exchanges_and_notes() {
 /// A file that cannot be created is wrong usage, not an internal error.
 #[test]
 fn a_capture_needs_an_existing_folder() {
-    let folder = Folder::new("nowhere");
+    let folder = TestFolder::new();
     let file = folder.file("none/x.pcapng");
     let said = ads_cnc(&["get", "V.E.Testvar", "--capture", &file]);
     assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
@@ -165,7 +144,7 @@ fn a_capture_needs_an_existing_folder() {
 /// traffic, unless the user also selects the client.
 #[test]
 fn the_suite_fails_as_a_client() {
-    let folder = Folder::new("suite");
+    let folder = TestFolder::new();
     let (file, report) = (folder.file("run.pcapng"), folder.file("report.json"));
     let run = ads_cnc(&["run", "--only", "VAR", "--only", "COM", "--capture", &file]);
     assert_eq!(run.status.code(), Some(0));
@@ -197,7 +176,7 @@ fn valid(value: &Value, schema: &str) {
 /// checks the schema.
 #[test]
 fn vectors_are_extracted() {
-    let folder = Folder::new("vectors");
+    let folder = TestFolder::new();
     let (file, vectors) = (folder.file("a.pcap"), folder.file("vectors.json"));
     let talk = conversation(None, everything);
     fs::write(&file, pcap(&segments(&talk, 1460, (1, 1)), Link::Ethernet)).unwrap();
@@ -233,18 +212,18 @@ fn vectors_are_extracted() {
 
 #[test]
 fn a_file_that_is_not_a_capture_is_wrong_usage() {
-    let folder = Folder::new("none");
+    let folder = TestFolder::new();
     let file = folder.file("none.pcap");
-    let refused = |file: &str, why: &str| {
+    let rejected = |file: &str, why: &str| {
         let checked = ads_cnc(&["check", file]);
         assert_eq!(checked.status.code(), Some(2));
         assert!(text(&checked.stderr).contains(why), "{}", text(&checked.stderr));
     };
-    refused(&file, "No such file");
+    rejected(&file, "No such file");
     fs::write(&file, "").unwrap();
-    refused(&file, "empty");
+    rejected(&file, "empty");
     fs::write(&file, "N10 G01 X100\n".repeat(10)).unwrap();
-    refused(&file, "neither pcap nor pcapng");
+    rejected(&file, "neither pcap nor pcapng");
     // An empty capture is not a success, because nothing is judged.
     fs::write(&file, pcap(&[], Link::Ethernet)).unwrap();
     let checked = ads_cnc(&["check", &file]);

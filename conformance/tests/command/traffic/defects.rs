@@ -143,35 +143,14 @@ fn printed_examples_pass() {
         let com = group & 0xF00 == 0x100 && group & 0xF000 == 0
             || group & 0xF00 == 0x200 && group & 0x0F_F000 == 0x2_0000;
         let port = if com { 553_u16 } else { 552 };
-        // The frame is built without the codec: headers, the numbers of the service, and data.
-        let mut asked = Vec::new();
-        for number in [group, offset, length] {
-            asked.extend(number.to_le_bytes());
-        }
+        let mut asked = words(&[group, offset, length]);
         if !read {
             asked.extend(u32::try_from(data.len()).unwrap().to_le_bytes());
             asked.extend(&data);
         }
-        let mut answered = vec![0; 4];
-        answered.extend(u32::try_from(answer.len()).unwrap().to_le_bytes());
+        let mut answered = words(&[0, u32::try_from(answer.len()).unwrap()]);
         answered.extend(&answer);
-        let (cnc, client) = ([[127, 0, 0, 1, 1, 1], [10, 0, 0, 9, 1, 1]], 0x8001_u16);
-        let frame = |reply: bool, payload: &[u8]| {
-            let mut out = vec![0, 0];
-            let length = u32::try_from(payload.len()).unwrap();
-            out.extend((length + 32).to_le_bytes());
-            let ends = [(cnc[0], port), (cnc[1], client)];
-            for (id, port) in if reply { [ends[1], ends[0]] } else { ends } {
-                out.extend(id);
-                out.extend(port.to_le_bytes());
-            }
-            out.extend([if read { 2 } else { 9 }, 0, if reply { 5 } else { 4 }, 0]);
-            out.extend(length.to_le_bytes());
-            out.extend([0, 0, 0, 0, 7, 0, 0, 0]);
-            out.extend(payload);
-            out
-        };
-        let talk = [(Side::Client, frame(false, &asked)), (Side::Cnc, frame(true, &answered))];
+        let talk = exchange(if read { 2 } else { 9 }, port, &asked, &answered);
         let checked = checked(&pcap(&segments(&talk, 1460, (1, 1)), Link::Vlan));
         assert!(passes(&checked) >= 8, "{}: {:?}", reply.id, checked.tally.lines());
         judged += 1;
@@ -191,7 +170,7 @@ fn words(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
-/// The frames of a request of an ADS command and of its reply.
+/// The frames of a request of an ADS command and of its reply, built without the codec.
 fn exchange(command: u8, port: u16, request: &[u8], reply: &[u8]) -> [Message; 2] {
     let frame = |is_reply: bool, payload: &[u8]| {
         let mut out = vec![0, 0];

@@ -247,7 +247,8 @@ pub(crate) fn with(checked: &Checked, verdict: Verdict) -> Vec<String> {
     all.collect()
 }
 
-/// Checks that no requirement fails or is inconclusive, and returns the number of checks.
+/// Checks that no requirement fails or is inconclusive, and returns the number of requirements that
+/// pass, summed over the cases.
 pub(crate) fn passes(checked: &Checked) -> usize {
     for verdict in [
         Verdict::Fail,

@@ -143,7 +143,7 @@ fn a_capture_may_begin_anywhere() {
 /// again before the reply.
 #[test]
 fn each_client_has_its_own_invoke_ids() {
-    // The AMS port of the client: the source of a request, and the target of a reply.
+    // The offset of the client's AMS port: the source of a request, and the target of a reply.
     let port = |frame: &[u8]| if frame[18] == 4 { 14 } else { 6 };
     let ams = first(12);
     for distance in [0_u8, 1] {

@@ -58,7 +58,7 @@ pub(crate) fn recorded(defect: Option<&FieldDefect>, talk: impl FnOnce(&mut Sess
     pcap(&segments(&conversation(defect, talk), 1460, (1, 1)), Link::Ethernet)
 }
 
-/// Sends requests of every kind; ignores missing replies.
+/// Sends queries about objects, variables, elements and parameters; ignores missing replies.
 pub(crate) fn everything(session: &mut Session) {
     let channel = Channel::new(1).unwrap();
     objects(session, channel);

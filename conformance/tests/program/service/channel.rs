@@ -93,7 +93,7 @@ impl Channel {
         assert!(there, "{variable} is not written: {:?}", host.step());
     }
 
-    /// Executes steps until the host waits.
+    /// Executes steps up to and including the first wait of the host.
     pub(crate) fn rest(&mut self, host: &mut Host<'_>) {
         assert!((0..50).any(|_| self.step(host) == HostEvent::Wait), "{:?}", host.step());
     }

@@ -7,8 +7,9 @@ use ads_cnc_conformance::simulator::program::service::*;
 use super::channel::*;
 use crate::square_root::square_root;
 
-/// A failed write may have reached the CNC, so the host reads the variables again, and writes only those
-/// that do not have the new value.
+/// A failed write may have reached the CNC, so the host reads the variables before it writes again.
+/// It repeats a failed write of RESPONSE in any case, and any other write only if the variable does
+/// not have the new value.
 #[test]
 fn failed_writes_are_completed() {
     let ids = [id(ROOT)];

@@ -75,7 +75,7 @@ fn a_too_long_request_is_rejected() {
     assert_eq!(host.step(), HostStep::Wait);
     host.poll();
     reach(&mut channel, &mut host);
-    // NULs after the text are padding, and do not count for its length.
+    // NULs after the text are padding, and do not count towards its length.
     host.read(&[&b"3\0"[..], &[0; 300]].concat()).unwrap();
     assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
@@ -137,10 +137,10 @@ fn states_have_four_bytes() {
     interface.write(RequestState, &[2, 0, 0, 0]).unwrap();
     let before = interface.clone();
     for (variable, field) in [(RequestState, "request_state"), (ResponseState, "response_state")] {
-        let refused = interface.write(variable, &[0; 3]).unwrap_err();
-        assert_eq!(Fault::of(refused), cut(field));
-        let refused = interface.write(variable, &[0; 5]).unwrap_err();
-        assert_eq!(Fault::of(refused), long(field));
+        let rejected = interface.write(variable, &[0; 3]).unwrap_err();
+        assert_eq!(Fault::of(rejected), cut(field));
+        let rejected = interface.write(variable, &[0; 5]).unwrap_err();
+        assert_eq!(Fault::of(rejected), long(field));
     }
     assert_eq!(interface, before);
 }

@@ -1,5 +1,5 @@
 //! Plays golden sequences of data streaming and of the Service Interface: acts as the client, the
-//! service and the NC program, and compares each step.
+//! service and the NC program, and compares each step with the simulated CNC.
 
 mod service;
 mod streaming;

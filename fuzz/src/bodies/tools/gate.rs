@@ -5,6 +5,7 @@ use ads_cnc::address::{Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAx
 use ads_cnc::ads::AmsNetId;
 use ads_cnc::operation::Call;
 use ads_cnc_conformance::gate::{self, Allowed, AllowedList, Entry, Gate, Moment};
+use ads_cnc_conformance::number::to_u32;
 
 use super::Input;
 use super::calls::{call, written};
@@ -196,8 +197,7 @@ fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
     if odd(5) == 1 {
         command = input.byte().into();
     }
-    let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
-    let length = (length + u32::from(odd(6))).to_le_bytes();
+    let length = (to_u32(data.len()) + u32::from(odd(6))).to_le_bytes();
     let (group, offset) = (index_group.get().to_le_bytes(), index_offset.get().to_le_bytes());
     let read_length = read_length.to_le_bytes();
     let payload = match command {
@@ -206,7 +206,7 @@ fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
         3 => [&[group, offset, length].concat(), data].concat(),
         _ => [&[group, offset, read_length, length].concat(), data].concat(),
     };
-    let behind = u32::try_from(payload.len()).unwrap_or(u32::MAX);
+    let behind = to_u32(payload.len());
     let mut target = TARGET;
     target[5] += odd(2);
     let mut frame = vec![0, 0];

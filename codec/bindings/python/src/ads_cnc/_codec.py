@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import ctypes
-import math
 import struct
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, NamedTuple, Optional, TypeVar, Union
+from typing import Any, Generic, NamedTuple, Optional, TypeVar
 
 from . import _abi
 from ._abi import UINT32
 
 T = TypeVar("T")
-# The types that a field can be encoded from.
-Value = Union[int, float, str, bytes, Sequence[int]]
 
 
 class AdsCncError(ValueError):

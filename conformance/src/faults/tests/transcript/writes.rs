@@ -1,4 +1,4 @@
-//! Writes, and NC programs.
+//! Writes, queries of other channels, axis exchange, and NC programs.
 
 use std::time::Duration;
 

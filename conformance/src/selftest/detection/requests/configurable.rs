@@ -25,7 +25,8 @@ pub(in crate::selftest::detection) enum Compare {
 /// The numbers of the channels of the default model, by rank.
 const NUMBERS: [u8; 3] = [1, 2, 6];
 
-/// A request: function, index group with the channel's number instead of its rank, offset, data.
+/// A request: function, index group with the number of the channel instead of its rank, index
+/// offset, data.
 type Key = (Function, IndexGroup, IndexOffset, Vec<u8>);
 
 /// The first reply to each request for a configurable value, and the lengths of the elements.
@@ -36,8 +37,9 @@ pub(super) struct ConfigurableReplies {
 }
 
 impl ConfigurableReplies {
-    /// The text to compare instead of the data of a reply. `None` if the data itself must be compared:
-    /// the value is not configurable, or the data differs from an earlier reply to the same request.
+    /// The text to compare instead of the data of a reply. `None` if the data itself must be
+    /// compared: the value is not configurable, the data is invalid, or the data differs from the
+    /// first reply to the same request.
     pub(super) fn marker(&mut self, call: &Call<'_>, data: &[u8], writes: bool) -> Option<String> {
         let request = call.dispatch().ok()?;
         let text = || Some(ElementText::decode(data).ok()?.text.text.to_string());

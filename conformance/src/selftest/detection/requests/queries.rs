@@ -25,9 +25,10 @@ use crate::values::until_nul;
 
 /// Maximum number of entries of a list that are requested.
 const LISTED_MAX: u32 = 150;
-/// Numbers whose low byte or low 16 bits are 1, and the largest number.
+/// A number whose low byte is 1, a number whose low 16 bits are 1, and the largest number.
 const WIDE: [u32; 3] = [0x101, 0x1_0001, u32::MAX];
-/// Names that no list contains: variables that are accessible by name only, and unknown names.
+/// Names that are requested in each channel in addition to the listed names: variables that are
+/// accessible by name only, a parameter, a kind, a structure, and unknown names.
 const NAMES: [&str; 12] = [
     "V.CYC.count",
     "V.CYC.matrix",
@@ -143,7 +144,7 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Reads the variables of the axis interface of a channel.
+    /// Reads the variables of the axis interface of a channel, by name and by handle.
     pub(super) fn axes(&mut self, channel: Channel) {
         for name in self.axis_names(channel) {
             for axis in AXES.iter().filter_map(|&axis| ChannelAxis::new(axis).ok()) {

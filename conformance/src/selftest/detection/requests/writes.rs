@@ -1,5 +1,5 @@
-//! Writes of each writable value, of NC programs and of the Service Interface, each followed by
-//! reads.
+//! Writes of each writable value and of the Service Interface, each followed by reads, and writes
+//! of NC programs.
 
 use std::time::Duration;
 
@@ -16,7 +16,8 @@ use super::configurable::by_number;
 use super::{AXES, ContentAddress, ReplyRecorder, Variable, brackets, number, parts};
 
 impl ReplyRecorder<'_> {
-    /// Writes two other values and then the original value to each writable value.
+    /// Writes two other values and then the original value to each value for which the gate allows
+    /// a write.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {
             if variable.writable {
@@ -115,7 +116,8 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Reads a whole variable after a write, by name and by handle, and by name also in channels 1 and 2.
+    /// Reads a whole variable after a write: by name in its channel and in channels 1 and 2, and by
+    /// handle.
     fn read_back(&mut self, channel: Channel, name: &str, handle: Option<Handle>) {
         let others = [Channel::new(1).ok(), Channel::new(2).ok()].into_iter().flatten();
         for channel in [channel].into_iter().chain(others) {
@@ -128,12 +130,11 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Writes NC text: complete lines, a line without its end, too many bytes at once, and more
-    /// than fit into the buffer.
+    /// Writes NC text: complete lines, a line without its end, and more bytes than fit into the
+    /// buffer.
     pub(super) fn streams(&mut self) {
         let long = [&[b'X'; 990][..], b"\r\n"].concat();
-        let longer = [&[b'X'; 991][..], b"\r\n"].concat();
-        let texts: [&[u8]; 8] = [
+        let texts: [&[u8]; 7] = [
             b"N10 X1\r\n",
             b"N20 X2\r\nN30 X3\r\n",
             b"N40 X4",
@@ -141,7 +142,6 @@ impl ReplyRecorder<'_> {
             b"N60: X1\r\nN70 $GOTO N60\r\n",
             b"N80 M30\r\nN90 X9\r\n",
             &long,
-            &longer,
         ];
         for channel in self.channels() {
             for text in texts.into_iter().chain([&long[..]; 6]) {
@@ -155,8 +155,8 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Writes the variables of the Service Interface in the order of a service, and reads all of them after
-    /// each write.
+    /// Writes the variables of the Service Interface in the order in which an NC program and a
+    /// service write them, and reads all five variables after each write.
     pub(super) fn services(&mut self) {
         let writes: [(ServiceVariable, &[u8]); 8] = [
             (ServiceVariable::Uuid, b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0"),

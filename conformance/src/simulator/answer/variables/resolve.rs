@@ -15,7 +15,7 @@ use crate::simulator::model::{ChannelModel, Variable, VariableRef, handle_at, pa
 /// The result of resolving a name on the channel interface.
 pub(super) enum Resolved {
     Variable(VariableRef),
-    /// A V.P, V.L or V.S parameter, in editions in which variables include these.
+    /// A V.P, V.L or V.S parameter, in an edition that has these kinds of variables.
     Parameter,
 }
 
@@ -29,7 +29,7 @@ impl AnsweringCnc<'_> {
         let answer = self.model.edition.permits(function, kind, self.model.version);
         match (answer.available, function) {
             (true, _) => Ok(()),
-            // The variable exists, but has no handle.
+            // A variable of this kind may exist, but has no handle.
             (false, Function::HandleByName) if answer.requirement == VAR_18.as_str() => {
                 Err(AdsError::INVALID_DATA)
             }
@@ -38,7 +38,7 @@ impl AnsweringCnc<'_> {
     }
 
     /// The variables of a kind in the order of their indices; for V.A, only the variables of places
-    /// with an axis.
+    /// (axis indices of the channel) with an axis.
     pub(super) fn of_kind(
         &self,
         channel: usize,

@@ -13,11 +13,11 @@ use super::variables::{self, handle_span};
 use super::{items, parameters, programs};
 use crate::edition::{CncVersion, Feature};
 
-/// Maximum number of platform axes, of spindles and of axes of a channel; more do not fit into index
-/// groups and handles.
+/// Maximum number of platform axes, of spindles and of places of a channel; larger numbers do not
+/// fit into index groups and handles.
 pub(super) const INSTANCES_MAX: usize = 255;
 
-/// Inputs for building channels.
+/// The parts of the model that are needed to build and check channels.
 pub(super) struct Channels<'a> {
     pub(super) source: Source<'a>,
     pub(super) axes: &'a [AxisModel],
@@ -29,7 +29,7 @@ pub(super) struct Channels<'a> {
 impl Channels<'_> {
     pub(super) fn build(&self, tables: &[ChannelTable]) -> Result<Vec<ChannelModel>, ModelError> {
         let mut channels = BTreeMap::new();
-        let (mut taken, mut handles) = (BTreeSet::new(), BTreeSet::new());
+        let mut taken = BTreeSet::new();
         for table in tables {
             let number = self.number(table)?;
             // Check this before handles are derived from the number.
@@ -37,7 +37,7 @@ impl Channels<'_> {
                 let why = format!("channel {number} is configured twice");
                 return Err(self.source.error(&table.number.span(), why));
             }
-            channels.insert(number, self.channel(number, table, &mut taken, &mut handles)?);
+            channels.insert(number, self.channel(number, table, &mut taken)?);
         }
         if channels.is_empty() {
             return Err(self.source.error(&(0..0), "expected at least one channel"));
@@ -58,7 +58,6 @@ impl Channels<'_> {
         number: u8,
         table: &ChannelTable,
         taken: &mut BTreeSet<usize>,
-        handles: &mut BTreeSet<u32>,
     ) -> Result<ChannelModel, ModelError> {
         let (source, span) = (self.source, table.number.span());
         let places = self.places(table, taken)?;
@@ -78,10 +77,8 @@ impl Channels<'_> {
             self.version.is_none_or(|version| version.has(Feature::ServiceInterface).available);
         let variables = variables::of_channel(source, number, &table.variables, service)?;
         let mut by_handle = HashMap::new();
-        let mut take = |handle: Handle, at: VariableRef| {
-            by_handle.insert(handle.0, at);
-            handles.insert(handle.0)
-        };
+        // A handle belongs to its channel, so that another channel may have the same handle.
+        let mut take = |handle: Handle, at: VariableRef| by_handle.insert(handle.0, at).is_none();
         for (place, variable) in variables.list.iter().enumerate() {
             let free =
                 variable.handle.is_none_or(|handle| take(handle, VariableRef::Channel(place)));
@@ -139,7 +136,8 @@ impl Channels<'_> {
         })
     }
 
-    /// The axis at each place.
+    /// The axis at each place (axis index) of a channel, as its index in the model; `None` for a
+    /// place without an axis.
     fn places(
         &self,
         table: &ChannelTable,

@@ -10,47 +10,50 @@ use super::super::error::Source;
 use super::super::item::{
     ClassModel, ContentSource, Elements, Initial, InitialValues, Item, Objects,
 };
-use super::super::types::{self, NamedType, ScalarType};
+use super::super::types::{self, NamedType, TypeNames};
 use super::super::{ModelError, class_place};
 use super::parse::text;
 use crate::number::to_usize;
 use crate::text::plural;
 
-/// Maximum size of a content in bytes, so that it fits into a frame with result and length.
+/// Maximum size of a content in bytes, so that the content fits into a frame after result and
+/// length.
 const CONTENT_MAX: usize = 0xFFF8;
 
-/// Size of a STRING without a declared size (VAR-25).
+/// Size in bytes of a STRING without a declared size (VAR-25).
 pub(super) const STRING_DEFAULT: u32 = 21;
 
-/// Objects must have smaller offsets, because offsets from this value on belong to axes.
+/// Objects must have offsets below this value, because the offsets from this value on belong to
+/// axes.
 const OFFSET_OF_AXES: u32 = 0x1_0000;
-/// Elements must have smaller numbers, because numbers from this value on belong to the next axis.
+/// The elements of an axis of the HLD must have numbers below this value, because the numbers from
+/// this value on belong to the next axis.
 const HLD_AXIS_STRIDE: usize = 0x1000;
 
 /// A declared value of an object, element or variable.
 pub(super) struct DeclaredValue<'a> {
     pub(super) source: Source<'a>,
-    pub(super) types: &'static [NamedType],
+    pub(super) types: TypeNames,
     pub(super) of_type: &'a Spanned<String>,
     pub(super) size: Option<&'a Spanned<u32>>,
-    /// Number of elements of an array.
+    /// Number of elements of an array; `None` for a single value.
     pub(super) count: Option<usize>,
     pub(super) value: Option<&'a Spanned<Value>>,
     pub(super) values: Option<&'a Spanned<Vec<Value>>>,
+    /// Maximum size of the value in bytes.
     pub(super) max: usize,
 }
 
 impl DeclaredValue<'_> {
-    /// The name of the type, and the initial values.
-    pub(super) fn read(&self) -> Result<(&'static str, Initial), ModelError> {
+    /// The type, and the initial values.
+    pub(super) fn read(&self) -> Result<(NamedType, Initial), ModelError> {
         let of_type = self.of_type;
         let error = |why: String| self.source.error(&of_type.span(), why);
-        let NamedType { name, scalar } =
-            types::find(self.types, of_type.get_ref()).map_err(error)?;
-        let each = match (scalar.size(), self.size) {
-            (Some(size), None) => size,
+        let ty = self.types.find(of_type.get_ref()).map_err(error)?;
+        let each = match (ty.data_type.size(), self.size) {
+            (Some(size), None) => to_usize(size),
             (Some(_), Some(size)) => {
-                let why = format!("size is only for a STRING; {name} has a fixed size");
+                let why = format!("size is only for a STRING; {} has a fixed size", ty.name);
                 return Err(self.source.error(&size.span(), why));
             }
             (None, None) => to_usize(STRING_DEFAULT),
@@ -73,30 +76,31 @@ impl DeclaredValue<'_> {
             }
             (None, None) => InitialValues::Same(vec![0; size]),
             (Some(value), None) => {
-                InitialValues::Same(self.bytes(*scalar, each, value.get_ref(), &value.span())?)
+                InitialValues::Same(self.bytes(ty, each, value.get_ref(), &value.span())?)
             }
             (None, Some(values)) => {
                 let span = values.span();
-                let bytes = |value| self.bytes(*scalar, each, value, &span);
+                let bytes = |value| self.bytes(ty, each, value, &span);
                 InitialValues::Each(values.get_ref().iter().map(bytes).collect::<Result<_, _>>()?)
             }
         };
-        Ok((name, Initial { size, values }))
+        Ok((ty, Initial { size, values }))
     }
 
     fn bytes(
         &self,
-        scalar: ScalarType,
+        ty: NamedType,
         each: usize,
         value: &Value,
         span: &std::ops::Range<usize>,
     ) -> Result<Vec<u8>, ModelError> {
-        types::bytes(scalar, each, self.count, value).map_err(|why| self.source.error(span, why))
+        let bytes = types::bytes(ty.data_type, each, self.count, value);
+        bytes.map_err(|why| self.source.error(span, why))
     }
 }
 
-/// The meaning that `is` declares. `of` specifies the owner of the item: "number" for a platform
-/// axis, "place" for an axis of a channel, `None` for any other owner.
+/// The source of the content that the key `is` declares. `of` specifies the owner of the item:
+/// "number" for a platform axis, "place" for an axis of a channel, `None` for any other owner.
 fn meaning(
     source: Source<'_>,
     is: Option<&Spanned<String>>,
@@ -115,7 +119,7 @@ fn meaning(
     }
 }
 
-/// Checks that a type can hold axis numbers.
+/// Checks that the type of an item can hold axis numbers, if its content is an axis number.
 fn holds_numbers(
     source: Source<'_>,
     item: &Item,
@@ -137,9 +141,9 @@ pub(super) fn objects(
     let mut objects = Objects::default();
     for row in rows {
         let name = text(source, &row.name)?;
-        let (type_name, initial) = DeclaredValue {
+        let (ty, initial) = DeclaredValue {
             source,
-            types: types::OBJECT,
+            types: TypeNames::Object,
             of_type: &row.r#type,
             size: row.size.as_ref(),
             count: None,
@@ -149,11 +153,12 @@ pub(super) fn objects(
         }
         .read()?;
         // The codec checks the length of names.
-        Descriptor::new(row.name.get_ref(), type_name)
+        Descriptor::new(row.name.get_ref(), ty.name)
             .map_err(|error| source.error(&row.name.span(), error))?;
         let meaning = meaning(source, row.is.as_ref(), row.writable, of)?;
         let unit = CncString::default();
-        let item = Item { name, type_name, unit, writable: row.writable, meaning, initial };
+        let (type_name, writable) = (ty.name, row.writable);
+        let item = Item { name, type_name, unit, writable, meaning, initial };
         holds_numbers(source, &item, &row.r#type)?;
         let (element, span) = (*row.offset.get_ref(), row.offset.span());
         if element >= OFFSET_OF_AXES {
@@ -188,7 +193,8 @@ pub(super) fn classes(
         (Class::Spindle, &tables.spindle.each, &none),
     ];
     for (class, channel, axis) in parts {
-        // Platform axes have fixed places, so they cannot be exchanged.
+        // These classes contain the platform axes, whose order is fixed, so they cannot be
+        // exchanged.
         let on_platform = matches!(class, Class::PositionController | Class::Hld);
         let of = Some(if on_platform { "number" } else { "place" });
         let max = if class == Class::Hld { HLD_AXIS_STRIDE } else { 0x1_0000 };
@@ -241,9 +247,9 @@ fn element(
             return Err(source.error(&span, "expected at most 255 characters"));
         }
     }
-    let (type_name, initial) = DeclaredValue {
+    let (ty, initial) = DeclaredValue {
         source,
-        types: types::ELEMENT,
+        types: TypeNames::Element,
         of_type: &row.r#type,
         size: row.size.as_ref(),
         count: None,
@@ -253,7 +259,8 @@ fn element(
     }
     .read()?;
     let meaning = meaning(source, row.is.as_ref(), row.writable, of)?;
-    let item = Item { name, type_name, unit, writable: row.writable, meaning, initial };
+    let (type_name, writable) = (ty.name, row.writable);
+    let item = Item { name, type_name, unit, writable, meaning, initial };
     holds_numbers(source, &item, &row.r#type)?;
     Ok(item)
 }

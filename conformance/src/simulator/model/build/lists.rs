@@ -64,7 +64,7 @@ pub(super) fn fill(
     Ok(())
 }
 
-/// Assigns the IDs that are not declared, from 1.
+/// Assigns an unused ID, from 1 on, to each object without a declared ID.
 struct IdAllocator {
     taken: BTreeSet<u32>,
     next: u32,
@@ -108,7 +108,8 @@ fn descriptor(
         .with_content(group, offset))
 }
 
-/// Descriptors of the objects of a channel itself; for channel 0, of the platform.
+/// Descriptors of the objects of a channel, without those of its axes; for channel 0, of the
+/// platform.
 fn own(
     objects: &Objects,
     number: u8,
@@ -125,7 +126,7 @@ fn own(
     Ok(list)
 }
 
-/// Descriptors of the objects of a channel itself, and then of the objects of its axes.
+/// Descriptors of the objects of a channel, and then of the objects of its axes.
 fn of_channel(
     channel: &ChannelModel,
     of_places: &Objects,

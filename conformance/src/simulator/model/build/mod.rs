@@ -13,6 +13,7 @@ use std::collections::BTreeSet;
 use self::channels::{Channels, INSTANCES_MAX};
 pub(in crate::simulator) use self::parameters::kind as parameter_kind;
 use self::parse::text;
+use self::variables::AXIS_NAME_MAX;
 use super::document::{AxisTable, Document};
 use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
@@ -22,7 +23,6 @@ use crate::text::in_words;
 
 pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
     let document: Document = toml::from_str(source.text).map_err(|error| {
-        // An error without a position, such as a missing table.
         let reason = match error.message() {
             // Explain the error in the words of TOML.
             "invalid type: map, expected a sequence" => {
@@ -30,6 +30,7 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
             }
             reason => &in_words(reason, "table"),
         };
+        // An error without a position, such as a missing table, is reported at line 1.
         source.error(&error.span().unwrap_or_default(), reason)
     })?;
     let edition = match &document.edition {
@@ -96,6 +97,10 @@ fn axes(source: Source<'_>, tables: &[AxisTable]) -> Result<Vec<AxisModel>, Mode
         let apart = |byte: &u8| b".[]".contains(byte);
         if name.as_bytes().is_empty() || name.as_bytes().iter().any(apart) {
             return Err(source.error(&span, "expected a name of an axis, without . [ ]"));
+        }
+        if name.as_bytes().len() >= AXIS_NAME_MAX {
+            let why = format!("the name of an axis has at most {} bytes", AXIS_NAME_MAX - 1);
+            return Err(source.error(&span, why));
         }
         let (number, span) = match &table.number {
             Some(number) => (*number.get_ref(), number.span()),

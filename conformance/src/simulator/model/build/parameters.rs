@@ -13,7 +13,8 @@ use super::super::item::Objects;
 use super::super::{ModelError, Parameter, Times};
 use super::parse::{text, time};
 
-/// Builds the parameters of a channel with these objects.
+/// Builds the parameters of a channel. `objects` are the objects of the channel, which the key
+/// `while` of a parameter can name.
 pub(super) fn of_channel(
     source: Source<'_>,
     rows: &[ParameterRow],
@@ -54,7 +55,7 @@ fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
     })
 }
 
-/// The kind of a parameter's name.
+/// The kind of the parameter with this name.
 pub(in crate::simulator) fn kind(name: &CncString) -> Result<DynamicKind, String> {
     if name.as_bytes().len() >= DYNAMIC_NAME_MAX {
         return Err(format!(

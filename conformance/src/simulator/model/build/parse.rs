@@ -1,4 +1,4 @@
-//! Parses texts of a file.
+//! Parses texts of a model file.
 
 use std::time::Duration;
 

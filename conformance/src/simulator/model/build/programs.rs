@@ -15,7 +15,7 @@ use crate::simulator::program::{
 };
 use crate::text::some_time;
 
-/// The streaming program. Without a configuration, it restarts after each end, because no ADS
+/// Builds the streaming program. By default, it restarts after each program end, because no ADS
 /// function can start it.
 pub(super) fn streaming(
     source: Source<'_>,
@@ -50,7 +50,7 @@ fn pace(given: &Value) -> Result<Pace, ParsePaceError> {
     }
 }
 
-/// The program that sends requests to services.
+/// Builds the program that sends requests to services.
 pub(super) fn service(
     source: Source<'_>,
     table: &ServiceTable,
@@ -97,7 +97,7 @@ fn request(source: Source<'_>, row: &RequestRow) -> Result<ServiceRequest, Model
         cycle: Duration::ZERO,
     };
     if let Err(invalid) = Script::new(alone) {
-        // Find the position of the parameter with the error.
+        // Find the position in the file of the value that is invalid.
         let timer = wait.is_some_and(|wait| wait.p2.is_some() && wait.p3.is_none());
         let span = match (&row.state, &row.wait) {
             (Some(state), _) if *state.get_ref() == 0 => state.span(),

@@ -14,15 +14,16 @@ use super::super::ModelError;
 use super::super::document::VariableRow;
 use super::super::error::Source;
 use super::super::item::{Initial, InitialValues};
-use super::super::types;
+use super::super::types::TypeNames;
 use super::super::variable::{Variable, Variables};
 use super::items::DeclaredValue;
 use super::parse::text;
 use crate::number::{to_u32, to_usize};
 use crate::text::plural;
 
-/// Maximum length of the name of an axis, which follows the name of the variable.
-const AXIS_NAME_MAX: usize = 64;
+/// Number of bytes that are reserved for a dot and the name of an axis, which follow the name of an
+/// axis variable.
+pub(super) const AXIS_NAME_MAX: usize = 64;
 
 /// Builds and checks a variable.
 fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelError> {
@@ -40,9 +41,9 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
         let of = row.dimensions.as_ref().map(Spanned::span).unwrap_or(span);
         return Err(source.error(&of, "a dimension is 0, or there are too many elements"));
     };
-    let (type_name, initial) = DeclaredValue {
+    let (ty, initial) = DeclaredValue {
         source,
-        types: types::VARIABLE,
+        types: TypeNames::Variable,
         of_type: &row.r#type,
         size: row.size.as_ref(),
         count: Some(count).filter(|_| !dimensions.is_empty()),
@@ -55,7 +56,7 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
     let extended = extended(source, row, path.kind() == Kind::V_E)?;
     let variable = Variable {
         handle: row.handle.as_ref().map(|handle| Handle(*handle.get_ref())),
-        var_type: types::code(type_name),
+        var_type: ty.data_type.var_type().unwrap_or(VariableType::STRING),
         access,
         dimensions,
         initial,
@@ -127,6 +128,10 @@ pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variab
             let why = format!("with the name of an axis, the name exceeds {NAME_MAX} characters");
             return Err(source.error(&span, why));
         }
+        if variable.handle.is_none() && number > 0xFF {
+            let why = "only the first 256 axis variables have a default handle; expected a handle";
+            return Err(source.error(&span, why));
+        }
         let handle = variable.handle.unwrap_or(Handle(0xC000_0000 | number));
         if handle.0 & 0x00FF_FF00 != 0 {
             let why = "expected 0 in bits 8 to 23, which are the place and the channel";
@@ -138,7 +143,8 @@ pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variab
     Ok(variables)
 }
 
-/// Builds V.E, V.G and V.CYC of a channel, and the five variables of its Service Interface.
+/// Builds the V.E, V.G and V.CYC variables of a channel and, if `service`, the five variables of
+/// its Service Interface.
 pub(super) fn of_channel(
     source: Source<'_>,
     number: u8,
@@ -191,7 +197,8 @@ pub(super) fn of_channel(
     Ok(variables)
 }
 
-/// The default handle, which is unique unless another variable declares it.
+/// The default handle of a V.G (`global`) or V.E variable, which is unique unless another variable
+/// declares the same handle.
 fn handle(channel: u8, global: bool, index: u32) -> Handle {
     let kind: u32 = if global { 0x8000_0000 } else { 0x4000_0000 };
     Handle(kind | u32::from(channel) << 22 | index)
@@ -221,7 +228,7 @@ fn add(
     variable: Variable,
 ) -> Result<(), ModelError> {
     let size = variable.initial.size;
-    // The whole value must be writable by name in one request that also contains the name.
+    // A value without dimensions must be writable in one request, also in a request with the name.
     let most = NAME_VALUE_MAX.saturating_sub(variable.name.as_bytes().len()).min(HANDLE_VALUE_MAX);
     if row.writable && variable.dimensions.is_empty() && size > most {
         let why = format!("{} of value; at most {most} can be written", plural(size, "byte"));

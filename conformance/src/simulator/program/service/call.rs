@@ -12,7 +12,8 @@ use super::{NoTimer, SysServiceWait, WaitStep, Waiting, text_value, value_of};
 /// for RESPONSE_STATE (SVC-6, E-20), and reads RESPONSE.
 ///
 /// The step does not change until the caller reports it as done, so that a failed step can be
-/// repeated. But writing REQUEST_STATE twice sends the request twice and discards a response (SVC-3).
+/// repeated. But writing REQUEST_STATE twice sends the request twice and discards a response
+/// (SVC-3).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -207,8 +208,8 @@ impl ServiceCall {
     /// Reports the value that was read at `now`; ignored if the step is not a read.
     ///
     /// # Errors
-    /// For a state that does not have exactly four bytes, or a response of more than 128 bytes including
-    /// its NUL; then the step must be repeated.
+    /// For a state that does not have exactly four bytes, or a response of more than 128 bytes
+    /// including its NUL; then the step must be repeated.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         match &mut self.phase {
             CallPhase::Waiting(waiting) => {

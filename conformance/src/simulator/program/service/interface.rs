@@ -11,8 +11,8 @@ use super::text_value;
 ///   for the NC program; for other writers and for the value 0, this is assumed.
 /// - When the service has finished, REQUEST_STATE becomes 0 (SVC-4). The event that causes this is
 ///   assumed, see [`Clears`].
-/// - Initially, all five variables are empty or 0 (assumed). UUID has 128 bytes like the other texts
-///   (assumed).
+/// - Initially, all five variables are empty or 0 (assumed). UUID has 128 bytes like the other
+///   texts (assumed).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -71,7 +71,7 @@ impl ServiceInterface {
         Self::with(Clears::OnResponseState)
     }
 
-    /// Creates an interface that sets REQUEST_STATE to 0 at this event.
+    /// Creates an interface that sets REQUEST_STATE to 0 at the event `clears`.
     pub fn with(clears: Clears) -> Self {
         Self {
             uuid: vec![0],
@@ -97,9 +97,10 @@ impl ServiceInterface {
     /// Writes a variable, with the effects on other variables.
     ///
     /// # Errors
-    /// [`TooLong`](ads_cnc::ErrorKind::TooLong) for a text of more than 128 bytes including its NUL;
-    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) or [`Trailing`](ads_cnc::ErrorKind::Trailing)
-    /// for a state that does not have exactly four bytes. Then nothing is written.
+    /// [`TooLong`](ads_cnc::ErrorKind::TooLong) for a text of more than 128 bytes including its
+    /// NUL; [`Truncated`](ads_cnc::ErrorKind::Truncated) or
+    /// [`Trailing`](ads_cnc::ErrorKind::Trailing) for a state that does not have exactly four
+    /// bytes. Then nothing is written.
     pub fn write(&mut self, variable: ServiceVariable, value: &[u8]) -> Result<(), Error> {
         match variable {
             ServiceVariable::Uuid => self.uuid = text_value(value, variable)?,

@@ -7,8 +7,7 @@
 //! | the wait for a response by the cycle SysServiceWait | [`SysServiceWait`] |
 //!
 //! The service's side is [`Host`](ads_cnc::service::Host). All types are state machines without I/O
-//! or clock. The codec's tests of the host include this module by its path, so it uses only
-//! [`ads_cnc`] and `std`.
+//! or clock.
 //!
 //! ```
 //! use std::time::Duration;
@@ -26,7 +25,7 @@
 //! let mut program = ServiceCall::new(ids[0], CncStr::new("ping")?, SysServiceWait::default())?;
 //!
 //! let answer = loop {
-//!     // The CNC's side …
+//!     // A step of the NC program in the CNC.
 //!     match program.step() {
 //!         CallStep::Read(variable) => program.read(interface.read(variable), now)?,
 //!         CallStep::Write(variable, bytes) => {
@@ -37,7 +36,7 @@
 //!         CallStep::Done { response, .. } => break response.to_string(),
 //!         CallStep::TimedOut => unreachable!("there is no maximum wait"),
 //!     }
-//!     // … and the service's.
+//!     // A step of the service.
 //!     match host.step() {
 //!         HostStep::Read(variable) => host.read(interface.read(variable))?,
 //!         HostStep::Write(variable, bytes) => {
@@ -66,12 +65,12 @@ pub use call::{CallError, CallStep, ServiceCall};
 pub use interface::{Clears, ServiceInterface};
 pub use wait::{LongestWait, NoTimer, SysServiceWait, WaitStep, Waiting};
 
-/// The value of a variable with this text: the text and one NUL.
+/// The bytes of a STRING variable with this text: the text and one NUL.
 fn value_of(text: CncStr<'_>) -> Vec<u8> {
     text.bytes().chain([0]).collect()
 }
 
-/// Checks and normalizes a value that was written to a variable.
+/// Checks the bytes that were written to a STRING variable, and returns their text with one NUL.
 fn text_value(value: &[u8], variable: ServiceVariable) -> Result<Vec<u8>, Error> {
     variable.text(value).map(value_of)
 }

@@ -6,7 +6,8 @@ use std::time::Duration;
 use ads_cnc::Error;
 use ads_cnc::service::ServiceVariable;
 
-/// The parameters of the cycle SysServiceWait, with which an NC program waits for a response (SVC-8).
+/// The parameters of the cycle SysServiceWait, with which an NC program waits for a response
+/// (SVC-8).
 ///
 /// | parameter | meaning | field |
 /// |---|---|---|
@@ -61,7 +62,7 @@ pub struct LongestWait {
     pub timer: u32,
 }
 
-/// The cycle SysServiceWait has @P2 without @P3.
+/// The error for a cycle SysServiceWait that has @P2 without @P3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoTimer;
 
@@ -181,8 +182,8 @@ impl Waiting {
 
     /// Reports the value that was read at `now`; ignored if the step is not a read.
     ///
-    /// The wait times out only after reading the value for which the cycle keeps waiting, so a response
-    /// that exists after the maximum wait is still valid.
+    /// The wait times out only after reading the value for which the cycle keeps waiting, so a
+    /// response that exists after the maximum wait is still valid.
     ///
     /// # Errors
     /// [`Truncated`](ads_cnc::ErrorKind::Truncated) or [`Trailing`](ads_cnc::ErrorKind::Trailing)

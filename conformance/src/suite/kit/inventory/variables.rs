@@ -10,7 +10,7 @@ use crate::judge::{Step, Stop, applicable};
 use crate::objects::KINDS;
 use crate::suite::kit::{DescribedList, ItemKind, Probe};
 
-/// Maximum number of variables of a kind that are read.
+/// Maximum number of variables of a kind that are read in a channel.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
 
 /// The name of a described variable, for a request.
@@ -18,20 +18,21 @@ pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
     variable.name.text.as_cnc_str().into()
 }
 
-/// The variable, if its name has space for a NUL; otherwise it cannot be requested.
+/// The variable; `None` if its name has no space for a NUL, so that no request can contain the
+/// name.
 fn requestable(variable: Description) -> Option<Description> {
     Some(variable).filter(|variable| variable.name.text.as_bytes().len() < TEXT_MAX)
 }
 
 impl Probe<'_> {
-    /// The kinds that the target lists.
+    /// The kinds of variables that can be listed according to the profile, each with its name.
     pub(crate) fn kinds(&self) -> Vec<(&'static str, Kind<'static>)> {
         let profile = &self.target.profile;
         KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
     }
 
-    /// The descriptions of a channel that the cases read. Cases that judge descriptions read them
-    /// again.
+    /// The descriptions of the variables of a channel that the cases read. A description that
+    /// another case has read is not requested again.
     pub(crate) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
@@ -45,7 +46,7 @@ impl Probe<'_> {
     }
 
     /// All descriptions of a channel, for a case that must know which names do not exist; `None` if
-    /// the channel has more variables than are read.
+    /// the channel has more than [`VARIABLES_MAX`] variables of a kind.
     pub(crate) fn all_variables(&mut self, channel: Channel) -> Step<Option<Vec<Description>>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
@@ -59,7 +60,7 @@ impl Probe<'_> {
         Ok(Some(all))
     }
 
-    /// Variables whose whole value fits into a reply.
+    /// Those of the [`variables`](Self::variables) whose whole value fits into a reply.
     pub(crate) fn readable(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = self.variables(channel)?;
         let fits = |size: u32| usize::try_from(size).is_ok_and(|size| size <= VARIABLE_MAX);
@@ -67,7 +68,7 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// The number of variables of a kind.
+    /// The number of variables of a kind in a channel, requested once.
     fn count_described(
         &mut self,
         channel: Channel,
@@ -84,7 +85,7 @@ impl Probe<'_> {
         Ok(count.0)
     }
 
-    /// The descriptions with these indices.
+    /// The descriptions with these indices, except those whose name is too long for a request.
     fn described(
         &mut self,
         channel: Channel,
@@ -108,7 +109,8 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// Returns a description that the case judges. It is read only if no case has read it before.
+    /// Returns a description that the case judges. A request is sent only if the description is not
+    /// stored yet.
     pub(crate) fn judged_description(
         &mut self,
         rule: ClauseId,

@@ -10,8 +10,10 @@ use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
 
 impl Probe<'_> {
-    /// Sends the queries that confirm the handle of a write: the handle by name, and the
-    /// descriptions of the channel unless they were read on this connection.
+    /// Confirms the handle of a write to the gate, which allows the write only after HandleByName
+    /// and a description have returned the handle for a name in the file of `--allow-write`. Sends
+    /// the missing queries: HandleByName, and descriptions if they were read on an earlier
+    /// connection. Sends nothing for other requests, nor if the gate already allows the write.
     pub(crate) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
         let Request::WriteByHandle(op) = request else { return Ok(()) };
         if self.check_gate(request)?.is_ok() {
@@ -41,7 +43,8 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// The name of the handle in a write, if the handle is not confirmed yet.
+    /// The name that belongs to the handle of a write; `None` if the handle needs no confirmation
+    /// or no query can confirm it.
     fn unconfirmed(&self, request: &Request<'_>) -> Step<Option<CncString>> {
         Ok(match self.check_gate(request)? {
             Err(Some(GateRejection {
@@ -52,7 +55,8 @@ impl Probe<'_> {
         })
     }
 
-    /// Whether the gate lets a request pass, and why not. Sends nothing.
+    /// Whether the gate allows a request now. The inner error is the rejection by the gate, or
+    /// `None` if the frame cannot be encoded. Sends nothing.
     pub(crate) fn check_gate(
         &self,
         request: &Request<'_>,

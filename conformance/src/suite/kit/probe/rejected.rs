@@ -34,7 +34,9 @@ impl Probe<'_> {
                 let expected = || format!("{}, and a success without this fault", expected());
                 let found = || format!("an error also without the fault: {}", accepted.result());
                 for rule in rules {
-                    // If the rule is only assumed, the target may also reject the sibling.
+                    // The target may reject the sibling, too. A rule below the level *must* never
+                    // fails a run, but the verdict *vacuous* does, so such a rule counts as not
+                    // met.
                     let verdict = match rule.level {
                         Some(Level::Must) => Verdict::Vacuous,
                         Some(level) => Verdict::missed(level),
@@ -84,9 +86,9 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Numbers after the last valid one. Some are so large that they cannot become valid meanwhile;
-    /// some have the lower bytes of a valid number, which a CNC that truncates numbers would
-    /// accept.
+    /// Invalid numbers, of which `first` is the smallest. Some are so large that they cannot become
+    /// valid meanwhile. Some have the lower bytes of the last valid number: a CNC that truncates
+    /// numbers would accept them. More numbers are returned if the gate allows malformed requests.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
         let last = first.saturating_sub(1);
         let wide = |bits: &[u32]| -> Vec<u32> {

@@ -3,6 +3,7 @@
 use ads_cnc::address::{Addressing, Channel};
 use ads_cnc::operation::Call;
 use ads_cnc_conformance::gate::{AllowedList, Entry};
+use ads_cnc_conformance::number::to_usize;
 
 use super::harmless::{is_harmless, number};
 
@@ -66,7 +67,7 @@ impl<'e> Rule<'e> {
                 0x46 if reply.len() == 4 => self.handles.extend(named(until_nul(call.data))),
                 // The name follows the handle, type, access, size and dimensions.
                 0x45 if reply.len() > 20 => {
-                    let skip = 20 + 4 * usize::try_from(number(reply, 16)).unwrap_or(usize::MAX);
+                    let skip = 20 + 4 * to_usize(number(reply, 16));
                     let name = reply.get(skip..);
                     self.described.extend(named(name.map(|name| until_nul(name).unwrap_or(name))));
                 }

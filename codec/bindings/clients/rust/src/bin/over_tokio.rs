@@ -82,8 +82,8 @@ fn take_frames(received: &[u8], pending: &Pending) -> std::result::Result<usize,
     while let Some((frame, len)) = FrameRef::split(&received[end..], u32::MAX)? {
         end += len;
         // Skip other frames: requests, and replies that arrived too late.
-        let is_reply = frame.header().state_flags == StateFlags::RESPONSE;
-        if let Some(waiting) = lock(pending).remove(&frame.header().invoke_id).filter(|_| is_reply)
+        if frame.header().state_flags == StateFlags::RESPONSE
+            && let Some(waiting) = lock(pending).remove(&frame.header().invoke_id)
         {
             let _timed_out = waiting.send((frame.header(), frame.data().to_vec()));
         }
