@@ -87,7 +87,8 @@ covered() {
 fuzz_without() { fuzz "$1" none "$seconds"; }
 fuzz_with_asan() { fuzz "$1" address "$asan_seconds"; }
 
-# Runs a target once, and writes its log and a row for the summary.
+# Runs a target once, unless the table of --record already has all its executions, and writes its log, a row for
+# the summary and, with --record, a row of the table.
 fuzz() {
     local target="$1" sanitizer="$2" bound="$3" log="$output/logs/$1.$2.log" status=0
     local found="$output/found/$target" findings="$output/findings/$sanitizer/$target"
@@ -134,7 +135,7 @@ sources_of() {
     if needs_tools "$1"; then printf '%s\n' "${TOOL_SOURCES[@]}"; else printf '%s\n' "${CODEC_SOURCES[@]}"; fi
 }
 
-# Prints a digest of the committed sources of a target without comments and empty lines.
+# Prints a digest of the committed sources of a target without empty lines and lines with only a comment.
 digest_of_sources() {
     local sources
     mapfile -t sources < <(sources_of "$1")
@@ -241,8 +242,8 @@ summary() {
 # Lists the inputs that libFuzzer named, with the digest of their bytes as the name.
 digests() { find "$1" -maxdepth 1 -type f 2>/dev/null | grep -E '/[0-9a-f]{40}$' || true; }
 
-# Collects the kept and new inputs that add coverage to the committed ones. Committed inputs
-# with another name than a digest always stay.
+# Collects the kept and new inputs that add coverage to the committed ones; if the corpus is the committed one, to
+# those committed inputs whose name is not a digest, which always stay.
 minimise() {
     local target="$1" base into="$output/corpus/$1" path before options folders status=0
     base="$(mktemp -d)"
@@ -293,7 +294,7 @@ prove_target() {
     [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
 }
 
-# Runs one target with one seeded defect. The defect counts as found only if the finding is a panic (for the
+# Runs one target with one seeded defect. The defect counts as found only if the finding is a crash (for the
 # defect `hang`, a timeout), and if its input passes without the defect.
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took kind=crash

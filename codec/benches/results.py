@@ -2,8 +2,8 @@
 
     results.py read GUNGRAUN CASES    prints the counts of one build, from the output files of gungraun
     results.py check RESULTS          compares the counts with the limits and with instructions.tsv
-    results.py --renew RESULTS        writes instructions.tsv, then checks like `check`
-    results.py time RESULTS           writes time.tsv, and prints the ratios above their goals
+    results.py --renew RESULTS        writes instructions.tsv and the tables, then checks like `check`
+    results.py time RESULTS           writes time.tsv and the tables, and prints the ratios above their goals
 """
 
 import json
@@ -110,7 +110,8 @@ def listed(results):
 
 def check(results):
     """Fails if a case exceeds its limit, or the committed count by more than 5 %, or if a case has no committed
-    count. Checks only the limits if the committed counts are for a different toolchain."""
+    count or a committed count has no case. Checks only the limits if the committed counts are for a different
+    toolchain."""
     counts, cases = counted(results), listed(results)
     faults = [text for build in BUILDS for text in missed(cases, counts, build)]
     head, before = committed()

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Generates functions and types from the tables of the library, for type checkers and editors.
+"""Generates functions and types of the Python and npm packages from the tables of the C library.
 
     generate.py python OUTPUT      the module with the functions and records of the Python package
     generate.py javascript OUTPUT  the type declarations of the functions and records of the npm package
     generate.py exports OUTPUT     the functions of the npm package
 
-The tables are read from the library in the Python package, so this script lists no functions or fields.
+The tables are read from the C library in the Python package, so this script lists no functions or fields.
 """
 
 import pathlib

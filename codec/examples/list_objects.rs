@@ -1,6 +1,6 @@
-//! Lists the objects of a CNC: those of the COM task by their descriptors, and the elements of the
-//! SDA and GEO tasks by their attributes. Channels, axes and spindles are queried up to the number
-//! `MOST`.
+//! Lists the objects of the COM task of a CNC by their descriptors, and the elements of the classes
+//! by their attributes. The port of the SDA task is used for all classes. Channels, axes and
+//! spindles are queried up to the number `MOST`.
 //!
 //!     cargo run -p ads-cnc --example list_objects -- 127.0.0.1:48898 127.0.0.1.1.1
 
@@ -28,7 +28,7 @@ fn main() -> Result<()> {
             for axis in 0..=MOST {
                 let mut reply = Vec::new();
                 let query = FindInstance::new(class, channel, axis);
-                // Some devices return an ADS error instead of this reply.
+                // A device may return an ADS error instead of this reply.
                 let Some(found) = unless_rejected(cnc.call(&query, &mut reply))? else { continue };
                 if let Some(first) = found.first_element()? {
                     elements(&cnc, first)?;
@@ -39,7 +39,8 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Prints the objects of one list; prints nothing for a channel or axis that does not exist.
+/// Prints the objects of one list; prints nothing if the list is empty or the CNC rejects the
+/// request for the number of objects.
 fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     let mut reply = Vec::new();
     let count = unless_rejected(cnc.call(&CountObjects::new(list), &mut reply))?;
@@ -52,7 +53,8 @@ fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
     Ok(())
 }
 
-/// Prints the elements of one instance.
+/// Prints the elements of one instance, except the first, whose content is the number of the
+/// others.
 fn elements(cnc: &Cnc, first: ElementAddress) -> Result<()> {
     let mut reply = Vec::new();
     let count = cnc.call(&CountElements::new(first)?, &mut reply)?.0;

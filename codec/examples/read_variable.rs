@@ -32,8 +32,9 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Reads the description of a variable by its name. If the CNC rejects this request, because an
-/// older CNC lacks this function, searches the descriptions of all variables of the same kind.
+/// Reads the description of a variable by its name. If the CNC rejects this request, for example
+/// because an older CNC lacks this function, searches the descriptions of all variables of the same
+/// kind.
 fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<DescriptionByName> {
     let mut reply = Vec::new();
     if let Some(found) =

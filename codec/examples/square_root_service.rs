@@ -2,7 +2,7 @@
 //!
 //!     cargo run -p ads-cnc --example square_root_service -- 127.0.0.1:48898 127.0.0.1.1.1 1 [ANSWERS]
 //!
-//! With ANSWERS, the program ends after this number of answered requests.
+//! With ANSWERS, the program ends after it has written this number of answers.
 
 mod transport;
 

@@ -4,8 +4,8 @@
 #[path = "../tests/main.rs"]
 mod tests;
 
-/// Ends the program at the first failure, because one failure detects the mutant: no case is shrunk, and no
-/// other test runs to its end.
+/// Ends the program at the first failure, because one failure detects the mutant: no case is
+/// shrunk, and no other test needs to run to its end.
 #[test]
 fn a_failure_ends_the_run() {
     let shown = std::panic::take_hook();

@@ -1,6 +1,6 @@
-"""Compares the code of the no-panic proof with the public API without features: it must contain the path of every
-function, `both::<…>` for every type that implements Decode, and `show::<…>` for every type that implements
-Display, except those in EXEMPT."""
+"""Compares the code of the no-panic proof (tests/everything) with the public API without features. The code must
+contain the path of every function, `both::<…>` for every type that implements Decode, and `show::<…>` for every type
+that implements Display, except those in EXEMPT."""
 
 import pathlib
 import re
@@ -47,13 +47,13 @@ def main():
     sources = sorted((HERE.parent / "tests" / "everything").rglob("*.rs"))
     lines = "\n".join(source.read_text(encoding="utf-8") for source in sources).splitlines()
     proof = "\n".join(line for line in lines if not line.strip().startswith("//"))
-    # The types that streams! passes to its macro.
+    # For each stream, the first type that streams! passes to its macro.
     views = re.findall(r"^ +\w+: \$crate::(?:\w+::)*(\w+)", STREAMS.read_text(encoding="utf-8"), re.M)
     proof = proof.replace("both::<$view>", " ".join(f"both::<{view}>" for view in views))
     faults = [path for path in missing(*api, proof) if path not in EXEMPT]
     public_paths = [*functions, *(f"{path}, shown" for path in shown)]
     faults += [f"exempt, but not public: {path}" for path in EXEMPT if path not in public_paths]
-    # Negative controls: without each of these lines, the check must fail.
+    # Negative controls: if one of these texts is removed from the code, the check must fail.
     for gone in ("text::cp1252_to_char", "streaming::Packets::rest", "both::<ContentRef", "show::<Error"):
         if not missing(*api, proof.replace(gone, "")):
             faults.append(f"negative control: the absence of {gone} is not reported")

@@ -1,5 +1,5 @@
-//! Implementations of `Arbitrary` for types that `stream!` does not declare. They generate only
-//! values that can be encoded.
+//! Implementations of `Arbitrary` for some of the types that `stream!` does not declare. A
+//! generated value of a stream can be encoded.
 
 use alloc::vec::Vec;
 

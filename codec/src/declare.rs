@@ -1,5 +1,6 @@
-//! The declaration of a stream, in the form of its table in the manual. A macro generates the types
-//! of the stream, their trait implementations and their documentation from the declaration.
+//! The declaration of a stream, in the form of a table like those in the manuals. The macro
+//! `stream!` generates the types of the stream, with trait implementations and documentation, from
+//! the declaration; for `packed`, only a type for the bytes of the stream.
 
 #[cfg(feature = "arbitrary")]
 use crate::rows::Owned;
@@ -7,7 +8,8 @@ use crate::rows::Owned;
 /// The kinds of rows. A line that begins with `$q` defines the type of the row in a borrowed type
 /// (a view) and in an owned type, the implementation of `Row`, and the documented size and type.
 /// The lines before these define the size and the type of a row in its field table, and the rows of
-/// `packed` types. `as` selects a Rust type for a number.
+/// `packed` types. The lines that begin with `@` select one of these items; the last line rejects
+/// any other kind. `as` selects a Rust type for a number, or `Kind` for a text.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
     (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
@@ -61,9 +63,10 @@ macro_rules! row {
 /// | `tuple X` | one type with a single number |
 /// | `packed XLayout` | the bytes of a stream of fixed length whose type is written by hand |
 ///
-/// A row consists of the offset that the manual prints (`@20 + 4m` after `m` counted items of 4
-/// bytes), the field (and its name in errors and golden vectors if it differs), the kind of row,
-/// the requirement and the meaning. The row before a list is its `count`.
+/// A row consists of the offset (`@20 + 4m` after `m` counted items of 4 bytes, `@1 + text` after a
+/// text and its NUL), the field (and its name in errors and golden vectors if it differs), the kind
+/// of row, the requirement and the meaning. The row before a list, or before data with a length, is
+/// its `count`.
 macro_rules! stream {
     (
         $(#[$doc:meta])*
@@ -475,7 +478,7 @@ macro_rules! stream {
     (@shown $max:literal) => { $max };
     (@per 4m) => { 4 };
     (@per 4n) => { 4 };
-    // The offset of a row after a NUL-terminated text counts only the NUL.
+    // The offset of a row after a NUL-terminated text counts only the NUL of the text.
     (@per text) => { 0 };
     (@after []) => { "" };
     (@after [text]) => { " and the text" };

@@ -1,4 +1,4 @@
-//! The error type of decoders, encoders and most constructors.
+//! The error type of decoders, encoders and constructors.
 
 use core::fmt;
 
@@ -9,10 +9,11 @@ use crate::operation::ReadDescriptors;
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
-/// The error of decoders, encoders and most constructors: kind, field, offset, and the expected and
-/// the found number.
+/// The error of decoders, encoders and constructors: kind, field, offset, and the expected and the
+/// found number. [`NcText::new`](crate::streaming::NcText::new) has an error type of its own.
 ///
-/// It is `Copy` and has 16 bytes. Its `Display` text does not depend on the features of the crate:
+/// The type is `Copy` and has 16 bytes. Its `Display` text does not depend on the features of the
+/// crate:
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -47,18 +48,20 @@ pub struct Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The stream, value or name ends within the field. Expected: bytes that the field needs.
-    /// Found: bytes that remain.
+    /// The stream, value or name ends before the end of the field. Expected: the minimum number of
+    /// bytes (of a UUID or name: characters) of the field. Found: those that remain.
     Truncated,
-    /// Bytes follow the end of the stream. Expected: length of the stream. Found: length of the input.
+    /// Bytes (of a UUID: characters) follow the end of the stream or value. Expected: the length up
+    /// to this end. Found: the length of the input.
     Trailing,
-    /// The field or stream exceeds its maximum length. Expected: the maximum. Found: the length.
+    /// The field, stream, value or name exceeds its maximum length. Expected: the maximum. Found:
+    /// the length.
     TooLong,
     /// A count exceeds its maximum, or the number of items in the remaining bytes. Expected: the
     /// smaller of these two limits. Found: the count.
     TooMany,
     /// No NUL ends the text within its maximum length. Expected: the maximum length including the
-    /// NUL. Found: bytes that remain, from the start of the text.
+    /// NUL. Found: the number of bytes without a NUL, from the start of the text.
     MissingNul,
     /// A NUL inside the text. Expected: 0. Found: index of the NUL in the text.
     InnerNul,
@@ -77,13 +80,15 @@ pub enum ErrorKind {
     /// A value outside its range. Expected: the nearest permitted value. Found: the value. The
     /// conversions from an [`Element`](crate::Element) define these numbers differently.
     OutOfRange,
-    /// A value that must equal another value but does not. Expected: the other value. Found: this value.
+    /// A value differs from the required value. Expected and found: the required value (or an
+    /// example of it) and the value, or numbers of both, such as their lengths or the numbers of
+    /// their types.
     Mismatch,
     /// The index offset of a function, where the offset of content is required. Expected: 0. Found: the
     /// offset.
     Function,
-    /// The buffer is too small for the encoded stream, or the read length of a received request for
-    /// the reply. Expected: bytes needed. Found: bytes available.
+    /// The buffer is too small for the encoded stream, value or name, or the read length of a
+    /// received request is too small for the reply. Expected: bytes needed. Found: bytes available.
     BufferTooSmall,
 }
 
@@ -109,13 +114,15 @@ impl Error {
         self.kind
     }
 
-    /// The field at fault. [`Field::stream`] returns its stream.
+    /// The field at fault. [`Field::stream`] returns the stream of the field, if it has one.
     pub const fn field(&self) -> Field {
         self.field
     }
 
     /// The offset of the fault, in bytes from the start of the stream: of the field at fault, or of
-    /// the first byte after the permitted length.
+    /// the first byte after the permitted length. An error of `BinRead` or `BinWrite` may count
+    /// from the start of the reader or writer; an error of
+    /// [`FrameRef::split`](crate::ads::FrameRef::split) counts from the start of the frame.
     ///
     /// For a [`Subject`] that is not a stream, the function that returns the error defines the
     /// offset: it counts, for example, characters of a text or name, bytes of a value, or
@@ -193,8 +200,8 @@ fn argument(field: Field) -> Option<(&'static str, u32, u32)> {
     }
 }
 
-/// The name and the unit of the number that `field` identifies in an error if the number must equal
-/// another number; `None` for any other field.
+/// The name and the unit of the count or size of a value that `field` identifies in a `Mismatch`;
+/// `None` for any other field.
 fn counted(field: Field) -> Option<(&'static str, [&'static str; 2])> {
     match field {
         typed_value::COUNT => Some(("value", ["element", "elements"])),
@@ -210,20 +217,21 @@ fn is_cut(count: Field, limit: u32) -> bool {
     rows.any(|row| matches!(row.size, Size::Items { max, .. } if max != limit))
 }
 
-/// Whether the numbers of an error with this field are index groups.
+/// Whether the numbers of a `Mismatch` with this field are index groups.
 fn is_group(field: Field) -> bool {
     field.subject() == Subject::IndexGroup
         || field == const { Field::of::<ObjectAddress>("index_group") }
 }
 
-/// The name of the type that has this number in errors.
+/// The name of the type that has this number in errors; empty for any other number.
 fn type_name(number: u32) -> &'static str {
     DataType::by_number(number).map_or("", DataType::name)
 }
 
 impl Error {
-    /// Writes an error whose text does not contain `at offset`: an error about an argument, a value
-    /// or the length of a name. Returns `None` for any other error.
+    /// Writes an error whose text does not contain `at offset`, such as an error about an argument
+    /// of a constructor or about the length of a name. For any other error, writes nothing and
+    /// returns `None`.
     fn fmt_words(&self, f: &mut fmt::Formatter<'_>) -> Option<fmt::Result> {
         const NAME: Field = Field::whole_subject(Subject::VariablePath);
         let Self { kind, field, offset, expected, found } = *self;

@@ -1,5 +1,7 @@
-//! Implementations of `BinRead` and `BinWrite` by the rows of the streams. Counts are checked
-//! before memory is allocated. Errors of a row contain the position in the reader.
+//! `BinRead` and `BinWrite`: reading and writing one row of a stream that `stream!` declares, and
+//! implementations for streams whose types are written by hand. A count is checked against its
+//! maximum before memory is allocated for its items. The offset of an error found while reading a
+//! row counts from the start of the reader.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -136,15 +138,16 @@ pub(crate) fn check(stream: &impl Encode) -> Result<(), Error> {
     }
 }
 
-/// The error with which a decoder would reject the stream.
+/// The error with which `encode` rejects this value; a `Mismatch` if `encode` accepts it.
 pub(crate) fn error<'a, T: Encode + Decode<'a>>(stream: &T) -> Error {
     let len = to_u32(stream.encoded_len());
     let whole = Error::new(ErrorKind::Mismatch, Field::whole(T::STREAM), 0, len, len);
     check(stream).err().unwrap_or(whole)
 }
 
-/// `BinRead` and `BinWrite` for streams whose types are written by hand: pulls at most the maximum
-/// length of the stream from the reader (one byte more for `Descriptors`), and decodes the bytes.
+/// `BinRead` and `BinWrite` for streams whose types are written by hand. `BinRead` pulls at most
+/// the maximum length of the stream from the reader (one byte more for `Descriptors`), and decodes
+/// the bytes.
 ///
 /// | stream | why its type is written by hand |
 /// |---|---|

@@ -24,7 +24,7 @@
 //!     }
 //! }
 //!
-//! /// Reads a number of any type from the first channel: a variable, or an element of an array.
+//! /// Reads a number of any type from channel 1: a variable, or an element of an array.
 //! fn read(cnc: &mut impl Transport, name: &str) -> Result<f64, Box<dyn Error>> {
 //!     let channel = Channel::new(1)?;
 //!     // An element `V.E.matrix[1][2]` has the description of its array, `V.E.matrix`.
@@ -62,37 +62,41 @@
 //!
 //! # Client
 //! [`operation`] has a type for each supported function of the CNC, for example
-//! [`ReadByName`](operation::ReadByName): it returns the address of the request, encodes the request and
-//! decodes the reply. [`address`] contains the channels, axes and spindles that operations refer to.
-//! [`AdsError::into_result`](ads::AdsError::into_result) turns an ADS error number into a Rust error.
+//! [`ReadByName`](operation::ReadByName). A value of such a type returns the address of the
+//! request, encodes the request and decodes the reply. [`address`] contains the channels, axes and
+//! spindles that operations refer to. [`AdsError::into_result`](ads::AdsError::into_result) turns
+//! an ADS error number other than 0 into a Rust error.
 //!
 //! # Server
-//! [`Call::dispatch`](operation::Call::dispatch) converts a received request to a
-//! [`Request`](operation::Request). Encode a [`Reply`](operation::Reply) to answer it.
+//! [`Call::dispatch`](operation::Call::dispatch) converts a received call to a
+//! [`Request`](operation::Request). To answer the request, encode a [`Reply`](operation::Reply).
 //!
 //! # Values
-//! [`value`] decodes and encodes variables, objects and elements by their types: use
-//! [`ValueRef::iter`] if your program knows the type, [`DescriptionRef::elements`] if only the CNC
-//! knows it. [`VariablePath`] parses names, [`text`] converts code page 1252.
+//! [`value`] decodes and encodes the values of variables and the content of objects and elements,
+//! by their types. To decode the value of a variable, use [`ValueRef::iter`] if your program knows
+//! the type, [`DescriptionRef::elements`] if only the CNC knows it. [`VariablePath`] parses names
+//! of variables, [`text`] converts code page 1252.
 //!
 //! # Frames
-//! [`ads`] contains the headers and services of ADS itself, for programs without an ADS library.
+//! [`ads`] contains the AMS headers and the ADS services Read, Write, ReadWrite, ReadDeviceInfo and
+//! ReadState, for programs without an ADS library.
 //!
 //! # Streaming
-//! [`streaming`] checks an NC program, splits it into packets and sends them.
+//! [`streaming`] checks an NC program, splits it into packets, and returns them one by one, to be
+//! written to the CNC.
 //!
 //! # Services
 //! [`service`] implements the application's side of the Service Interface, with which NC programs call
 //! services outside the CNC.
 //!
 //! # Streams
-//! A stream has two types: `XRef`, such as [`DescriptionRef`], borrows from the bytes and never
-//! allocates; `X`, such as `Description` with the feature `alloc`, owns its data. Both types accept
-//! the same bytes, reject all others with the same [`Error`], and encode to the bytes that they
-//! were decoded from. Some streams, such as [`Handle`], have a single type. [`sections`] maps the
-//! sections of the manuals to this crate; [`layout`] contains the field table of every stream.
-//! Where the manuals contradict each other, [`errata`] lists the reading that this crate
-//! implements.
+//! Many streams have two types: `XRef`, such as [`DescriptionRef`], borrows from the bytes and
+//! never allocates; `X`, such as `Description` with the feature `alloc`, owns its data. Both types
+//! accept the same bytes, reject all others with the same [`Error`], and encode to the bytes that
+//! they were decoded from. Some streams have a single type, such as [`Handle`]. [`sections`]
+//! maps the sections of the manuals to this crate; [`layout`] contains the field table of every
+//! stream. Where a manual contradicts itself or another manual, [`errata`] lists the reading that
+//! this crate implements.
 //!
 //! # Examples
 //! The folder `examples` of the package has four programs. They use the published client
@@ -117,9 +121,11 @@
 //! Wireshark (`wireshark`). With [`layout`], a program of your own can show bytes field by field.
 //!
 //! # Limits
-//! The crate covers the functions of a CNC and the ADS services that carry them: no notifications, sum
-//! commands, PLC symbols, routing or encryption. It checks a value against its type and size, not
-//! against a machine. The bytes are those of the manuals; nothing was tried on a real machine.
+//! Of the functions of a CNC, the crate covers those in [`operation`]; of ADS, the services in
+//! [`ads`]: no notifications, sum commands, PLC symbols, routing or encryption.
+//! [`value::Shape::encode`] checks a value against a type and a size; the crate checks no value
+//! against a machine. The bytes follow the manuals, the vendors' public help pages and assumptions,
+//! which are marked as assumed; nothing was tried on a real machine.
 //!
 //! # IDs
 //! IDs such as ADR-1, GEN-6 or VAR-9 identify requirements. The crate `ads-cnc-vectors` contains
@@ -127,22 +133,20 @@
 //! IDs such as `ads-en` identify manuals: see [`sections`].
 //!
 //! # Features
-//! - `alloc` (default): the owned types and the checks of an NC program.
+//! - `alloc` (default): the types that need memory of their own, such as `Description`, functions
+//!   that return a vector or string, and the diagnostics of an NC program.
 //! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the
-//!   owned types, so your own structs can contain them. `read` accepts the same streams as
-//!   `decode`, and leaves the bytes after a stream in the reader. A stream whose fields do not
-//!   determine its length extends to the end of the reader.
-//! - `std`: enables `std` in the dependencies. The crate itself never needs it.
-//! - `arbitrary`: `Arbitrary` for the owned types.
-//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned
-//!   types. A value is a map of the fields in [`layout`], without counts; a stream of one number is
-//!   that number, except that an [`ElementLength`](sda::ElementLength) is a map from the name of
-//!   its type to the number, and a [`DynamicValue`](dynamic::DynamicValue) that is not finite is a
-//!   map of its `bits`. An empty [`ExtendedReply`] is null. Codes are numbers, a NetId is a string.
-//!   A text that ends in one NUL is a string; any other text is a map of `text` and `tail`: the
-//!   bytes after the NUL, or null without a NUL. The format must be self-describing, such as JSON
-//!   (for exact REAL64, enable `float_roundtrip` of `serde_json`). The limits of a stream are
-//!   checked when the value is encoded, not when it is deserialised.
+//!   types of the streams that own their data, so your own structs can contain them. `read` accepts
+//!   the same streams as `decode`, and leaves the bytes after a stream in the reader. A stream that
+//!   ends in text, in data without a length or in records without a count extends to the end of
+//!   the reader.
+//! - `std`: enables `alloc`, and `std` in the dependencies. No other feature but `arbitrary`
+//!   requires it.
+//! - `arbitrary`: `Arbitrary` for the types of the streams that own their data.
+//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the types of
+//!   the streams that own their data.
+//!
+//! An example of the feature `binrw`:
 //!
 //! ```
 //! # #[cfg(all(feature = "binrw", feature = "std"))] {
@@ -166,6 +170,20 @@
 //! # }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Serialised form
+//! With `serde`, a value is a map of the fields in [`layout`], without counts; `Descriptors` are a
+//! list of such maps. A type with a single unnamed number, such as [`Handle`], is that number. An
+//! [`ElementLength`](sda::ElementLength) is a map from the name of its type to the number. A
+//! [`DynamicValue`](dynamic::DynamicValue) is a number, or a map of its `bits` if it is not finite.
+//! An empty [`ExtendedReply`] is null. Codes are numbers, a NetId is a string.
+//!
+//! A text that ends in one NUL is a string, and so is a text in a field of fixed length if only
+//! NULs follow it. Any other text is a map of `text` and `tail`: the bytes after the NUL, or null
+//! without a NUL. To deserialise texts and dynamic values, the format must be self-describing, such
+//! as JSON (for exact REAL64, enable `float_roundtrip` of `serde_json`). The maximum lengths and
+//! counts of a stream are checked when the value is encoded; only the length of a text in a field
+//! of fixed length is checked when it is deserialised.
 
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]

@@ -36,8 +36,8 @@ pub const VARIABLE_MAX: usize = length::<ValueRef<'_>>();
 pub const HANDLE_VALUE_MAX: usize = most::<HandleWriteRef<'_>>("value");
 /// Maximum number of bytes of a value written by name (VAR-13).
 pub const NAME_VALUE_MAX: usize = most::<NameWriteRef<'_>>("value");
-/// Maximum number of dimensions of a description by index, which also contains a name of at least
-/// one byte (VAR-24).
+/// Maximum number of dimensions of a description by index, which also contains a name field of at
+/// least one byte (VAR-24).
 pub const DIMENSIONS_MAX: usize = most::<DescriptionRef<'_>>("dimensions");
 /// Maximum number of dimensions of a description by name, which contains no name (VAR-24, VAR-28).
 pub const NAMELESS_DIMENSIONS_MAX: usize = most::<DescriptionByNameRef<'_>>("dimensions");
@@ -61,7 +61,7 @@ pub const AMS_HEADER_LEN: usize = length::<HeaderLayout>();
 /// Maximum number of bytes of one write to the program stream, MAX_PROGRAM_STREAM_INPUT_SIZE (STM-2).
 pub const STREAM_PACKET_MAX: usize = length::<ProgramStreamRef<'_>>();
 /// Maximum number of bytes that are written to the program stream but not read by the CNC yet,
-/// MAX_PROGRAM_STREAM_SIZE (STM-3).
+/// MAX_PROGRAM_STREAM_SIZE (assumed, STM-3).
 pub const STREAM_MAX: usize = 4094;
 /// Maximum number of characters of a line in the program stream: a packet without CR LF (STM-20).
 pub const NC_LINE_MAX: usize = STREAM_PACKET_MAX.saturating_sub(2);

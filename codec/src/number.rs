@@ -1,6 +1,6 @@
-//! Codes: numbers with names.
+//! Codes, which are numbers with names, and the conversions of types that contain one number.
 
-/// Declares a code: a number with names for the documented values. Other values are kept.
+/// Declares a code: a number with names for some values. Other values are kept.
 ///
 /// `in hex` displays the name and the number in hexadecimal; `in error` displays the number in
 /// hexadecimal and decimal, and the name, as an ADS error.
@@ -23,7 +23,7 @@ macro_rules! code {
                 pub const $name: Self = Self($value);
             )+
 
-            /// The name of the code; `None` if the number is not documented.
+            /// The name of the code; `None` for a number without a constant of this type.
             pub const fn name(self) -> Option<&'static str> {
                 match self {
                     $( Self::$name => Some(stringify!($name)), )+
@@ -36,7 +36,7 @@ macro_rules! code {
         $crate::number::from_number!($number: $code);
     };
     (@shown $code:ident) => {
-        /// Displays the name, or the number if it is not documented.
+        /// Displays the name, or the number if it has no name.
         impl core::fmt::Display for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 match self.name() {
@@ -53,7 +53,7 @@ macro_rules! code {
         }
     };
     (@shown $code:ident hex) => {
-        /// Displays the name and the number, or only the number if it is not documented.
+        /// Displays the name and the number, or only the number if it has no name.
         impl core::fmt::Display for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 match self.name() {
@@ -66,7 +66,7 @@ macro_rules! code {
         $crate::number::code! { @hex $code }
     };
     (@shown $code:ident error) => {
-        /// Displays the number in hexadecimal and decimal, and the name if it is documented. The text
+        /// Displays the number in hexadecimal and decimal, and the name if it has one. The text
         /// begins with `ADS error`, so that it is clear when displayed as a `Box<dyn Error>`.
         impl core::fmt::Display for $code {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -96,7 +96,8 @@ macro_rules! code {
     };
 }
 
-/// Implements the conversions of a code from its number and back.
+/// Implements the conversions of a type that contains one number, such as a code, from the number
+/// and back.
 macro_rules! from_number {
     ($( $code:ident ),+) => { $crate::number::from_number!(u32: $($code),+); };
     ($number:ident: $( $code:ident ),+) => { $(

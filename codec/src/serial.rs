@@ -1,4 +1,5 @@
-//! serde implementations for types that are neither a number nor a map of their fields.
+//! serde implementations for texts, NetIds and dynamic values, which are not serialised as maps of
+//! their Rust fields.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -30,7 +31,7 @@ macro_rules! strings {
 strings! { AmsNetId CncString }
 
 /// The serialised form of a [`Text`]: a string if the text ends in one NUL, otherwise a map of the
-/// text and the bytes after its NUL.
+/// text and the bytes after its NUL (null without a NUL).
 #[derive(Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -65,7 +66,7 @@ impl From<Text> for TextShape {
     }
 }
 
-/// A text in a field of `N` bytes. The NULs that pad the text are not serialised as its tail.
+/// A text in a field of `N` bytes. If only NULs follow the text, they are not serialised.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "Text", into = "Text")]
 pub(crate) struct Padded<const N: usize>([u8; N]);

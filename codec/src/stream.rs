@@ -1,4 +1,4 @@
-//! The traits of the streams: [`Decode`] and [`Encode`].
+//! The traits of the streams, [`Decode`] and [`Encode`], and the empty stream, [`NoData`].
 
 use crate::bytes::{Reader, to_usize};
 use crate::error::Error;
@@ -34,14 +34,16 @@ pub trait Decode<'a>: Sized {
     /// Decodes the stream, which must have exactly the length of `bytes`.
     ///
     /// # Errors
-    /// The first fault in the bytes, with its field and offset.
+    /// A fault in the bytes, with its field and offset.
     fn decode(bytes: &'a [u8]) -> Result<Self, Error>;
 
     /// Decodes the stream at the front of the bytes, and returns the remaining bytes.
     ///
     /// A stream of fixed fields ends after its last field; a stream whose last field is a list, or
     /// data with a length, ends after its counted items. A stream that ends in text, in data
-    /// without a length or in records without a count extends to the end of the bytes.
+    /// without a length or in records without a count extends to the end of the bytes. An
+    /// [`ElementLength`](crate::sda::ElementLength) consists of the first four bytes, or of all
+    /// bytes if there are fewer.
     ///
     /// ```
     /// use ads_cnc::{Decode, Handle, HandleReadRef, U32List};
@@ -67,7 +69,7 @@ pub trait Decode<'a>: Sized {
     }
 }
 
-/// The length of the stream at the front of `bytes`.
+/// The length of the stream at the front of `bytes`; if the stream is truncated, that of `bytes`.
 fn prefix(stream: Stream, bytes: &[u8]) -> usize {
     let layout = stream.layout();
     let (mut at, mut count) = (0_usize, 0);
@@ -126,7 +128,8 @@ pub trait Encode {
     /// A value that the decoder would reject.
     #[cfg(feature = "alloc")]
     fn encode_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
-        // `encode` rejects a stream longer than `LEN_MAX`, so do not allocate memory for it.
+        // No encoder of this crate writes more than `LEN_MAX` bytes, so allocate at most this
+        // number.
         let len = self.encoded_len().min(crate::ads::FrameRef::LEN_MAX);
         let mut bytes = alloc::vec![0; len];
         self.encode(&mut bytes)?;

@@ -1,11 +1,11 @@
-//! The types of all streams, for code that treats all streams alike.
+//! The types of all streams except `NoData`, for code that treats all streams alike.
 
 use crate::layout::Stream;
 use crate::stream::Decode;
 
 /// Calls a macro with all streams except [`NoData`](crate::NoData): for each stream, its name in
-/// [`Stream`](crate::layout::Stream), its type and, if this type borrows its data, the type that
-/// owns its data. The types that own their data need the feature `alloc`, except
+/// [`Stream`](crate::layout::Stream), its type and, if this type borrows its data, a second type
+/// that owns its data. The second types need the feature `alloc`, except
 /// [`Descriptor`](crate::Descriptor).
 ///
 /// ```

@@ -1,4 +1,5 @@
-//! The index groups and index offsets that the manuals print, built and parsed.
+//! Tests of index groups and index offsets, such as those that the manuals print: they are built
+//! and parsed, and numbers that do not fit are rejected.
 
 use ads_cnc::address::Addressing::{Index, Logical};
 use ads_cnc::address::*;
@@ -47,8 +48,8 @@ fn channels_by_number_and_by_index() {
     }
 }
 
-/// Spindles have no logical address: a class group of a spindle with logical addressing has the
-/// same number as with addressing by index (ADR-2, ADR-5).
+/// Spindles have no logical address: a [`ClassGroup`] of a spindle has the same number with logical
+/// addressing as with addressing by index (ADR-2, ADR-5).
 #[test]
 fn spindles_are_addressed_by_index_only() {
     let spindle = Spindle::new(2).unwrap();
@@ -60,7 +61,8 @@ fn spindles_are_addressed_by_index_only() {
     assert_eq!(IndexGroup::new(0x12_5302).parts(), None);
 }
 
-/// The groups of the COM task are built and parsed as printed (ADR-3, ADR-4, COM-6, COM-7).
+/// Groups of the COM task are built from their parts and parsed into them (ADR-3, ADR-4, COM-6,
+/// COM-7).
 #[test]
 fn groups_of_the_com_task() {
     let axis = PlatformAxis::new(1).unwrap();
@@ -87,11 +89,13 @@ fn groups_of_the_com_task() {
         assert_eq!(built.get(), printed);
         assert_eq!(parts(printed), com(Logical, access, table, instance));
     }
-    // The manuals print this group as the base of all platform axes, and also as a complete group (E-04).
+    // The manuals print this group as the base of all platform axes, and also as a complete group
+    // (E-04).
     assert_eq!(parts(0x12_0200), com(Logical, Access::Element, ComTable::Axis, 0));
 }
 
-/// The manuals print the group of each class for channel 0 (ADR-5).
+/// The group of a class without a channel is 0x120300 plus the number of the class; that of
+/// spindles has no bit for logical addressing (ADR-5).
 #[test]
 fn bases_of_the_classes() {
     for (base, addressing, of) in [
@@ -125,7 +129,8 @@ fn attributes_of_an_element() {
     }
 }
 
-/// The groups of queries of object addresses and of their replies are parsed (ADR-10, SDA-3).
+/// Groups that the manuals print in queries of object addresses and in the replies are parsed
+/// (ADR-10, SDA-3).
 #[test]
 fn object_addresses_are_as_printed() {
     let query = |of| class(Logical, of, Attribute::ObjectAddress, 0);
@@ -135,8 +140,8 @@ fn object_addresses_are_as_printed() {
     assert_eq!(parts(0x12_2301), class(Logical, Class::Decoder, Attribute::Content, 1));
 }
 
-/// An object address is queried by number or by index; that of a spindle, by index only (SDA-1,
-/// E-02).
+/// The address of an instance is queried by number or by index; that of a spindle, by index only
+/// (SDA-1, E-02).
 #[test]
 fn queries_of_object_addresses() {
     let hld = FindInstance::new(Class::Hld, 1, 0);

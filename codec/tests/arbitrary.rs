@@ -1,4 +1,4 @@
-//! With the feature `arbitrary`, valid values of streams are generated.
+//! Tests of the feature `arbitrary`, which generates valid values of streams.
 
 #![cfg(feature = "arbitrary")]
 
@@ -12,7 +12,8 @@ use super::kept;
 proptest! {
     #![proptest_config(kept::cases(200, file!()))]
 
-    /// Values of all streams encode without an error, from whatever bytes they are generated.
+    /// Values of all streams encode without an error, whatever the bytes from which they are
+    /// generated.
     #[test]
     fn values_encode(bytes in prop::collection::vec(any::<u8>(), 0..4000)) {
         for subject in SUBJECTS {

@@ -1,4 +1,4 @@
-//! Tests of `BinRead` and `BinWrite` that the tests of all streams (`common`) do not contain.
+//! Tests of `BinRead` and `BinWrite` that the laws of all streams (`common`) do not contain.
 
 #![cfg(feature = "binrw")]
 
@@ -75,8 +75,8 @@ fn invalid_values_are_not_written() {
     assert!(written.into_inner().is_empty());
 }
 
-/// A length of 4 MiB or 4 GiB that three bytes follow, and a count of 4 294 967 295 dimensions, are
-/// errors.
+/// A length of 4 MiB or of 4 294 967 295 bytes that only three bytes follow, and a count of
+/// 4 294 967 295 dimensions, are errors.
 #[test]
 fn lengths_are_checked_before_memory_is_allocated() {
     for length in [0x40_0000_u32, u32::MAX] {

@@ -1,5 +1,6 @@
-//! The numbers and names of codes, types, classes and attributes equal those in the manuals and on
-//! the vendors' help pages.
+//! Tests of the numbers and names of codes, types, classes, attributes and service variables. The
+//! numbers are those of the manuals or of the vendors' help pages, if a test does not say
+//! otherwise.
 
 use ads_cnc::address::{Addressing, Attribute, Class, ClassGroup};
 use ads_cnc::ads::{AdsError, AdsState, Command, StateFlags};
@@ -65,8 +66,8 @@ fn codes_of_ads_have_the_numbers_of_the_help_pages() {
     assert_eq!(names!(AdsError), errors);
 }
 
-/// The numbers of types in errors are the codes of types of variables, and 10 to 12 for the other
-/// types.
+/// The numbers of types in errors are the codes of the types of variables, and 10 to 12 for the
+/// types that have no such code.
 #[test]
 fn types_have_their_sizes_and_their_numbers_in_errors() {
     let types = DataType::ALL.map(|ty| {

@@ -15,7 +15,8 @@ fn content(group: u32, offset: u32) -> Call<'static> {
     Call { port, index_group, index_offset, ..call }
 }
 
-/// Clients and servers reject the address of a function as an address of content (SDA-12, STM-1).
+/// The constructors for content reject the address of a function, and dispatch does not take it for
+/// an address of content (SDA-12, STM-1).
 #[test]
 fn addresses_of_functions_are_rejected_for_content() {
     let rows = Function::ALL.iter().map(|function| function.spec());
@@ -76,8 +77,9 @@ fn the_count_of_a_platform_axis_is_a_read_of_content() {
     assert_eq!(canonical.encode(&mut []), Ok(sent));
 }
 
-/// The content of a platform axis has two addresses, those of the table in 2.1 and of the example in 2.1.2
-/// (E-04). Its descriptors have only one address: their group without an axis is rejected.
+/// The content of a platform axis has two addresses, those of the table in section 2.1 and of the
+/// example in section 2.1.2 of the manual (E-04). The descriptors of a platform axis have only one
+/// address: their group without an axis is rejected.
 #[test]
 fn content_of_a_platform_axis_has_two_addresses() {
     let call = |group, offset| Call {

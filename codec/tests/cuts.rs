@@ -1,6 +1,6 @@
 //! Every sample is decoded truncated at every length, and with one extra byte. The result is an
-//! error with field and offset, or a requirement permits the changed bytes. It is the same for each
-//! type of the stream.
+//! error with field and offset, or a requirement or an erratum permits the changed bytes. The
+//! result is the same for each type of the stream.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use super::common::{Fault, Sample, check, each_sample, fault};
 /// The expected result of changed bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Expected {
-    /// The bytes are accepted, because this requirement permits them.
+    /// The bytes are accepted, because this requirement or erratum permits them.
     Accepted(&'static str),
     Refused(Fault),
 }
@@ -44,7 +44,8 @@ const DYN_3: &str = "DYN-3: a name may come without its NUL";
 const STM_5: &str = "STM-5: whether lines are whole, the CNC says when it reads them";
 const VAR_16: &str = "VAR-16: V.G and V.A have no extended description";
 
-/// All requirements that permit missing or extra bytes. The test fails if one of them permits no sample.
+/// The requirements and errata that permit missing or extra bytes. The test fails if one of them
+/// permits no changed sample.
 const ALLOWED: [&str; 16] = [
     ADS_6,
     COM_3,
@@ -64,8 +65,9 @@ const ALLOWED: [&str; 16] = [
     STM_5,
 ];
 
-/// The requirement that permits any number of bytes at the end of the stream; `None` if no
-/// requirement does.
+/// The requirement that permits bytes other than a text, in any number up to a maximum, at the end
+/// of the stream; `None` for a stream that does not end in such bytes. `ProgramStream` has at least
+/// one such byte.
 fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     match stream {
         Stream::VariableValue | Stream::VariableHandleWrite | Stream::VariableNameWrite => {
@@ -77,7 +79,8 @@ fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     }
 }
 
-/// The kind of a text field, which determines whether missing and extra bytes are accepted.
+/// The kind of a text field at the end of a stream, which determines whether missing and extra
+/// bytes are accepted.
 #[derive(Clone, Copy, PartialEq)]
 enum Text {
     /// The text ends with a NUL; more NULs may follow.
@@ -90,7 +93,7 @@ enum Text {
     Open([&'static str; 3]),
 }
 
-/// The kind of a text field; `None` for other fields.
+/// The kind of a text field at the end of a stream; `None` for any other field.
 fn text_of(stream: Stream, field: &str) -> Option<Text> {
     match (stream, field) {
         (Stream::VariableKind | Stream::VariableIndexKind, "kind") => Some(Text::Terminated),
@@ -168,7 +171,7 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
     }
 }
 
-/// The maximum length of a text field in bytes.
+/// The maximum length in bytes of a text field at the end of a stream.
 fn limit(stream: Stream) -> usize {
     match stream {
         Stream::DynamicName | Stream::DynamicNameRequest => 96,
@@ -230,8 +233,8 @@ fn observed(verdict: Result<(), Error>, expected: Expected) -> Expected {
     }
 }
 
-/// Missing and extra bytes are rejected with the expected error, or permitted by a requirement in
-/// [`ALLOWED`]. Each of these requirements permits bytes of at least one sample.
+/// Missing and extra bytes are rejected with the expected error, or permitted by a requirement or
+/// erratum in [`ALLOWED`]. Each of these permits a change of at least one sample.
 #[test]
 fn truncated_and_extended_samples_have_the_expected_result() {
     let mut met = BTreeSet::new();
@@ -255,7 +258,8 @@ fn truncated_and_extended_samples_have_the_expected_result() {
     assert_eq!(met, BTreeSet::from(ALLOWED));
 }
 
-/// Bytes other than NUL after the NUL of a request are trailing, wherever they begin (E-34).
+/// A byte other than NUL after the NUL of the text that ends a request makes the bytes from its
+/// position on trailing, also after further NULs (E-34).
 #[test]
 fn text_after_the_nul_of_a_request_is_trailing() {
     for (stream, bytes, end) in [

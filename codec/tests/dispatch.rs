@@ -11,8 +11,8 @@ use proptest::prelude::*;
 use super::common::{CALLS, check_call};
 use super::kept;
 
-/// Each sample of a call is dispatched to its function and encodes to the same call. Every function occurs
-/// in a sample.
+/// Each sample of a call is dispatched to its function, and its request encodes to a call with the
+/// same address and data. Every function occurs in a sample.
 #[test]
 fn calls_are_dispatched_to_their_functions() {
     let mut reached = BTreeSet::new();
@@ -30,8 +30,8 @@ fn calls_are_dispatched_to_their_functions() {
     assert_eq!(reached, Function::ALL.iter().copied().collect());
 }
 
-/// The call of a Read has no data, that of a Write has no read length, and that of a ReadWrite has
-/// one.
+/// The call of a Read has no data, the read length of a Write is 0, and that of a ReadWrite is not
+/// 0.
 #[test]
 fn calls_have_only_the_parts_of_their_service() {
     for sample in CALLS {
@@ -138,8 +138,8 @@ fn reached(port: AmsPort, service: AdsService, group: u32, offset: u32) -> Strin
     reached
 }
 
-/// A snapshot lists the functions that Read, Write and ReadWrite reach at the groups and offsets of
-/// all functions and at neighbouring numbers. Ports and groups with equal results are combined, and
+/// A snapshot lists the functions that Read, Write and ReadWrite reach at groups and offsets of all
+/// functions and at other numbers near them. Ports and groups with equal results are combined, and
 /// so are consecutive offsets with equal results.
 #[test]
 #[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
@@ -184,8 +184,8 @@ fn dispatch_reaches_the_same_functions() {
     });
 }
 
-/// A read length of less than one descriptor is rejected. A multiple of 84 requests that number of
-/// descriptors; any other length requests one (COM-3).
+/// A read length of less than one descriptor, 84 bytes, is rejected. A read length of k × 84
+/// requests k descriptors; any other length requests one (COM-3).
 #[test]
 fn read_lengths_of_descriptors() {
     let sample = CALLS.iter().find(|sample| sample.slug == "descriptor-printed").unwrap();
@@ -212,8 +212,9 @@ fn read_lengths_of_descriptors() {
 proptest! {
     #![proptest_config(kept::cases(256, file!()))]
 
-    /// Any call is rejected, or dispatched to a request that encodes to the same call. The calls
-    /// are samples with changed parts, so that some of them are accepted.
+    /// Any call is rejected, or dispatched to a request that encodes to a call with the same
+    /// address and data. The calls are samples with changed parts, so that some of them are
+    /// accepted.
     #[test]
     fn any_call_is_rejected_or_encodes_to_itself(
         sample in prop::sample::select(CALLS.iter().map(|sample| sample.call).collect::<Vec<_>>()),

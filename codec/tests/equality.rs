@@ -51,7 +51,7 @@ fn names_are_equal_by_their_text_and_its_case() {
     check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
 }
 
-/// A request for a decoded name contains the text of the name, but not the bytes after it.
+/// A request for a decoded name contains the text of the name, but not the bytes after its NUL.
 #[test]
 fn decoded_names_are_requested_by_their_text() {
     let channel = address::Channel::new(1).unwrap();
@@ -67,8 +67,8 @@ fn decoded_names_are_requested_by_their_text() {
     }
 }
 
-/// NULs after a kind are ignored when kinds are compared, but not when their text fields are
-/// (E-34).
+/// NULs that pad a kind are ignored when kinds are compared, but not when their text fields are
+/// compared (E-34).
 #[test]
 fn kinds_are_equal_by_their_text() {
     let padded = VariableKindRef::decode(b"V.E\0\0").unwrap().kind;

@@ -61,7 +61,8 @@ fn a_call_encodes_to_the_request_of_its_service() {
         assert_eq!(Call::from_frame(&frame(command)), Ok(Some(call)));
         assert_eq!(Call::from_frame(&frame(Command::READ_STATE)), Ok(None));
         let header = AmsHeader::request(TARGET, SOURCE, command, 7);
-        // `from_frame` ignores the state flags; a tool that decodes both directions must check them itself.
+        // `from_frame` ignores the state flags; a tool that decodes both directions must check them
+        // itself.
         let flagged = AmsHeader { state_flags: StateFlags::RESPONSE, ..header };
         assert_eq!(Call::from_frame(&FrameRef::new(flagged, bytes).unwrap()), Ok(Some(call)));
         let cut = FrameRef::new(header, &bytes[..bytes.len() - 1]).unwrap();

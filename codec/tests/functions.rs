@@ -1,5 +1,5 @@
-//! Every function accepts the requests and replies that the streams in its row of the table of
-//! functions accept.
+//! Every function accepts and rejects the same requests, and the same replies up to the read
+//! length, as the streams in its row of the table of functions.
 
 use std::collections::BTreeSet;
 
@@ -24,13 +24,14 @@ fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {
     samples.chain(vectors.map(|vector| vector.bytes())).collect()
 }
 
-/// The lengths to which a stream is truncated: all lengths up to 300 bytes; of a longer stream only
-/// some, to save time.
+/// The lengths to which a stream is truncated: all lengths of a stream of at most 300 bytes; only
+/// some lengths of a longer stream, to save time.
 fn cuts(len: usize) -> impl Iterator<Item = usize> {
     (0..=len).filter(move |&cut| len <= 300 || cut < 40 || len - cut < 8 || cut % 101 == 0)
 }
 
-/// The call of a sample with this data and the maximum read length of its function.
+/// The call of a sample with this data, and with a read length for the longest reply of its
+/// function.
 fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
     let most = sample.function.spec().reply.map_or(0, |stream| stream.layout().max);
     let read_length = match sample.function {
@@ -41,7 +42,8 @@ fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
 }
 
 /// Each function accepts and rejects the same data as the stream of its request, for every sample
-/// and vector of this stream and their truncations. An accepted call encodes to the same call.
+/// and vector of this stream, truncated at the lengths of [`cuts`]. The request of an accepted call
+/// encodes to a call with the same address and data.
 #[test]
 fn requests_are_those_of_the_table() {
     let mut accepted = BTreeSet::new();
@@ -58,7 +60,8 @@ fn requests_are_those_of_the_table() {
     assert_eq!(accepted, Function::ALL.iter().copied().collect());
 }
 
-/// Each function accepts and rejects the same replies as the stream of its reply, up to the read length.
+/// Each function accepts and rejects the same replies as the stream of its reply, up to the read
+/// length.
 #[test]
 fn replies_are_those_of_the_table() {
     let mut accepted = BTreeSet::new();
@@ -80,7 +83,8 @@ fn replies_are_those_of_the_table() {
 proptest! {
     #![proptest_config(kept::cases(2000, file!()))]
 
-    /// Mutated requests and replies have the same results as the streams in the row of the function.
+    /// Mutated requests and replies have the same results as the streams in the row of the
+    /// function, replies only up to the read length.
     #[test]
     fn damaged_requests_and_replies_are_those_of_the_table(
         sample in select((0..CALLS.len()).collect::<Vec<_>>()),

@@ -41,8 +41,8 @@ fn join_is_the_inverse_of_a_walk() {
                 *part = &part[..end];
             }
         }
-        // Samples with a count of 0 are skipped: `join` does not add an omitted count if the stream
-        // may end before it.
+        // Samples with a count of 0 are skipped, because `join` does not add an omitted count if
+        // the stream may end before it.
         if !parts.iter().any(|(field, part)| is_count(stream, *field) && **part == [0; 4]) {
             assert_eq!(join(stream, &short, bytes.len()).as_ref(), Ok(&bytes), "{}", sample.slug);
         }
@@ -56,7 +56,7 @@ fn join_is_the_inverse_of_a_walk() {
 }
 
 /// If a part is omitted, repeated or longer, or the parts are rotated, the result is an error or
-/// bytes with exactly the changed parts.
+/// bytes with exactly the changed parts, apart from counts, empty parts and padding.
 #[test]
 fn joined_bytes_have_exactly_the_parts() {
     for (stream, sample) in each_sample() {

@@ -1,5 +1,5 @@
-//! Tests of the feature `serde`: a value is unchanged after it was serialized to JSON and
-//! deserialized.
+//! Tests of the feature `serde`: a value is unchanged after it was serialised to JSON and
+//! deserialised.
 
 #![cfg(feature = "serde")]
 
@@ -16,7 +16,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
-/// Decodes a value, serializes and deserializes it, and checks that it is unchanged. Returns false
+/// Decodes a value, serialises and deserialises it, and checks that it is unchanged. Returns false
 /// if the bytes are invalid.
 fn comes_back<T>(bytes: &[u8]) -> bool
 where
@@ -47,7 +47,8 @@ ads_cnc::streams! { each }
 #[test]
 fn vectors_are_unchanged() {
     let streams = vectors().iter().filter(|vector| vector.is_accepted()).filter_map(|vector| {
-        // Skip the vectors of addresses, paths and frames, which are not streams of the codec.
+        // Skip the vectors of index groups, index offsets, names and frames, which are not streams
+        // of the codec.
         let stream = Stream::by_name(&vector.stream)?;
         assert!(stream_comes_back(stream, &vector.bytes()), "{}", vector.id);
         Some(stream)
@@ -60,8 +61,8 @@ fn shape<T: for<'a> Decode<'a> + Serialize>(bytes: &[u8]) -> Value {
     to_value(T::decode(bytes).unwrap()).unwrap()
 }
 
-/// A stream is serialized as a map of its fields with the names of its table, without counts. A
-/// stream of one number is serialized as this number.
+/// A stream of several fields is serialised as a map of its fields with the names of its table,
+/// without counts. A stream of one number, such as a handle, is serialised as this number.
 #[test]
 fn streams_are_maps_of_their_fields() {
     let description = b"\x02\0\0\x20\x09\0\0\0\x01\0\0\0\x08\0\0\0\x01\0\0\0\x04\0\0\0L\xE4nge\0";
@@ -79,8 +80,8 @@ fn streams_are_maps_of_their_fields() {
     assert_eq!(header.as_object().map(serde_json::Map::len), Some(9));
 }
 
-/// Serialized values contain the ends of texts, the widths of numbers, the bits of a NaN, and
-/// absent data.
+/// Serialised values contain the end of a text, the width of an element length and the bits of a
+/// NaN, and show that data is absent.
 #[test]
 fn ends_widths_and_absent_data_are_kept() {
     assert_eq!(shape::<VariableName>(b"a\0\0"), json!({ "name": { "text": "a", "tail": [0] } }));
@@ -107,7 +108,7 @@ fn blank() -> Description {
     Description::decode(&[&[0; 20][..], b"x"].concat()).unwrap()
 }
 
-/// A value that the Rust type cannot hold is rejected when it is deserialized. A value that the
+/// A value that the Rust type cannot hold is rejected when it is deserialised. A value that the
 /// type can hold but the stream cannot is rejected when it is encoded.
 #[test]
 fn values_are_checked() {
@@ -163,8 +164,8 @@ fn unknown_forms_are_rejected() {
     assert_eq!(error, "invalid type: integer `1`, expected AMS header");
 }
 
-/// Generated values of all streams are unchanged after they were serialized to JSON and
-/// deserialized.
+/// Generated values of all streams are unchanged after they were serialised to JSON and
+/// deserialised.
 #[cfg(feature = "arbitrary")]
 #[test]
 fn generated_values_are_unchanged() {

@@ -66,7 +66,8 @@ fn failed_cases_are_stored() {
     fs::remove_dir_all(folder).unwrap();
 }
 
-/// Without access to files, the tests run and failures are reported.
+/// If no seeds are stored, or the path of the folder is that of a file, the tests run and failures
+/// are reported.
 #[test]
 #[cfg_attr(miri, ignore = "writes files")]
 fn tests_run_without_access_to_files() {

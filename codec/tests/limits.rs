@@ -33,8 +33,8 @@ fn streams_are_accepted_up_to_their_maximum_length() {
         (Stream::VariableName, filled(&[&[b'V'; 255], b"\0"], 256)),
         (Stream::VariableIndexKind, filled(&[&[b'V'; 259], b"\0"], 260)),
         (Stream::VariableValue, filled(&[], 2048)),
-        // These streams have 510 indices; 506 dimensions and a name of 4 bytes; 443 dimensions and
-        // a name of 256 bytes.
+        // The next four streams have 510 indices; 506 dimensions and a name of 4 bytes; 443
+        // dimensions and a name of 256 bytes; 507 dimensions.
         (Stream::VariableHandleRead, filled(&[&[1; 4], &[0xFE, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xFA, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xBB, 1, 0, 0]], 2048)),
@@ -61,8 +61,8 @@ fn streams_are_accepted_up_to_their_maximum_length() {
     assert!(rest.is_empty(), "no longest stream of {rest:?}");
 }
 
-/// A count of more items than the bytes after it contain is rejected. The error has the field of
-/// the count and the number of items that fit (VAR-24).
+/// A count that exceeds its maximum or the number of items in the bytes after it is rejected. The
+/// error has the field of the count and the smaller of these two numbers (VAR-24).
 #[test]
 fn counts_that_do_not_fit_are_rejected() {
     let counted = |before: usize, count: u32, rest: usize| {

@@ -1,5 +1,6 @@
-//! The tests of the codec, except those of allocations, in one program: most of them use the same
-//! samples and laws (`common`), and linking a program takes longer than running most of the tests.
+//! The integration tests of the crate `ads-cnc`, except `tests/allocation`, in one program, because
+//! many of them use the same samples and laws (`common`) and every further program has to be
+//! linked.
 
 mod common;
 mod damage;
@@ -45,8 +46,8 @@ mod typed_writes;
 mod values;
 mod vectors;
 
-/// Every `.rs` file of this folder is a module of this program. Cargo does not search this folder
-/// for tests, because Cargo.toml sets `autotests = false`.
+/// Every other `.rs` file directly in this folder is a module of this program. Cargo does not
+/// search this folder for tests, because Cargo.toml sets `autotests = false`.
 #[test]
 fn every_file_is_a_module() {
     let modules = include_str!("main.rs");
@@ -58,7 +59,8 @@ fn every_file_is_a_module() {
     }
 }
 
-/// `src/lib.rs` denies the lints of clippy against code that can panic.
+/// The block `deny` of `src/lib.rs` that does not apply to unit tests contains exactly these lints
+/// of Clippy.
 #[test]
 fn lints_reject_panics_in_the_library() {
     let (_, lints) = include_str!("../src/lib.rs").split_once("    not(test),\n    deny(").unwrap();

@@ -1,5 +1,5 @@
 //! A server dispatches the encoded call of any valid operation to the same operation:
-//! `dispatch(encode(op)) = op`.
+//! `dispatch(encode(op)) = op`. [`check_operation`] has an exception for `CountElements`.
 
 use ads_cnc::address::{
     Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -65,8 +65,8 @@ proptest! {
         check_operation(DescribeExtended::new(channel, number, Kind::new(&text).unwrap()));
     }
 
-    /// Operations of the channel interface that read variables or their descriptions, with channels
-    /// by number and by index.
+    /// Operations of the channel interface that count, describe, find or read variables, with
+    /// channels by number and by index.
     #[test]
     fn operations_on_variables(
         channel in channel(),

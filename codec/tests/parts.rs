@@ -1,5 +1,5 @@
-//! Tests of the parts of operations and replies: they equal the arguments from which these were
-//! made.
+//! Tests of operations and replies, such as that their parts equal the arguments with which the
+//! operations and replies were made.
 
 use ads_cnc::address::{
     Access, Attribute, Channel, ChannelAxis, Class, ClassGroup, ComGroup, ComTable, ElementAddress,
@@ -36,8 +36,8 @@ fn instances_are_queried_by_number_or_by_index() {
     }
 }
 
-/// An object address consists of the group and offset of the content of the first element.
-/// Operations on elements keep their address.
+/// The address of an instance consists of the group and offset of the content of its first element.
+/// Operations on elements keep the address of the element.
 #[test]
 fn elements_keep_their_address() {
     let axis = ChannelAxis::new(2).unwrap();
@@ -133,7 +133,7 @@ fn dispatch_errors_are_not_retried() {
     }
 }
 
-/// The lists of objects of the platform, of each channel and of each axis have different index
+/// The lists of objects of the platform, of two channels and of two axes have different index
 /// groups.
 #[test]
 fn lists_have_different_addresses() {

@@ -15,8 +15,8 @@ fn path(name: &str) -> VariablePath<'_> {
     VariablePath::new(name).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// The names printed in section 4.1 of the manuals `ads-en` 1.05 and `ads-de` 1.051 are parsed and
-/// built, and so are those of the examples in section 4.3 that have an index or an axis (VAR-20).
+/// Names that section 4.1 of the manuals `ads-en` 1.05 and `ads-de` 1.051 prints are parsed and
+/// built, and so are names with an index or an axis from the examples in section 4.3 (VAR-20).
 #[test]
 fn printed_names_are_parsed() {
     let s = "struct1";
@@ -100,7 +100,7 @@ fn malformed_names_are_rejected_at_the_fault() {
     };
     let cut = |field, at| fault(Truncated, field, at, (1, 0));
     for (name, wanted) in [
-        // These names have no kind, or an incomplete kind.
+        // These names have no kind, or an invalid kind.
         ("", cut("kind", 0)),
         ("V", cut("kind", 1)),
         ("V.", cut("kind", 2)),
@@ -120,7 +120,7 @@ fn malformed_names_are_rejected_at_the_fault() {
         ("V.E.a[0]..b", unexpected("part", 9, '.')),
         ("V.E.[0]", unexpected("part", 4, '[')),
         ("V.E.a.[0]", unexpected("part", 6, '[')),
-        // These names have wrong brackets.
+        // These names have wrong brackets, or a wrong text in brackets.
         ("V.E.a[", cut("index", 6)),
         ("V.E.a[3", cut("index", 7)),
         ("V.E.a[3.b", unexpected("index", 7, '.')),
@@ -168,7 +168,7 @@ fn names_have_at_most_255_characters() {
         let longer = Pieces::new("V.E", &[(&letter.repeat(252), &[])]);
         assert_eq!(Fault::of(longer.write(&mut [0; 512]).unwrap_err()), wanted);
     }
-    // A name has at most 83 indices.
+    // A name has room for at most 83 indices.
     let full = format!("V.E.ab{}", "[0]".repeat(83));
     assert_eq!((full.len(), path(&full).elements().len()), (NAME_MAX, 83));
     let endless =
@@ -198,7 +198,8 @@ fn indices_go_to_the_largest_of_any_dimension() {
     assert_eq!(HandleReadRef::decode(&wire).unwrap(), by_handle);
 }
 
-/// Undocumented kinds are accepted, and so are parts with any characters except `.`, `[` and `]`.
+/// Undocumented kinds are accepted, and so are parts with any CP1252 characters except `.`, `[`,
+/// `]` and NUL.
 #[test]
 fn kinds_and_parts_are_open() {
     for (name, kind) in [

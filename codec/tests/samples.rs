@@ -1,4 +1,5 @@
-//! Tests of the samples: every stream has samples, and a walk finds the fields that they list.
+//! Tests of the samples: every stream except `NoData` has samples, and a walk finds the fields that
+//! they list.
 
 use std::collections::HashSet;
 
@@ -6,7 +7,7 @@ use ads_cnc::layout::Stream;
 
 use super::common::{SAMPLES, SUBJECTS, check, each_sample};
 
-/// Every stream occurs exactly once in `SAMPLES` and once in `SUBJECTS`, and has at least one
+/// Every stream except `NoData` occurs exactly once in `SAMPLES` and once in `SUBJECTS`, and has at least one
 /// sample.
 #[test]
 fn every_stream_has_samples_and_types() {

@@ -160,8 +160,9 @@ fn answers_that_are_rejected() {
     assert_eq!((value.len(), &value[125..]), (128, &b"\xE4\xE4\0"[..]));
 }
 
-/// A malformed state or request is an error, after which the host waits. If the host already has an
-/// answer, it reads a malformed state again, and treats a malformed request as a different request.
+/// While a host looks for a request, a malformed state or request is an error, after which the host
+/// waits. If the host already has an answer, it reads a malformed state again, and treats a
+/// malformed request as a different request.
 #[test]
 fn malformed_values_are_rejected() {
     let ids = [id(ROOT)];
@@ -269,8 +270,8 @@ proptest! {
         for (event, value, request, state) in events {
             match event {
                 0..6 => host.read(&value),
-                // The host reads the same request twice in sequence, so that it serves the request
-                // or waits.
+                // Pass the same request twice in sequence: a host that begins to look for a request
+                // then serves it, or waits if the UUID is not that of one of its services.
                 6..12 => request.iter().cycle().take(6).for_each(|value| host.read(value)),
                 12..14 => request.iter().for_each(|value| host.read(value)),
                 14..17 => host.written(),

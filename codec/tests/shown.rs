@@ -26,8 +26,8 @@ fn debugs(value: impl Debug, text: &str) {
     assert_eq!(format!("{value:?}"), text);
 }
 
-/// Index groups, index offsets, handles and ADS errors are displayed in hexadecimal; ports and
-/// NetIds are displayed in decimal.
+/// Index groups, index offsets and handles are displayed in hexadecimal, ports and NetIds in
+/// decimal, and ADS errors in both.
 #[test]
 fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(IndexGroup::new(0x12_2301), "0x122301");
@@ -50,7 +50,8 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(Handle(0x2001_2341), "0x20012341");
 }
 
-/// Codes are displayed by name, and undocumented codes as numbers. Only READ_WRITE is writable.
+/// Codes are displayed by name (state flags also with their number), and undocumented codes as
+/// numbers. Only the access READ_WRITE permits writing.
 #[test]
 fn codes_are_displayed_by_name() {
     shows(VariableType::REAL64, "REAL64");

@@ -17,8 +17,8 @@ fn error<T: std::fmt::Debug>(result: Result<T, Error>) -> (ErrorKind, String) {
     (error.kind(), error.to_string())
 }
 
-/// The text of an error names the field and its offset, and explains the expected and the found
-/// number.
+/// The text of an error explains the fault. Most texts name the field and its offset, and the
+/// expected or the found number.
 #[test]
 fn errors_explain_the_fault() {
     let kind = TextRef::with_tail(CncStr::new("V.E").unwrap(), None);
@@ -114,8 +114,9 @@ fn errors_explain_the_fault() {
     }
 }
 
-/// The text of an error about an argument of a constructor names the argument; that of an error in
-/// a name of a variable has the offset in the name.
+/// The text of an error about the range of an argument names the argument; that of an error at a
+/// character of the name of a variable has the offset in the name; that of an error about a type
+/// names both types.
 #[test]
 fn errors_of_arguments_name_the_argument() {
     let text = |error: Error| error.to_string();
@@ -191,8 +192,8 @@ fn errors_of_values_have_no_byte_offset() {
     assert_eq!(to_i64, "0xffffffffffffffff does not fit LINT");
 }
 
-/// The error of a count says that the limit comes from the remaining bytes. The errors of content
-/// name its offset.
+/// The error of a count that the remaining bytes limit says so. The errors of content have the
+/// offset in the content.
 #[test]
 fn errors_of_counts_name_their_limit() {
     let cut = DescriptionRef::decode(&[&[0; 16][..], &[1, 0, 0, 0]].concat()).unwrap_err();
@@ -207,7 +208,7 @@ fn errors_of_counts_name_their_limit() {
     assert_eq!(error.to_string(), wanted);
 }
 
-/// A kind of errors is displayed as a text; these are five of them.
+/// The texts of five kinds of errors.
 #[test]
 fn kinds_have_different_texts() {
     assert_eq!(ErrorKind::Truncated.to_string(), "truncated");

@@ -38,8 +38,8 @@ fn results_are_converted_to_acknowledgements() {
     }
 }
 
-/// Lines of 989 and 990 characters are accepted, lines of 991 characters are rejected, at any position of
-/// the text and with any line end.
+/// Lines of 989 and 990 characters are accepted, and lines of 991 characters are rejected, as the
+/// first or the second line of a text and with any line end.
 #[test]
 fn lines_are_accepted_up_to_990_characters() {
     for end in ["", "\n", "\r\n", "\r"] {
@@ -212,8 +212,8 @@ proptest! {
         check_packets(&text);
     }
 
-    /// An invalid byte inserted into a valid text is reported at its position, and no packet is
-    /// made.
+    /// An invalid byte inserted into a valid text is reported at its position or, after the maximum
+    /// length of a line, as a line that is too long.
     #[test]
     fn a_fault_is_reported_at_its_position(text in text(), at in any::<prop::sample::Index>(), byte in select(vec![0, 0x80, 0xFF, 0xE4])) {
         let at = at.index(text.len() + 1);

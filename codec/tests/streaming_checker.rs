@@ -1,5 +1,6 @@
-//! Tests of `Checker`, which checks a text part by part. Only for a jump to a label that occurs
-//! before and after it, the diagnostics depend on how the text is divided into parts.
+//! Tests of `Checker`, which checks a text part by part. As long as the checker remembers all
+//! labels, the division of the text into parts only affects a jump whose label occurs before and
+//! after the jump.
 #![cfg(feature = "alloc")]
 
 use ads_cnc::streaming::{CheckEvent, Checker, ProgramEnd};
@@ -60,8 +61,8 @@ fn a_later_label_counts_if_it_is_in_the_same_part() {
     assert_eq!(lines.map(|line| check(&mut checker, line).0.len()), [0, 1, 0]);
 }
 
-/// A label and a program end affect later parts even if the iterator was dropped before it returned
-/// their events.
+/// A label and a program end affect later parts even if the iterator over the events of their part
+/// was dropped at once.
 #[test]
 fn events_that_are_not_requested_count() {
     let mut checker = Checker::new();
@@ -163,8 +164,8 @@ fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
 proptest! {
 #![proptest_config(kept::cases(2000, file!()))]
 
-/// The diagnostics of each part equal those that the diagnostics of the whole text so far contain
-/// for the same lines.
+/// The diagnostics of each part equal those of the text so far for the lines of the part, without
+/// an open comment block.
 #[test]
 fn events_by_part_equal_those_of_the_text_so_far(lots in lots()) {
     let mut checked = CheckedLots::new(|_, _| ());

@@ -79,7 +79,7 @@ fn numbers_after_comments_are_skipped() {
     }
 }
 
-/// Each of the examples has a diagnostic after one change.
+/// Each of the three examples above has a diagnostic after one change.
 #[test]
 fn changed_examples_have_diagnostics() {
     let with = |text: &str, from: &str, to: &str| {
@@ -194,7 +194,7 @@ fn jumps_back_are_found_and_no_others() {
         "$GOTO N1",
         "N1:\n$GOTO N11\nN11:",
         "N1:\n$GOTO N11",
-        // The last line contains no jump, or a jump to an expression or a string.
+        // The last line contains no jump, or a jump whose target is not a label.
         "N1:\n($GOTO N1)",
         "N1:\n;$GOTO N1",
         "N1:\n\"$GOTO N1\"",

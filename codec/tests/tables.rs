@@ -191,19 +191,20 @@ fn names_are_unique() {
 }
 
 /// The table of the write flag has the type BOOLEAN. With the type UNS08, the decoder would accept
-/// the same bytes, so no other test would fail.
+/// the same bytes.
 #[test]
 fn the_write_flag_is_a_boolean() {
     assert_eq!(Stream::ElementWriteFlag.layout().fields[0].ty, Type::Boolean);
 }
 
-/// The constants of limits equal the numbers in the requirements.
+/// The constants of limits equal the numbers in the requirements, or, for `ADS_DATA_MAX`, the
+/// number that this project assumes.
 #[test]
 fn limits_are_the_numbers_of_the_clauses() {
     assert_eq!([TEXT_MAX, NAME_MAX, INDEX_KIND_MAX], [256, 255, 260]);
     assert_eq!([VARIABLE_MAX, HANDLE_VALUE_MAX, NAME_VALUE_MAX], [2048, 2040, 2047]);
-    // These many numbers fit the 2048 bytes of a stream after its other fields and the shortest
-    // name (VAR-24).
+    // As many dimensions or indices as fit the 2048 bytes of a stream together with its other
+    // fields and, in a description by index, the shortest name (VAR-24).
     assert_eq!([DIMENSIONS_MAX, NAMELESS_DIMENSIONS_MAX, INDICES_MAX], [506, 507, 510]);
     assert_eq!([DYNAMIC_NAME_MAX, SERVICE_TEXT_MAX], [96, 128]);
     assert_eq!([DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN], [84, 32]);

@@ -242,7 +242,7 @@ fn elements_in_their_order() {
     assert_eq!(every_fifth, [all[0], all[5], all[10]]);
 }
 
-/// A dimension of 0 has no elements, whatever the other dimensions.
+/// A value with a dimension of 0 has no elements, whatever its other dimensions.
 #[test]
 fn a_dimension_of_0_has_no_element() {
     let huge = [u32::MAX, 0, u32::MAX];
@@ -284,7 +284,8 @@ fn sizes_do_not_wrap() {
     );
 }
 
-/// Values are rejected if the product of their dimensions exceeds 32 bits, or their type is undocumented.
+/// Values are rejected if the product of their dimensions exceeds 32 bits, or if their type is
+/// undocumented.
 #[test]
 fn values_without_a_valid_size_are_rejected() {
     let value = ValueRef { bytes: &[] };

@@ -293,8 +293,8 @@ proptest! {
         prop_assert_eq!(error, fault(OutOfRange, "index", at, (last, index)));
     }
 
-    /// Shapes of any type, dimensions and size satisfy `check_shape`, and have the size and the
-    /// number of elements from which they were made.
+    /// Shapes of any type, any size and at most four dimensions satisfy `check_shape`. A shape has
+    /// the size with which it was made, and as many elements as the product of its dimensions.
     #[test]
     fn shapes_obey_the_laws(
         pick in 0..DataType::ALL.len(), bytes in vec(any::<u8>(), 0..64), size in any::<u32>(),

@@ -1,5 +1,5 @@
-//! Random values of all streams satisfy `check_value`: a value encodes to bytes that decode to this
-//! value.
+//! Random values of all streams except `DeviceInfoReply` and `DeviceStateReply` satisfy
+//! `check_value`: a value encodes to bytes that decode to this value.
 
 #![cfg(feature = "alloc")]
 
@@ -28,8 +28,8 @@ fn request_text() -> impl Strategy<Value = Text> {
     })
 }
 
-/// Random text of a description, with or without a NUL and bytes after it. The field has at least
-/// one byte.
+/// Random text of a description or of an attribute of an element, with or without a NUL and bytes
+/// after it. The field has at least one byte.
 fn open_text() -> impl Strategy<Value = Text> {
     (text(255), prop::option::of(vec(any::<u8>(), 0..256))).prop_map(|(text, tail)| {
         let room = 255 - text.as_bytes().len();

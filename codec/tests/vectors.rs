@@ -1,5 +1,5 @@
-//! Tests with the golden vectors. Snapshots contain their decoded values, for comparison with the
-//! manuals.
+//! Tests with the golden vectors. Snapshots contain their decoded values and the texts of errors,
+//! for comparison with the manuals.
 
 #![cfg(feature = "alloc")]
 
@@ -282,15 +282,16 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     }
 }
 
-/// The codec encodes a text without a tail with one NUL, and TRUE as 1.
+/// If a vector states a canonical form, the codec can encode the value in this form, for example a
+/// text with one NUL, or TRUE as 1.
 #[test]
 fn canonical_forms_are_written() {
     let mut seen = 0;
     for vector in vectors() {
         let Expect::Accept(accept) = &vector.expect else { continue };
         let Some(wanted) = &accept.canonical else { continue };
-        // Skip values and contents, which the codec keeps as bytes: it does not change the end of a text or
-        // the byte of a BOOLEAN.
+        // Skip values and contents, which the codec keeps as bytes: it does not change the end of a
+        // text or the byte of a BOOLEAN.
         if ["variable-value", "variable-handle-write", "variable-name-write", "content"]
             .contains(&vector.stream.as_str())
         {

@@ -25,8 +25,9 @@ use ads_cnc::operation::*;
 use ads_cnc::streaming::{Ack, NcText, Sender};
 use ads_cnc_conformance::client::Target;
 use ads_cnc_conformance::gate::{Allowed, Gate};
+use ads_cnc_conformance::number::digest;
 use ads_cnc_conformance::session::{Session, ToolError};
-use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig, digest};
+use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig};
 use ads_cnc_conformance::simulator::{Cnc, NET_ID, Server};
 
 type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;

@@ -66,7 +66,8 @@ pub fn decode_reply(
 /// Encodes the payload of a service's reply; `data` is ignored for a Write.
 ///
 /// # Errors
-/// If the result is 0 and `data` is `None`, except for a Write.
+/// For a Read or a ReadWrite: if the result is 0 and `data` is `None`, or if `data` exceeds the
+/// maximum length of the reply's stream.
 pub fn encode_reply(
     service: AdsService,
     result: AdsError,

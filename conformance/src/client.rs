@@ -1,5 +1,5 @@
-//! An AMS/TCP client. It returns the bytes of each request and its reply, checks the headers of the
-//! reply, and can capture all bytes sent and received.
+//! An AMS/TCP client of a target. It returns the bytes of each request and its reply, checks the
+//! headers of the reply, and can capture the bytes sent and received.
 
 mod inquiry;
 mod judge;
@@ -28,11 +28,12 @@ pub use tap::Tap;
 pub use target::Target;
 pub(crate) use target::net_id_of;
 
-/// The first of the 16 AMS ports from which requests are sent. No program needs to be registered on
-/// them.
+/// The first of the 16 AMS ports from which a [`Client`] sends its requests. The client of
+/// `client_suite` uses only this port.
 pub(crate) const SOURCE_PORT: AmsPort = AmsPort(0x8000);
 
-/// A connection to a target. The [`Gate`] decides which frames it may send.
+/// A connection to a target, or a dry run without a connection. The [`Gate`] decides which frames
+/// may be sent.
 #[derive(Debug)]
 pub struct Client {
     target: Target,
@@ -56,11 +57,11 @@ enum ConnectMethod {
     InProcess(Arc<dyn LocalPeers>),
 }
 
-/// The time between two pieces of a frame that is sent in pieces.
+/// The pause after each piece of a frame that is sent in pieces.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Maximum number of replies with an unexpected invoke ID, before the expected reply, that are
-/// reported as separate violations; further replies are only counted.
+/// For each call, the maximum number of frames that are not taken for the reply, because of their
+/// invoke IDs, and are reported as separate violations; further such frames are only counted.
 const STRAYS_MAX: u64 = 3;
 
 /// Maximum time to wait for the reply after a second frame that is not the reply.
@@ -71,21 +72,22 @@ const AFTER_STRAY: Duration = Duration::from_millis(250);
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
 
 impl Client {
-    /// Connects to a target. A gate that allows malformed requests is accepted only for a target on
-    /// this machine.
+    /// Connects to a target. A gate that allows malformed requests is accepted only for a loopback
+    /// address.
     ///
     /// # Errors
-    /// If no server listens at the address, the gate allows malformed requests to another machine,
-    /// or the gate is for another address.
+    /// If the connection cannot be opened, the gate allows malformed requests and the address is
+    /// not a loopback address, or the gate is for the address of another simulated CNC.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
         Self::connected(target, gate, ConnectMethod::Tcp)
     }
 
-    /// Connects to a CNC in this process without a socket. The clock of the CNC must be stopped;
-    /// the client advances it by the time for which it would wait.
+    /// Connects to a CNC in this process without a socket. The clock of the CNC must be stopped: if
+    /// the CNC does not reply, the connection advances the clock by the timeout instead of waiting.
     ///
     /// # Errors
-    /// If the gate allows malformed requests to another machine, or is for another address.
+    /// If the gate allows malformed requests and the address is not a loopback address, or the gate
+    /// is for the address of another simulated CNC.
     pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn LocalPeers>) -> io::Result<Self> {
         Self::connected(target, gate, ConnectMethod::InProcess(cnc))
     }
@@ -102,7 +104,8 @@ impl Client {
     /// each request.
     ///
     /// # Errors
-    /// If the gate allows malformed requests to another machine, or is for another address.
+    /// If the gate allows malformed requests and the address is not a loopback address, or the gate
+    /// is for the address of a simulated CNC other than the target.
     pub fn dry(target: Target, gate: Gate) -> io::Result<Self> {
         Ok(Self { dry: true, ..Self::unconnected(target, gate)? })
     }
@@ -138,7 +141,7 @@ impl Client {
         })
     }
 
-    /// Captures everything sent and received from now on.
+    /// From now on, captures the frames sent and the bytes received.
     #[must_use]
     pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
         let mut capture = capture.into();
@@ -164,7 +167,7 @@ impl Client {
         self.capture.take().map_or(Ok(()), Tap::finish)
     }
 
-    /// From now on, sends frames in pieces of this size, or whole if `None`.
+    /// From now on, sends frames in pieces of at most this many bytes, or whole if `None`.
     pub(crate) const fn set_piece(&mut self, piece: Option<usize>) {
         self.piece = piece;
     }
@@ -207,7 +210,7 @@ impl Client {
         permit.map(drop).map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))
     }
 
-    /// Sends a call and waits for its reply.
+    /// Sends a call and waits for its reply, unless the gate rejects the call or this is a dry run.
     pub fn call(&mut self, call: &Call<'_>) -> Exchange {
         let mut exchange = Exchange::new(call);
         match self.sent(call, &mut exchange) {
@@ -223,8 +226,8 @@ impl Client {
         exchange
     }
 
-    /// Sends a call if the gate allows it, and stores the result in `exchange`. Returns the header
-    /// of the sent frame.
+    /// Sends a call, and stores the result in `exchange`. Returns the header of the frame, or the
+    /// reason why the frame was not to be sent.
     fn sent(
         &mut self,
         call: &Call<'_>,
@@ -248,9 +251,10 @@ impl Client {
         Ok(header)
     }
 
-    /// Sends a frame if the gate allows it, and waits for its reply. Afterwards, `sent` contains the
-    /// frame, unless no connection could be opened, and `received` only the bytes of the reply, or
-    /// the part of it that arrived. The outer error is the reason why nothing was sent.
+    /// Sends a frame if the gate allows it and this is not a dry run, and waits for its reply. If a
+    /// connection was open or could be opened, `sent` then contains the frame, and `received` the
+    /// reply or the bytes that arrived instead. The outer error is the reason why the frame was not
+    /// to be sent.
     fn deliver(
         &mut self,
         bytes: &[u8],
@@ -434,9 +438,9 @@ fn are_frames(mut bytes: &[u8]) -> bool {
     bytes.is_empty()
 }
 
-/// Whether a header with a wrong invoke ID belongs to the reply to this request. A late reply to
-/// one of the 15 previous requests has another target port, and an invoke ID that this client has
-/// sent.
+/// Whether a frame that has a wrong invoke ID and the header `got` is taken for the reply to the
+/// request with the header `sent`. A late reply to one of the 15 previous requests has another
+/// target port, and an invoke ID that this client has sent.
 fn is_reply(sent: &AmsHeader, got: &AmsHeader) -> bool {
     let has_addresses = (got.target, got.source) == (sent.source, sent.target);
     let was_sent = FIRST_INVOKE_ID < got.invoke_id && got.invoke_id < sent.invoke_id;
@@ -462,7 +466,8 @@ pub(crate) fn answer(
     if !header.error.is_ok() && payload.is_empty() {
         return Ok(AdsReply { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
     }
-    // A reply to any other command is decoded like a reply to a Write: a result without data.
+    // A reply to a command that is not a service is decoded like a reply to a Write: a result
+    // without data.
     let service = service_of(sent.command).unwrap_or(AdsService::Write);
     let (result, data) = decode_reply(service, payload).map_err(ExchangeError::Malformed)?;
     Ok(AdsReply { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })

@@ -18,7 +18,7 @@ use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::{Context, Fields};
 use field_reader::FieldReader;
 
-/// The name of an error's class in the golden vectors.
+/// The class of an error, as the golden vectors name it; `other` if they have no such class.
 pub fn class(error: &Error) -> &'static str {
     match error.kind() {
         ErrorKind::Truncated => "truncated",

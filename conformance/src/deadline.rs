@@ -1,11 +1,12 @@
-//! The deadline after which a tool sends no more requests.
+//! The deadline of a command.
 
 use std::fmt;
 use std::time::{Duration, Instant};
 
 use crate::text::shown_time;
 
-/// The instant after which a command sends no more requests.
+/// The instant after which a command sends no more requests, except those with which a run restores
+/// values.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
     at: Option<Instant>,

@@ -11,25 +11,25 @@ use crate::value_format::ValueFormat;
 /// The bytes of an exchange, as shown in a report.
 #[derive(Clone, Debug, Default)]
 pub struct Evidence {
-    /// The address and service of the request.
+    /// The request in words, for example its service and address.
     pub call: String,
     /// The variable or object that the exchange is about, if any.
     pub subject: Option<String>,
-    /// The function that the request calls; `None` if no function is documented at the address, or if
-    /// the codec rejects the data of the request.
+    /// The function that a request to a target, or a captured request, calls; `None` for any other
+    /// evidence, and if the codec cannot dispatch the request.
     pub function: Option<Function>,
-    /// The functions called since the previous check, whose replies the check may compare.
+    /// The functions called since the last comparison ended; the check may compare their replies.
     pub compared: Vec<Function>,
     /// Whether the reply must be a rejection.
     pub is_rejection: bool,
-    /// Name of the stream in the request's data; `None` if `function` is `None`, if the function
-    /// has no such stream, or if the bytes are truncated.
+    /// Name of the stream in `sent`, if it is known and the frame is not truncated.
     pub request_stream: Option<&'static str>,
-    /// Name of the stream in the data of a successful reply; `None` in the same cases.
+    /// Name of the stream in the data of a successful reply, if it is known and the frame is not
+    /// truncated.
     pub reply_stream: Option<&'static str>,
-    /// Data of the request.
+    /// Data of the request, or bytes that are not a request.
     pub sent: Vec<u8>,
-    /// Data of the reply; `None` without a valid reply, or for an error reply without data.
+    /// Data of the reply; `None` for example without a valid reply, and for a reply to a Write.
     pub received: Option<Vec<u8>>,
     /// The expected data of the reply, if all of its bytes are known.
     pub expected: Option<Vec<u8>>,
@@ -37,13 +37,15 @@ pub struct Evidence {
     pub values: ValueFormat,
     /// The result in a few words.
     pub result: String,
-    /// The whole frame sent.
+    /// The first bytes of the frame sent, at most `EVIDENCE_MAX`.
     pub frame_sent: Vec<u8>,
-    /// The frame received, or the part of it that arrived.
+    /// The first bytes of the frame received, or of the bytes that arrived instead, at most
+    /// `EVIDENCE_MAX`.
     pub frame_received: Vec<u8>,
 }
 
-/// Maximum number of bytes that are stored of each part of an exchange.
+/// Maximum number of bytes that the evidence of an exchange has of each part: the data and the
+/// frame of the request, those of the reply, and the expected data.
 const EVIDENCE_MAX: usize = 4096;
 
 impl Evidence {

@@ -27,9 +27,9 @@ pub struct Exchange {
     pub read_length: u32,
     pub data: Vec<u8>,
     /// The whole frame of the request; empty if the request was rejected by the gate, cannot be
-    /// encoded, or belongs to a dry run, or if no connection could be opened.
+    /// encoded, or belongs to a dry run, or if there was no connection on which to send it.
     pub sent: Vec<u8>,
-    /// The frame received, or the part of it that arrived.
+    /// The frame received, or the bytes that arrived instead.
     pub received: Vec<u8>,
     /// The reply and its AMS header, or the reason why there is no valid reply.
     pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
@@ -44,7 +44,8 @@ pub struct AdsReply {
     pub ams_error: AdsError,
     /// Result of the service.
     pub result: AdsError,
-    /// The data; `None` if the reply ends after its result, as every reply to a Write does.
+    /// The data; `None` if the reply ends after its result, as every reply to a Write does, or if
+    /// it has an AMS error and ends after its headers.
     pub data: Option<Vec<u8>>,
 }
 
@@ -82,7 +83,7 @@ pub enum ExchangeError {
     Unsendable(Error),
     /// No reply arrived within this time.
     Silence(Duration),
-    /// The target closed the connection before the reply.
+    /// The target closed the connection before the whole reply had arrived.
     Closed,
     /// The reply was not examined, because only the request is judged.
     Unseen,
@@ -186,7 +187,7 @@ impl Exchange {
         }
     }
 
-    /// Like [`result`](Self::result), with the usual meaning of an error number.
+    /// Like [`result`](Self::result), with the usual meaning of an ADS error number, if known.
     pub(crate) fn result_in_words(&self) -> String {
         let error = self.reply().filter(|reply| reply.ams_error.is_ok());
         let meaning = error.and_then(|answer| meaning(answer.result));
@@ -262,9 +263,9 @@ fn header(frame: &[u8]) -> Option<AmsHeader> {
     AmsHeader::decode(header).ok()
 }
 
-/// Whether the received bytes are a reply over AMS: either their AMS header contains the source or
-/// the target address of the request, or they end between a valid AMS/TCP header and the end of the
-/// AMS header.
+/// Whether the received bytes are taken for a reply over AMS: either their AMS header contains the
+/// source or the target address of the request, or they end between a valid AMS/TCP header and the
+/// end of the AMS header.
 pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     let Some((sent, got)) = header(sent).zip(header(received)) else {
         return incomplete_frame(received).is_some();

@@ -1,6 +1,7 @@
-//! The exit codes of all commands. `judge/tally.rs` determines the exit code of a run. After a
-//! second signal, a process that leaves no value changed ends with 130, which is not in [`Exit`]
-//! (`process/interrupt.rs`).
+//! The exit codes of all commands. `judge/tally.rs` determines the exit code of a run from its
+//! verdicts; `report/build.rs` and `cli/run.rs` replace it for rejected writes and for values that
+//! are left changed. After a second signal, a process that leaves no value changed ends with 130,
+//! which is not in [`Exit`] (`process/interrupt.rs`).
 
 use std::process::ExitCode;
 
@@ -9,22 +10,22 @@ use std::process::ExitCode;
 pub enum Exit {
     /// 0: success. A run may have warnings, differences and waived failures.
     Success,
-    /// 1: a verdict that is not waived is fail or vacuous; or a tool failed, for example because
-    /// the CNC returned an error.
+    /// 1: a verdict that is not waived is fail or vacuous; or a tool reports a failure, for example
+    /// because the CNC returned an error.
     Failure,
     /// 2: the command line or a file that it names is wrong.
     Usage,
-    /// 3: nothing was judged, a verdict is inconclusive, or the run was interrupted; or a tool
-    /// received no reply.
+    /// 3: nothing was judged, a verdict is inconclusive, or the run was interrupted; or a tool has
+    /// no complete result, for example because it received no reply.
     Nothing,
-    /// 4: the gate rejected a request, or the file of `--allow-write` has expired or does not fit
-    /// the target (`report/build.rs`).
+    /// 4: the gate rejected a request or must not be used for the target; or, in a run, the file of
+    /// `--allow-write` has expired or does not fit the target (`report/build.rs`).
     NotPermitted,
     /// 5: a waiver is stale (`judge/waivers.rs`).
     Stale,
     /// 6: a value was changed and could not be restored.
     UnrestoredValue,
-    /// 70: an error of the suite, such as a case that panics.
+    /// 70: an error of the suite, such as a case that panics, or an unexpected error of the system.
     Internal,
 }
 

@@ -1,7 +1,8 @@
 //! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]. The codec
 //! itself opens no socket and no file.
 //!
-//! A module imports only modules below it in this table, which `tests/readme/floors.rs` checks.
+//! Except in its tests, a module imports only modules below it in this table, which
+//! `tests/readme/floors.rs` checks.
 //!
 //! | module | contents |
 //! |---|---|
@@ -11,11 +12,11 @@
 //! | [`capture`] | judges captured traffic, and writes traffic to files for Wireshark |
 //! | [`client_suite`] | tests of clients, and the CNC to which they connect |
 //! | [`suite`] | the cases for a CNC |
-//! | [`testee`] | tests of codecs, over stdin and stdout |
+//! | [`testee`] | tests of codecs: of this project's, and of others over stdin and stdout |
 //! | [`named`], [`objects`] | finds a variable or object of a CNC by its name, or lists all of them |
 //! | [`session`] | the typed connection of a tool to a CNC |
 //! | [`report`] | the report of a run, in all its formats |
-//! | [`client`] | an AMS/TCP client that records all bytes |
+//! | [`client`] | an AMS/TCP client of a target, which returns the bytes of each exchange |
 //! | [`faults`] | seeded defects of a codec or a CNC, and valid variants |
 //! | [`simulator`] | the simulated CNC: data model, replies, AMS/TCP server |
 //! | [`net`] | the only module that opens sockets |
@@ -32,17 +33,18 @@
 //! | [`profile`], [`edition`] | the claims of a target; features by edition and version |
 //! | [`ads_service`] | requirement, streams and reply of the three ADS services |
 //! | [`deadline`] | when a tool stops sending requests |
-//! | [`value_format`] | the type of a value, given by the user |
+//! | [`value_format`] | the type by which values are shown |
 //! | [`exit`] | the exit codes |
 //! | [`text`] | hex, escapes, durations, patterns of names, JSON |
-//! | [`number`], [`mutex`] | converts numbers and lengths; locks a mutex |
+//! | [`number`], [`mutex`] | converts numbers and lengths, and forms a digest of bytes; locks a mutex |
 //!
-//! The simulated CNC encodes all headers and streams that it sends with [`ads_cnc`]; this crate has
-//! no second encoder.
+//! The simulated CNC encodes the headers and streams that it sends with [`ads_cnc`]. To detect
+//! errors of [`ads_cnc`], [`client_suite`] also compares requests with bytes, and sends replies,
+//! that are not made by it.
 //!
-//! The stable interface is the command `ads-cnc`: its arguments, exit codes and JSON. This library
-//! is public only for the command, for its tests, for `conformance/load` and for the fuzz targets,
-//! and may change with any version.
+//! The stable interface is the command `ads-cnc`; the section *Stability* of `TOOLS.md` says in
+//! which points. This library is public only for the command, for its tests, for `conformance/load`
+//! and for the fuzz targets, and may change with any version.
 
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods)]

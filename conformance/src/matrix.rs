@@ -47,16 +47,16 @@ pub struct RequirementRow {
     /// The parts of the requirement that have a basis and a level of their own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartRow>,
-    /// The basis: stated, derived, assumed or online.
+    /// The basis: stated, edition, derived, online or assumed.
     pub basis: String,
     /// The level: must, should or info.
     pub level: String,
-    /// Why no check covers the requirement.
+    /// Why nothing judges the requirement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub excluded: Option<String>,
     /// Document, edition and section.
     pub sources: Vec<String>,
-    /// Errata (contradictions between the manuals) that concern the requirement.
+    /// Errata (contradictions and open questions of the manuals) that concern the requirement.
     pub errata: Vec<String>,
     /// The rulings on these errata.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -65,13 +65,14 @@ pub struct RequirementRow {
     pub accepted: Vec<String>,
     /// Vectors and sequences that must be rejected.
     pub rejected: Vec<String>,
-    /// Cases of the suite for a target or captured traffic, and scenarios for a client. Cases that
-    /// decode a vector are listed as vectors.
+    /// Cases of the suite for a target or captured traffic, and scenarios for a client. A case for
+    /// a codec is listed as its vector or sequence, in `accepted` or `rejected`.
     pub cases: Vec<String>,
     /// Tests of the simulated CNC, in `tests/simulator`.
     pub tests: Vec<&'static str>,
-    /// Fuzz targets for the streams and sequences of `accepted` and `rejected`, and for the
-    /// dispatch of the functions of the requirement.
+    /// Fuzz targets for the streams and sequences of `accepted` and `rejected`; also those for the
+    /// dispatch of functions, if the requirement defines a function or one of these streams is the
+    /// request of a function.
     pub fuzz_targets: BTreeSet<&'static str>,
 }
 
@@ -178,7 +179,7 @@ fn ruling(id: &str) -> Option<RulingRow> {
     Some(RulingRow { erratum: id.to_owned(), title, ruling })
 }
 
-/// Maximum width of the text of a requirement.
+/// Maximum width in characters of a line of text, without the name before it.
 const WIDTH: usize = 88;
 
 fn joined(names: &BTreeSet<&str>, between: &str) -> String {
@@ -274,8 +275,8 @@ pub fn to_markdown(rows: &[RequirementRow]) -> String {
 mod tests {
     use super::*;
 
-    /// Each requirement that is observable in a codec has an accepted vector, a case, a test of the
-    /// simulated CNC, or a reason why it is excluded.
+    /// Each requirement that is observable in a codec has an accepted vector or sequence, a case, a
+    /// test of the simulated CNC, or a reason why it is excluded.
     #[test]
     fn every_requirement_is_verified_or_excluded() {
         let rows = matrix();

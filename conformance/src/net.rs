@@ -68,7 +68,7 @@ impl Acceptor {
         self.addr
     }
 
-    /// Stops accepting connections, and waits for the thread to end.
+    /// Stops accepting connections, and waits for the thread to end if the thread can be woken.
     pub fn stop(&mut self) {
         let Some(thread) = self.thread.take() else { return };
         self.stopped.store(true, Ordering::SeqCst);

@@ -1,4 +1,4 @@
-//! Converts between lengths and the numbers of the streams.
+//! Converts between lengths and the numbers of the streams, and bytes to a digest.
 
 /// Converts a number to a `u32`; a number that does not fit becomes `u32::MAX`.
 pub fn to_u32(number: impl TryInto<u32>) -> u32 {
@@ -8,4 +8,23 @@ pub fn to_u32(number: impl TryInto<u32>) -> u32 {
 /// Converts a number to a length; a number that does not fit becomes `usize::MAX`.
 pub fn to_usize(number: impl TryInto<usize>) -> usize {
     number.try_into().unwrap_or(usize::MAX)
+}
+
+const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
+
+/// The FNV-1a hash of the bytes with 64 bits, which is not cryptographic.
+///
+/// ```
+/// use ads_cnc_conformance::number::digest;
+///
+/// assert_eq!(digest(b"foobar"), 0x85944171f73967e8);
+/// ```
+pub fn digest(bytes: &[u8]) -> u64 {
+    digest_more(BASIS, bytes)
+}
+
+/// The digest of bytes whose first part has this digest and whose rest are these bytes.
+pub(crate) fn digest_more(digest: u64, bytes: &[u8]) -> u64 {
+    let next = |digest: u64, &byte: &u8| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3);
+    bytes.iter().fold(digest, next)
 }

@@ -1,4 +1,4 @@
-//! The type of a value, given by the user.
+//! The type by which values are shown, and its name.
 
 use ads_cnc::CncStr;
 use ads_cnc::value::DataType;

@@ -13,7 +13,8 @@ use ads::{AmsAddr, Client, Device, Source, Timeouts};
 use common::Serve;
 use common::file::TestFile;
 
-/// Time limit for an example to end, without the time of the build.
+/// Time limit for an example to end, and for a response of its service, without the time of the
+/// build.
 const TIME: Duration = Duration::from_secs(60);
 
 /// Builds the examples; cargo does nothing if they are up to date.
@@ -21,7 +22,7 @@ fn built() -> &'static [PathBuf] {
     static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
     BUILT.get_or_init(|| {
         let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        // The folder of this program: target/debug/deps or target/release/deps.
+        // This program is in the folder target/debug/deps or target/release/deps.
         let program = env::current_exe().unwrap();
         let is_debug = program.ancestors().nth(2).is_some_and(|folder| folder.ends_with("debug"));
         let profile = if is_debug { "dev" } else { "release" };
@@ -120,7 +121,7 @@ fn list_objects() {
     }
 }
 
-/// VAR-5: the whole value and each element have the type from the description.
+/// VAR-5: the example formats each element with the type from the description.
 #[test]
 fn read_variable() {
     let serve = Serve::start(&[]);

@@ -16,7 +16,8 @@ use file::TestFolder;
 const SCHEMA: &str =
     concat!(env!("CARGO_MANIFEST_DIR"), "/../spec-vectors/schema/vectors.schema.json");
 
-/// Calls whose traffic is captured, each with the minimum number of streams that the traffic contains.
+/// Calls whose traffic is captured, each with the minimum number of different streams among the
+/// vectors that are extracted from the traffic.
 const CALLS: [(&[&str], usize); 3] = [
     (&["browse", "--content"], 10),
     (&["browse", "--variables"], 9),

@@ -1,11 +1,10 @@
-//! The documents show the real output of the tools: each call in a block ```console is executed by this
-//! test, by readme/gate.rs or where [`ELSEWHERE`] states, and its output is compared with the document.
+//! The documents show the real output of the tools: this test and readme/gate.rs execute the calls
+//! in blocks ```console, except those in [`ELSEWHERE`], and compare the output with the document.
 
 #[path = "readme/bench.rs"]
 mod bench;
 mod common;
-// `conformance/doc/dependencies.md` lists the crates for Linux; other systems use other crates to
-// end processes.
+// `conformance/doc/dependencies.md` lists the crates of a build for Linux.
 #[cfg(target_os = "linux")]
 #[path = "readme/dependencies.rs"]
 mod dependencies;
@@ -28,13 +27,13 @@ use std::process::Command;
 use bench::root;
 use documents::{IN_THE_GATE, documents, is_in_the_gate, make};
 
-/// Calls that this test does not execute: the start of the call, the file that executes or replaces it, and
-/// a text that this file must contain.
+/// Calls that neither this test nor readme/gate.rs executes: the start of the call, the file that
+/// executes or replaces it, and a text that this file must contain.
 const ELSEWHERE: [(&str, &str, &str); 4] = [
     ("cargo test --workspace", ".ci/run", "cargo test --workspace --locked"),
     ("cargo install ", ".ci/run", "cargo install --path conformance --locked"),
     ("fuzz/nightly ", ".ci/run", "fuzz/nightly --seconds 0"),
-    // `cat` is not executed: its output in the document is written to the file that later calls use.
+    // `cat` is not executed: its output in the document is written to the file, before any call.
     ("cat ", "conformance/tests/readme/bench.rs", "strip_prefix(\"cat \")"),
 ];
 
@@ -48,7 +47,8 @@ fn calls_print_the_output_in_the_documents() {
     assert!(made >= 15, "{made} calls");
 }
 
-/// CONTRIBUTING names each script that the gate, `.ci/run`, runs.
+/// CONTRIBUTING names each script of this repository that the gate, `.ci/run`, names, except those
+/// of the adapters.
 #[test]
 fn every_script_of_the_gate_is_documented() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
@@ -64,14 +64,14 @@ fn every_script_of_the_gate_is_documented() {
     };
     let scripts: BTreeSet<&str> = words.filter(is_script).collect();
     assert!(scripts.len() >= 15, "{scripts:?}");
-    // Scripts of adapters are excluded: other documents show their calls.
+    // Other documents show the calls of the adapters.
     for script in scripts.iter().filter(|script| !script.contains("/adapters/")) {
         assert!(told.contains(script), "{script}");
     }
 }
 
-/// Every call that this test does not execute is executed or replaced by the file that `ELSEWHERE`
-/// names.
+/// Each call in `ELSEWHERE` is shown in a document, and the file that executes or replaces the call
+/// contains the stated text; documents also show the calls that readme/gate.rs executes.
 #[test]
 fn other_calls_are_executed_elsewhere() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
@@ -94,7 +94,8 @@ fn other_calls_are_executed_elsewhere() {
     }
 }
 
-/// TOOLS.md names every command, and every option in TOOLS.md and in the README exists.
+/// TOOLS.md names every command, and every option in TOOLS.md and in the README exists, except in
+/// lines with other programs.
 #[test]
 fn documented_commands_and_options_exist() {
     let help = |words: &[&str]| {

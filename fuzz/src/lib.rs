@@ -2,13 +2,13 @@
 //!
 //! A target checks a law that holds for any bytes, or a few related laws. The bodies of the targets
 //! are in this library, so that `cargo test` replays the corpora on stable Rust; the binaries, which
-//! need libFuzzer, are one line each. The laws of the codec are those of its own tests, which apply
-//! them to samples, truncated samples and random values.
+//! need libFuzzer, are one line each. The laws of the codec are in a module of the codec's tests,
+//! which apply them to other inputs, such as samples, truncated samples and random values.
 //!
 //! | module | contents |
 //! |---|---|
 //! | [`targets`] | every target: its name, its body, what it proves, its seeded defects |
-//! | [`Outcome`] | the result of an input as one number, to compare two builds of the codec |
+//! | [`Outcome`] | the result of an input with a digest, to compare two builds of the codec |
 //! | [`Defect`] | the seeded defects, which show that a target can fail |
 //! | [`seeds`], [`dictionary`] | initial inputs and words for a fuzzer, from vectors and samples |
 //! | [`replay`] | runs the body of a target on its corpus |

@@ -2,7 +2,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// The result of an input, which is the same in every build of the codec.
+/// The result of an input, which is the same in every build of the codec that has the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
     /// Whether the input passed the first checks.

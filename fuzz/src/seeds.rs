@@ -19,7 +19,8 @@ use crate::{Target, common};
 /// The name and the bytes of an input.
 pub type Seed = (String, Vec<u8>);
 
-/// Maximum length in bytes of a vector that is used as an initial input.
+/// Maximum length in bytes of a vector that is used as an initial input; a text of a sequence may
+/// be twice as long.
 const LONGEST: usize = 2048;
 
 /// The initial inputs of a target, in a fixed order.

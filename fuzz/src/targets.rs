@@ -126,9 +126,11 @@ targets! {
          text with CR LF after each line, and each packet is valid and as full as possible";
     #[cfg(feature = "tools")]
     STREAMING_SENDER: "streaming_sender", ends::check, ends::DEFECTS,
-        "With any sequence of acknowledgements, repetitions, reads and resets, a sender neither \
-         loses nor duplicates a line, and counts correctly. The streaming interface is a bounded \
-         queue whose output is the program text";
+        "With any acknowledgements and any repeated calls for the packet, a sender offers each \
+         packet unchanged until it is accepted, offers none after a permanent rejection, and \
+         counts the accepted packets, lines and bytes. The streaming interface is a bounded \
+         queue; its output is the text that the sender counts as accepted, unless the interface \
+         is reset, another client writes, or a packet is acknowledged without being written";
     #[cfg(feature = "alloc")]
     STREAMING_CHECKER: "streaming_checker", checker::lots, checker::DEFECTS,
         "If the lines of a program are checked in several parts, each part has the findings that \

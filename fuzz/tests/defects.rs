@@ -1,4 +1,5 @@
-//! Detects the seeded defects on stable Rust, without a fuzzer.
+//! Tests that the corpora detect the seeded defects, except those listed below, on stable Rust and
+//! without a fuzzer.
 
 // Without these features a target is missing or checks fewer laws.
 #![cfg(all(feature = "arbitrary", feature = "binrw", feature = "tools"))]

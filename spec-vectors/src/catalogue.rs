@@ -11,7 +11,7 @@ pub struct Document {
     pub document: String,
     /// Edition; empty if the document prints no edition.
     pub edition: String,
-    /// Title as printed.
+    /// Title.
     pub title: String,
     /// Language: `en` or `de`.
     pub language: String,
@@ -108,7 +108,8 @@ pub struct Requirement {
     pub title: String,
     /// The obligation, with its offsets and limits.
     pub text: String,
-    /// The sections that state the requirement; empty if no document states it.
+    /// The sections that state the requirement; for an assumed requirement, the passages that are
+    /// interpreted, if any.
     pub sources: Vec<Source>,
     /// Basis of the text.
     pub basis: Basis,
@@ -266,7 +267,7 @@ pub(crate) fn requirements_of(cited: &[String]) -> Vec<&'static Requirement> {
     all
 }
 
-/// A reading of the documents that contradicts other readings.
+/// A reading: what a document states about the question of an erratum.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interpretation {

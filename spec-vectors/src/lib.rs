@@ -1,7 +1,8 @@
 //! Golden vectors, errata and a requirement catalogue for the ADS interface of ISG and TwinCAT CNCs.
 //!
-//! The data is JSON in `data/`, for any language, with a JSON Schema for each file in `schema/`.
-//! `README.md` describes it field by field. This crate embeds the files and parses them:
+//! The data is JSON in `data/`, for any language, with a JSON Schema in `schema/` for each kind of
+//! file. `README.md` describes the data field by field. This crate embeds the files and parses
+//! them:
 //!
 //! - a [`Requirement`] states an obligation of an implementation, its sources in the manuals, and its
 //!   level;

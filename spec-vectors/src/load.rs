@@ -85,7 +85,7 @@ pub fn requirements() -> &'static [Requirement] {
 /// assert!(ads_cnc_vectors::requirement("VAR-0").is_none());
 /// ```
 pub fn requirement(id: &str) -> Option<&'static Requirement> {
-    // A map, because every check of the conformance suite looks up a requirement.
+    // A map, because the conformance suite looks up requirements very often.
     static BY_ID: OnceLock<HashMap<&str, &Requirement>> = OnceLock::new();
     let by_id = || requirements().iter().map(|item| (item.id.as_str(), item)).collect();
     BY_ID.get_or_init(by_id).get(id).copied()

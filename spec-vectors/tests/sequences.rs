@@ -116,8 +116,9 @@ const ONLY_ACCEPTED: [(&str, &str); 2] = [
     ("STM-18", "no stream shows whether the subroutine is executed"),
 ];
 
-/// The requirements of the areas STM and SVC concern texts and the order of steps. A requirement that can
-/// be judged therefore has an accepted and a rejected case.
+/// Each requirement of the areas STM and SVC that the catalogue does not exclude has an accepted
+/// and a rejected vector or sequence, apart from those in `UNSHOWN` and `ONLY_ACCEPTED`, and those
+/// with a reason why nothing violates them (`no_reject`).
 #[test]
 fn requirements_have_both_verdicts() {
     let (mut accepted, mut rejected) = (BTreeSet::new(), BTreeSet::new());

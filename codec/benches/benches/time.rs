@@ -1,5 +1,5 @@
-//! Measures the time of every case with criterion, for interactive use. `ratios.rs` measures the ratios for
-//! the README.
+//! Measures the time of every case with criterion, for interactive use. `src/bin/ratios.rs`
+//! measures the ratios for the README.
 
 use ads_cnc_benches::all;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

@@ -5,7 +5,8 @@
 pub struct Case {
     /// The subject that is measured, such as `description`.
     pub subject: &'static str,
-    /// The implementation, such as `borrowed` or `by hand`.
+    /// The implementation, such as `borrowed` or `by hand`, or the size of the input, such as `1
+    /// KB`.
     pub implementation: &'static str,
     /// Creates the inputs and the work to measure; the creation is not measured.
     pub prepare: fn() -> Work,
@@ -39,7 +40,8 @@ impl Limit {
 
 /// Work that can be repeated.
 pub struct Work {
-    /// The number of units in a run: records, calls, dimensions or bytes. Results are per unit.
+    /// The number of units in a run, such as streams, records, calls, dimensions or bytes. Results
+    /// are per unit.
     pub units: u64,
     /// Performs one run.
     pub run: Box<dyn FnMut()>,
@@ -65,8 +67,8 @@ impl Case {
         Self { is_long: true, ..self }
     }
 
-    /// Returns true if the case is not long and has a limit, or a limit compares another case with
-    /// it.
+    /// Returns true for a case that `codec/benches/run` counts without `--renew`: the case is not
+    /// long, and it has a limit or is the reference of a limit.
     pub(crate) fn is_gated(&self) -> bool {
         if self.is_long {
             return false;

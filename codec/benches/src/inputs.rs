@@ -1,5 +1,5 @@
-//! The inputs of the cases, made from the samples of the codec, which are handwritten bytes of
-//! every stream.
+//! The inputs of the cases of streams, made from the samples of the codec's tests, which are
+//! handwritten bytes of the streams.
 
 #[expect(dead_code, reason = "the codec's tests use more of it")]
 #[path = "../../tests/common/samples.rs"]
@@ -26,12 +26,13 @@ pub(crate) fn many(stream: Stream) -> Vec<&'static [u8]> {
     round(each(stream).collect())
 }
 
-/// Inputs that the stream rejects, among truncated samples, samples with an extra byte and long inputs.
+/// The inputs of [`faulty`] that `accepts` rejects, repeated like those of [`many`].
 pub(crate) fn rejected(stream: Stream, accepts: fn(&[u8]) -> bool) -> Vec<&'static [u8]> {
     round(faulty(stream).filter(|bytes| !accepts(bytes)).collect())
 }
 
-/// Inputs that may be faulty: truncated samples, samples with an extra byte, and bytes that are too long.
+/// Inputs that may be faulty: truncated samples, samples with an extra byte, and long inputs of one
+/// repeated byte.
 pub(crate) fn faulty(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
     let cut = each(stream)
         .flat_map(|bytes| (0..bytes.len()).map(|len| bytes[..len].to_vec()).collect::<Vec<_>>());

@@ -1,4 +1,5 @@
-//! Compares the cost of the codec with code written by hand, other libraries and a plain copy of the bytes.
+//! Compares the cost of the codec with code written by hand, other libraries and a plain copy of
+//! the bytes.
 
 mod case;
 mod cases;

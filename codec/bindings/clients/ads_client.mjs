@@ -45,7 +45,7 @@ async function read(name) {
 }
 
 async function main() {
-  // Describe all variables, by index.
+  // Describe all variables of the kind V.E, by index.
   const count = await send(cnc.countVariables(1, 'V.E'));
   const listed = [];
   for (let index = 0; index < count; index += 1) {

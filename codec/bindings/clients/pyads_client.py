@@ -14,7 +14,8 @@ from pyads.pyads_ex import _adsDLL as ads_lib
 NET_ID = "127.0.0.1.1.1"
 
 
-# Decodes only the received bytes. It calls AdsLib, because Connection.read_write of pyads does not return their number.
+# Sends a request and decodes only the received bytes of the reply. Calls AdsLib, because Connection.read_write of
+# pyads does not return their number.
 def send(request):
     reply, received = ctypes.create_string_buffer(request.read_length), ctypes.c_uint32()
     to = local_port, ctypes.byref(pyads.AmsAddr(NET_ID, request.port).amsAddrStruct())
@@ -55,7 +56,7 @@ local_port = pyads.open_port()
 pyads.set_local_address("127.0.0.1.1.7")
 pyads.add_route(NET_ID, host)
 
-# Describe all variables, by index.
+# Describe all variables of the kind V.E, by index.
 types = {type.code: type.name for type in ads_cnc.TYPES}
 count = send(ads_cnc.count_variables(1, "V.E"))
 listed = [send(ads_cnc.describe_by_index(1, index, "V.E")) for index in range(count)]

@@ -93,7 +93,8 @@ const openText = (value) => ({ type: 'STRING', hex: hex(cnc.textToCp1252(value))
 const count = (data) => cnc.decode('object-count', data);
 const WORDS = { objectClass: 'class' };
 
-// Subjects that are not streams of the table. Groups and offsets have four bytes and are decoded as counts.
+// Subjects that are not streams of the table, except `ams-frame`. Groups and offsets have four bytes and are
+// decoded as counts.
 const OTHERS = {
   'variable-path': {
     decode(data) {

@@ -34,7 +34,7 @@ def digest(data):
 def write_wheel(directory, about, platforms, files, executable=()):
     """Writes a wheel with these files, by path; dots separate `platforms`. Returns the name of the wheel.
 
-    The wheel is reproducible: the same input always produces the same bytes.
+    The wheel is reproducible: it contains no times, so the same input produces the same bytes on the same platform.
     """
     name, tag = about.name.replace("-", "_"), f"py3-none-{platforms}"
     info = f"{name}-{about.version}.dist-info"

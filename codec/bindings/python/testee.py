@@ -170,7 +170,7 @@ def encode_offset(given, context):
     return ads_cnc.encode("object-count", ads_cnc.axis_offset(axis, element, int(context["stride"], 16)))
 
 
-# Subjects that are not streams of the table.
+# Subjects that are not streams of the table, except `ams-frame`.
 OTHERS = {
     "variable-path": (decode_path, encode_path),
     "index-group": (decode_group, encode_group),

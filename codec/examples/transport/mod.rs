@@ -7,8 +7,8 @@ use ads_cnc::operation::{AdsService, Operation};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Converts an ADS error of the CNC (a number from 0x700 on) to `None`. Returns any other error:
-/// errors of the network, of the ADS router (numbers below 0x700) and of decoding.
+/// Converts an ADS error of the CNC (a number from 0x700 on) to `None`. Returns any other error,
+/// such as an error of the network, of the ADS router (a number below 0x700) or of decoding.
 #[allow(dead_code, reason = "the examples that write need every error")]
 pub(crate) fn unless_rejected<T>(result: Result<T>) -> Result<Option<T>> {
     match result {

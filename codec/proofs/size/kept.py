@@ -1,5 +1,5 @@
 """Selects the functions that a program contains from the lists of the public API, by parts of the API. Generic
-functions are not selected: src/generic.rs calls them with specific types."""
+functions are not selected: src/generic.rs keeps those that exist without features, with specific types."""
 
 import pathlib
 import re
@@ -71,8 +71,8 @@ def read(features):
 
 
 def source(parts, extra=(), owned=False):
-    """Returns Rust code that contains the functions of these parts and those of `extra` in a program, and their
-    number without those of src/generic.rs."""
+    """Returns Rust code that keeps the functions of these parts, those of `extra` and, if `owned`, those that exist
+    with the feature alloc in a program, and their number without those of src/generic.rs."""
     paths = [path for of, path in read("none")[0] if of in parts] + list(extra)
     if owned:
         paths += [path for _, path in read("alloc")[0]]

@@ -1,4 +1,4 @@
-//! The classes of the SDA and GEO tasks, and their index groups.
+//! The classes of the SDA and GEO tasks, the attributes of their elements, and their index groups.
 
 use core::fmt;
 
@@ -23,7 +23,8 @@ pub struct ClassGroup {
     pub class: Class,
     /// The attribute of the elements.
     pub attribute: Attribute,
-    /// The number of the channel or spindle; 0 for the platform and for the query of an object address.
+    /// The logical number or the index of the channel, or the index of the spindle; 0 for the
+    /// platform and for the query of an object address.
     pub instance: u8,
 }
 

@@ -7,11 +7,11 @@ use super::{
 use crate::error::{Error, ErrorKind};
 use crate::layout::index_offset::ELEMENT;
 
-/// The largest element index (ADR-9).
+/// The largest element index with the stride 0x10000 (ADR-9).
 const ELEMENT_MAX: u32 = AxisStride::X10000.element_max();
 
-/// The address of an element of an instance of a class. The index group contains the attribute, and
-/// the index offset contains the element.
+/// The address of an element of an instance of a class, for all attributes of the element. In a
+/// request, the index group contains the attribute, and the index offset contains the element.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
 ///
@@ -34,8 +34,8 @@ pub struct ElementAddress {
 }
 
 impl ElementAddress {
-    /// The address of the element at this group and offset, which a query of an object address returns. The
-    /// attribute of the group is ignored.
+    /// The address of the element at this group and offset, such as those that a query of an object
+    /// address returns. The attribute of the group is ignored.
     pub const fn new(group: ClassGroup, offset: IndexOffset) -> Self {
         // Spindles have no logical address.
         let addressing = match group.class {
@@ -51,7 +51,7 @@ impl ElementAddress {
     /// Use it only for classes that belong to a channel. With [`Class::Spindle`], the channel number
     /// would be taken as the index of a spindle: use [`for_spindle`](Self::for_spindle).
     /// [`Class::PositionController`] has platform axes but no channels:
-    /// [`FindInstance`](crate::operation::FindInstance) reads their addresses.
+    /// [`FindInstance`](crate::operation::FindInstance) reads the addresses of these axes.
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element index of more than 16 bits (ADR-9).
@@ -107,7 +107,7 @@ impl ElementAddress {
         }
     }
 
-    /// The class and the instance of the element; the attribute is [`Attribute::Content`].
+    /// The addressing, class and instance of the element; the attribute is [`Attribute::Content`].
     pub const fn class_group(self) -> ClassGroup {
         self.group
     }

@@ -45,8 +45,8 @@ impl IndexGroup {
         self.0
     }
 
-    /// The parts of the group; `None` if the group is not documented. [`Group::index_group`] is the
-    /// inverse.
+    /// The parts of the group; `None` for a number that cannot be divided into the parts of a
+    /// [`Group`]. [`Group::index_group`] is the inverse.
     pub const fn parts(self) -> Option<Group> {
         let [instance, table, ..] = self.0.to_le_bytes();
         let addressing = match self.0 & LOGICAL {
@@ -168,7 +168,7 @@ impl Addressing {
 pub enum Access {
     /// Element access, 0x20000: to the content of objects.
     Element,
-    /// Object access, 0x30000: to the descriptors of objects.
+    /// Object access, 0x30000: to the number and the descriptors of objects.
     Object,
 }
 
@@ -216,7 +216,7 @@ pub struct ComGroup {
     pub access: Access,
     /// The table of channels, or of platform axes.
     pub table: ComTable,
-    /// The number of the channel (0 for the platform) or of the platform axis.
+    /// The logical number or the index of the channel (0 for the platform) or platform axis.
     pub instance: u8,
 }
 

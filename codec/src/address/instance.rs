@@ -1,4 +1,5 @@
-//! The channel, platform axis or spindle in the low bits of an index group.
+//! The channel, platform axis or spindle in the low bits of an index group, and the channel axis in
+//! the high bits of an index offset.
 
 use core::fmt;
 
@@ -71,7 +72,8 @@ impl Channel {
         Self::with_addressing(rank, Addressing::Index)
     }
 
-    /// The channel in the low bits of an index group.
+    /// The low bits of an index group as a channel; `None` if they are 0. The group must belong to
+    /// a channel, which is not checked.
     pub(crate) fn from_group(group: Group) -> Option<Self> {
         let (instance, addressing) = match group {
             Group::Com(com) => (com.instance, com.addressing),
@@ -95,7 +97,8 @@ impl Channel {
     }
 }
 
-/// A platform axis, counted from 1 in the order of the configuration. Its index never changes (ADR-13).
+/// A platform axis, counted from 1 in the order of the configuration. Its index does not change
+/// (ADR-13).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 2.1.
 ///
@@ -123,8 +126,8 @@ impl PlatformAxis {
     }
 }
 
-/// The index of an axis in a channel, counted from 1. An axis exchange changes which axis has which
-/// index (ADR-13).
+/// The index of an axis in a channel, counted from 1. An axis exchange can change which axis has
+/// which index (ADR-13).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 4.2.2.
 ///
@@ -132,7 +135,7 @@ impl PlatformAxis {
 /// use ads_cnc::address::ChannelAxis;
 ///
 /// assert_eq!(ChannelAxis::new(2)?.offset(4)?.get(), 0x2_0004);
-/// // With axis 0, the offsets of these elements would be those of other functions (VAR-26).
+/// // With axis 0, the offset would be 4, which is that of another function (VAR-26, DYN-1).
 /// assert!(ChannelAxis::new(0).is_err());
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -148,7 +151,7 @@ impl ChannelAxis {
         check(CHANNEL_AXIS, index).map(Self)
     }
 
-    /// The axis in the high bits of an index offset.
+    /// The axis in the high 16 bits of an index offset; `None` if they are 0.
     pub(crate) fn from_offset(offset: IndexOffset) -> Option<Self> {
         let [_, _, low, high] = offset.get().to_le_bytes();
         let axis = u16::from_le_bytes([low, high]);

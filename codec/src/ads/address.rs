@@ -57,8 +57,8 @@ impl FromStr for AmsNetId {
         for (count, byte) in (0_u32..).zip(&mut id) {
             let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, count))?;
             let len = crate::bytes::to_u32(part.len());
-            // Check the digits here, because `u32::parse` also accepts a sign and any number of
-            // leading zeros.
+            // Check the digits here, because `u32::parse` also accepts a plus sign and any number
+            // of leading zeros.
             if let Some(odd) = part.chars().find(|character| !character.is_ascii_digit()) {
                 return Err(Error::new(ErrorKind::NotDecimal, NUMBER, at, 0, odd.into()));
             }

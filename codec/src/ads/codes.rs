@@ -1,4 +1,5 @@
-//! Codes of the AMS header: command, state flags and error (ADS-5).
+//! Codes of the AMS header: command, state flags and error (ADS-5). The results of ADS services use
+//! the same error numbers (ADS-4).
 
 use crate::number::code;
 
@@ -23,7 +24,7 @@ code! {
         WRITE = 3;
         /// ReadState.
         READ_STATE = 4;
-        /// WriteControl. No operation of this crate uses it.
+        /// WriteControl. No operation of this crate uses this command.
         WRITE_CONTROL = 5;
         /// AddDeviceNotification.
         ADD_NOTIFICATION = 6;
@@ -44,7 +45,7 @@ code! {
     /// ```
     /// use ads_cnc::ads::StateFlags;
     ///
-    /// // A response has the flags of its request, plus the response bit.
+    /// // The flags of a response are those of a request, plus the response bit.
     /// assert_eq!(StateFlags::RESPONSE, StateFlags(StateFlags::REQUEST.0 | 1));
     /// ```
     StateFlags(u16) in hex {
@@ -59,7 +60,7 @@ code! {
     /// An ADS or AMS error number; 0 is success (ADS-4).
     ///
     /// The manuals do not document which numbers a CNC returns; the constants are the numbers that
-    /// this crate assumes (ADS-7). A client should only distinguish 0 from other numbers.
+    /// this crate assumes (ADS-7). A client should rely only on whether the number is 0.
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///

@@ -75,9 +75,9 @@ impl<'a> FrameRef<'a> {
     /// As soon as the header with the fault is complete: [`ErrorKind::Mismatch`] for a field
     /// `reserved` that is not 0 and for two lengths that disagree; [`ErrorKind::OutOfRange`] for a
     /// length that is less than that of the AMS header; [`ErrorKind::TooLong`] for more than
-    /// `max_data` bytes of data, or more than any service can have. Offsets count from the start of
-    /// the frame. After an error, no further frame can be found in the TCP stream: close the
-    /// connection.
+    /// `max_data` bytes of data, or more than [`new`](Self::new) accepts. Offsets count from the
+    /// start of the frame. After an error, close the connection: this function cannot find the next
+    /// frame.
     pub fn split(received: &'a [u8], max_data: u32) -> Result<Option<(Self, usize)>, Error> {
         let Some((tcp, rest)) = received.split_at_checked(AMS_TCP_HEADER_LEN) else {
             return Ok(None);
@@ -131,7 +131,8 @@ impl Encode for FrameRef<'_> {
 const LENGTH: Field = Field::of::<AmsTcpHeader>("length");
 const LENGTH_AT: u32 = AmsTcpHeader::LAYOUT.offset("length");
 
-/// The maximum length of the data of a frame: the longest stream of a service.
+/// The maximum length of the data of a frame in bytes: that of a ReadWrite request, the longest
+/// request or reply of an ADS service in this crate.
 const DATA_MAX: usize = length::<ReadWriteRequestRef<'_>>();
 
 fn check(data_length: u32, max: u32) -> Result<(), Error> {

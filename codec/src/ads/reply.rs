@@ -63,7 +63,7 @@ fn encode<'b>(
     buf: &'b mut [u8],
 ) -> Result<&'b [u8], Error> {
     let Some(data) = data else {
-        // A reply may end before its data only if its result is an error (ADS-6).
+        // A reply may end after its result only if the result is an error (ADS-6).
         if result.is_ok() {
             let [_, length_field, _] = fields(stream);
             return Err(Error::new(ErrorKind::Truncated, length_field, LENGTH_AT, 4, 0));

@@ -29,8 +29,8 @@ impl<'a> Reader<'a> {
         Ok(Self::without_limit(stream, bytes))
     }
 
-    /// Starts reading a stream whose fields determine its end: extra bytes are reported as `Trailing`,
-    /// not as `TooLong`.
+    /// Starts reading a stream without a check of its length: [`finish`](Self::finish) reports
+    /// extra bytes as `Trailing`.
     pub(crate) fn without_limit(stream: Stream, bytes: &'a [u8]) -> Self {
         Self { stream, bytes, at: 0 }
     }
@@ -44,7 +44,7 @@ impl<'a> Reader<'a> {
         T::ref_from_bytes(bytes).map_err(|_| not_all(stream, size_of::<T>(), bytes.len()))
     }
 
-    /// Reads a stream whose only field is a number.
+    /// Reads a stream whose only field is a number of four bytes.
     #[inline]
     pub(crate) fn number(stream: Stream, field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
         let mut input = Self::without_limit(stream, bytes);
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         Ok(u32::from_le_bytes(*le))
     }
 
-    /// Reads the bytes of the fixed rows at the start of the stream.
+    /// Reads the bytes of the fixed rows at the start of the stream. This must be the first read.
     #[inline]
     pub(crate) fn head<const N: usize>(&mut self) -> Result<&'a [u8; N], Error> {
         let Some((head, rest)) = self.bytes.split_first_chunk() else {

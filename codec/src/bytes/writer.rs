@@ -6,13 +6,15 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream, Subject};
 use crate::stream::Encode;
 
-/// Writes to a buffer whose length was checked before the first byte is written.
+/// Writes to a buffer. Bytes that do not fit are dropped, so the length of the buffer must be
+/// checked before, as in [`run`](Self::run) and [`fill`](Self::fill).
 pub(crate) struct Writer<'b> {
     rest: &'b mut [u8],
 }
 
 impl<'b> Writer<'b> {
-    /// Writes exactly `len` bytes to the front of `buf`, or returns an error and writes nothing.
+    /// Lets `write` write the first `len` bytes of `buf`, and returns them; `write` must write all
+    /// of them. On error, nothing is written.
     #[inline]
     pub(crate) fn run(
         stream: Stream,
@@ -89,10 +91,11 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Writes a stream that is a part of the stream being written.
+    /// Writes a part that is itself a stream. The part must be valid, and the buffer must have room
+    /// for it.
     #[inline]
     pub(crate) fn stream(&mut self, part: &impl Encode) {
-        // This cannot fail, because the buffer has the length of the part.
+        // This cannot fail, because the part is valid and the buffer has the length of the part.
         let _written = part.encode(self.next(part.encoded_len()));
     }
 

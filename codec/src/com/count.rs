@@ -5,8 +5,8 @@ use crate::declare::stream;
 stream! {
     /// The number of objects in a list.
     ///
-    /// It is read at offset 0 of a group with object access, and only counts the objects in the addressed
-    /// list (E-36). The width of the number is not documented; 4 bytes are assumed.
+    /// The number is read at offset 0 of a group with object access, and only counts the objects in
+    /// the addressed list (E-36). The width of the number is not documented; 4 bytes are assumed.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
     ///

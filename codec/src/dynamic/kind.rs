@@ -1,4 +1,4 @@
-//! The four kinds of dynamic parameters and their index offsets.
+//! The four kinds of dynamic parameters.
 
 use core::fmt;
 

@@ -1,6 +1,8 @@
-//! Dynamic parameters, which the NC program creates and deletes: P, V.L, V.P and V.S (DYN-1 … DYN-7).
+//! Dynamic parameters, which NC programs can create and delete: P, V.L, V.P and V.S
+//! (DYN-1 … DYN-7).
 //!
-//! Their number and their indices change, so the manual recommends reading a value by its name.
+//! The number and the indices of the parameters can change, so the manual recommends reading a
+//! value by the name of its parameter.
 //!
 //! ```
 //! use ads_cnc::address::Channel;

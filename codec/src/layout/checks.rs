@@ -17,8 +17,9 @@ impl Layout {
         true
     }
 
-    /// Whether the field with this name has the offset at which the rows before it end, if each of them has
-    /// its minimum length.
+    /// Whether the field with this name begins where the rows before it end: `offset` must be their
+    /// length with empty lists and texts, `per_item` the sum of the lengths of an item of each
+    /// list.
     pub(crate) const fn is_at(&self, name: &str) -> bool {
         let (mut fields, mut end, mut per_item) = (self.fields, 0_u32, 0_u32);
         while let [row, rest @ ..] = fields {
@@ -35,9 +36,9 @@ impl Layout {
         false
     }
 
-    /// Whether the maximum length of the stream leaves room for the maximum length of each row. A
-    /// list must fill this room except for a part of an item. A row whose maximum no decoder checks
-    /// must fill it exactly.
+    /// Whether the maximum length of the stream leaves room for the maximum length of each row, if
+    /// the other rows have their minimum lengths. A list must fill this room except for a part of
+    /// an item. A row whose maximum `Row::read` does not check must fill the room exactly.
     pub(crate) const fn is_filled(&self) -> bool {
         let (mut fields, mut before) = (self.fields, 0_u32);
         while let [row, rest @ ..] = fields {

@@ -28,7 +28,7 @@ impl Field {
         Self { subject, index }
     }
 
-    /// The field with this name in a declared stream.
+    /// The field with this name in a declared stream. Panics if there is no such field.
     pub(crate) const fn of<T: Declared>(name: &str) -> Self {
         let index = T::LAYOUT.index(name);
         assert!(index != u8::MAX, "the stream has no field of this name");
@@ -45,7 +45,7 @@ impl Field {
         Self { subject: Subject::Stream(stream), ..self }
     }
 
-    /// The stream as a whole, for errors of its length or end.
+    /// The stream as a whole, for example for errors of its length or end.
     pub const fn whole(stream: Stream) -> Self {
         Self::whole_subject(Subject::Stream(stream))
     }
@@ -110,12 +110,13 @@ impl Stream {
             .map(move |(index, _)| Field::new(Subject::Stream(self), index))
     }
 
-    /// All streams that have bytes: all but [`NoData`](Self::NoData).
+    /// All streams except [`NoData`](Self::NoData).
     pub fn all() -> impl Iterator<Item = Self> {
         Self::ALL.iter().copied()
     }
 
-    /// The stream with this name; `None` if there is no such stream.
+    /// The stream with this name; `None` for any other name, and for that of
+    /// [`NoData`](Self::NoData).
     pub fn by_name(name: &str) -> Option<Self> {
         Self::all().find(|stream| stream.layout().name == name)
     }

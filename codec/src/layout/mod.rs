@@ -1,8 +1,9 @@
-//! The field table of every stream, and a walk over the bytes of a stream by its table.
+//! The field table of every stream, a walk over the bytes of a stream by its table, and the inverse
+//! of a walk.
 //!
-//! An [`Error`](crate::Error) names the fields of these tables, and the documentation of each stream
-//! shows its table. A tool can use the tables to explain the bytes of any stream, as in the example.
-//! The [front page](crate#ids) explains IDs such as VAR-9.
+//! An [`Error`](crate::Error) in a stream names a field of its table, or the stream as a whole. A
+//! tool can use the tables to explain the bytes of any stream, as in the example. The
+//! [front page](crate#ids) explains IDs such as VAR-9.
 //!
 //! ```
 //! use ads_cnc::layout::Stream;

@@ -72,7 +72,7 @@ impl Layout {
         }
     }
 
-    /// The offset of the field with this name, as the manual prints it.
+    /// The [`offset`](FieldSpec::offset) of the field with this name.
     pub(crate) const fn offset(&self, name: &str) -> u32 {
         self.row(name).offset
     }
@@ -89,8 +89,8 @@ impl Layout {
         u8::MAX
     }
 
-    /// Whether the fields determine the end of the stream. If so, extra bytes are reported as `Trailing`,
-    /// not as `TooLong`.
+    /// Whether extra bytes are reported as `Trailing` and not as `TooLong`: for a stream of fixed
+    /// length, and for a number of one, two or four bytes.
     pub(crate) fn ends_itself(&self) -> bool {
         self.is_fixed() || self.fields.iter().any(|row| row.size == Size::Uns8To32)
     }
@@ -121,8 +121,8 @@ pub(super) const fn is_same(one: &str, other: &str) -> bool {
 pub struct FieldSpec {
     /// The field's name in errors, golden vectors and reports.
     pub name: &'static str,
-    /// The offset that the manual prints, in bytes, without the part that depends on a count or on
-    /// the length of a text.
+    /// The offset of the field in bytes, without the part that depends on a count or on the length
+    /// of a text.
     pub offset: u32,
     /// The number of bytes to add to `offset` for each counted item before the field.
     pub per_item: u32,
@@ -193,7 +193,7 @@ pub enum Size {
     NonZero,
     /// An unsigned number of one, two or four bytes, up to the end of the stream.
     Uns8To32,
-    /// Text in this number of bytes, padded with NULs.
+    /// Text in this number of bytes, up to its first NUL if it has one.
     Padded(u32),
     /// The rest of the stream.
     Rest {
@@ -242,7 +242,7 @@ impl Size {
     }
 }
 
-/// The type of a field on the wire, named as in the manuals and in ADS.
+/// The type of a field on the wire.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 3.1 and 4.3.
 ///

@@ -1,4 +1,4 @@
-//! The subject of an error: a stream, or a value that is not decoded from a stream.
+//! The subject of an error: a stream, or something else, such as an index group, a name or a value.
 
 use super::Stream;
 use super::field::Field;
@@ -9,8 +9,8 @@ macro_rules! subjects {
         $(#[$doc:meta])*
         $subject:ident $name:literal, $module:ident { $( $part:ident $part_name:literal, )+ }
     )+) => {
-        /// The subject of an [`Error`](crate::Error): a stream, or a value that is not decoded from
-        /// a stream.
+        /// The subject of an [`Error`](crate::Error): a stream, or something else, such as an index
+        /// group, a name or a value.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -89,7 +89,7 @@ subjects! {
         NUMBERS "numbers",
         NUMBER "number",
     }
-    /// The name of a variable, parsed into its parts.
+    /// The name of a variable, parsed into its parts or built from them.
     VariablePath "variable-path", variable_path {
         KIND "kind",
         PART "part",
@@ -103,7 +103,7 @@ subjects! {
         RESPONSE_STATE "response_state",
         RESPONSE "response",
     }
-    /// A value whose type is in another stream, such as a description.
+    /// A value whose type is not in its bytes but, for example, in a description.
     TypedValue "typed-value", typed_value {
         TYPE "type",
         SIZE "size",
@@ -115,7 +115,7 @@ subjects! {
         NUMBER "number",
         NEGATIVE "number",
     }
-    /// A text that is converted to CP1252.
+    /// A text that must be CP1252 without a NUL.
     Text "text", text {
         TEXT "text",
     }

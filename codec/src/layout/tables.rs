@@ -11,7 +11,7 @@ use crate::sda::ElementLength;
 use crate::stream::NoData;
 use crate::variable::{ExtendedDescription, ExtendedReply};
 
-/// Declares [`Stream`] and the table of each stream.
+/// Declares [`Stream`] and its access to the table of each stream.
 macro_rules! tables {
     ($( $(#[$doc:meta])* $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
         /// A stream: the bytes of a request, a reply or a header, which a table of fields
@@ -65,8 +65,8 @@ macro_rules! tables {
 
 crate::streams! { @documented tables }
 
-/// Declares the tables of types that are written by hand; src/io.rs lists the reasons. `NoData` has
-/// no rows.
+/// Declares the tables that `stream!` does not declare. Their types are written by hand: src/io.rs
+/// lists the reasons, except for `NoData`, which has no rows.
 macro_rules! by_hand {
     ($(
         $type:ty: $stream:ident $name:literal, $title:literal, $clause:literal, $(repeats $repeats:literal,)? max $max:expr,

@@ -28,13 +28,14 @@ pub struct Segment<'a> {
     pub item: u32,
     /// The offset of the bytes in the stream.
     pub offset: u32,
-    /// The bytes; empty for an empty value or text.
+    /// The bytes, including the NULs of a text; empty for a field without bytes.
     pub bytes: &'a [u8],
 }
 
 impl Stream {
-    /// Calls `visit` for each field in order, and for each item of a list, up to the end or the
-    /// first fault.
+    /// Calls `visit` for each field in order, up to the end or the first fault; for a list, calls
+    /// it for each item instead. The fields that an ADS error or an empty extended description
+    /// omits are not visited.
     ///
     /// # Errors
     /// Those of the stream's decoders.

@@ -16,7 +16,7 @@ pub(super) trait Address: Copy {
         rule.first()
     }
 
-    /// Parses an address that matches the rules.
+    /// Parses an address that matches the rules of the function.
     fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self>;
 }
 
@@ -39,7 +39,7 @@ impl Address for (Channel, ChannelAxis) {
     }
 
     fn offset(self, rule: OffsetRule) -> IndexOffset {
-        // This cannot fail, because the elements of `OffsetRule::OfAxis` have less than 16 bits.
+        // This cannot fail: the elements with `OffsetRule::OfAxis` in the table are 4, 5 and 6.
         self.1.offset(rule.first().get()).unwrap_or(rule.first())
     }
 

@@ -19,7 +19,8 @@ use crate::variable::{ValueRef, VariablePath};
 /// [`CncStr`], [`TextRef`], [`VariablePath`] and, with `alloc`, `&CncString` and `&Text`. The text is
 /// not copied.
 ///
-/// Any CP1252 text is accepted. To check the syntax of a name, use [`VariablePath::new`].
+/// Any CP1252 text without a NUL is accepted; the encoder of the request checks its length. To
+/// check the syntax of the name of a variable, use [`VariablePath::new`].
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1.
 ///
@@ -42,7 +43,8 @@ pub trait IntoName<'a> {
     /// The name as CP1252 text.
     ///
     /// # Errors
-    /// Those of [`CncStr::new`] for a `&str`. Types that contain CP1252 text cannot fail.
+    /// For a reference to a Rust string, those of [`CncStr::new`]. The conversion of a type that
+    /// contains CP1252 text does not fail.
     fn into_name(self) -> Result<CncStr<'a>, Error>;
 }
 
@@ -58,7 +60,7 @@ impl<'a> IntoName<'a> for CncStr<'a> {
     }
 }
 
-/// Converts the text without its end, because a request always ends the name with one NUL.
+/// Converts the text without its end, because a new request ends the name with one NUL.
 impl<'a> IntoName<'a> for TextRef<'a> {
     fn into_name(self) -> Result<CncStr<'a>, Error> {
         Ok(self.text())
@@ -87,13 +89,15 @@ impl<'a> IntoName<'a> for &'a Text {
 
 /// A value to write: a number, a `bool`, or the bytes of a value.
 ///
-/// **The Rust type determines the bytes.** Neither this crate nor the CNC can check them against the
-/// type of the variable: `7_f32` for an SGN32 writes 1 088 421 888. To reject a value of another type
-/// or size, use [`Shape::encode`] with the description of the variable.
+/// **The Rust type determines the bytes.** The bytes do not contain the type, so neither an
+/// operation nor the CNC can detect a wrong type of the right size: `7_f32` for an SGN32 writes
+/// 1 088 421 888. To reject a value of another type or size, use [`Shape::encode`] with the
+/// description of the variable.
 ///
 /// Encode an array or a text into a buffer first, with [`EncodeValue`](crate::value::EncodeValue).
-/// Pass bytes as a slice or a vector. An array such as `&[1, 2]` does not compile, because it would
-/// write two bytes whatever the type of the variable.
+/// Pass bytes as a slice or, with `alloc`, as a reference to a vector. A reference to an array,
+/// such as `&[1, 2]`, does not compile, because it would write two bytes whatever the type of the
+/// variable.
 ///
 /// ```compile_fail,E0277
 /// use ads_cnc::address::Channel;

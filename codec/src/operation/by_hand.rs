@@ -1,7 +1,7 @@
 //! The parts of operations that the table cannot express:
 //!
-//! - `ReadDescriptors`, `ReadElement`, `ReadObject`: the caller chooses the read length, which limits
-//!   the reply.
+//! - `ReadDescriptors`, `ReadElement`, `ReadObject`: the arguments of the constructor determine the
+//!   read length, which limits the reply.
 //! - `ReadElement`, `WriteElement`, `ReadObject`, `WriteObject`, `CountElements`: the constructors
 //!   reject addresses of other functions (SDA-12).
 //! - `FindInstance`: [`by_index`](FindInstance::by_index) changes the addressing of the class.
@@ -36,7 +36,7 @@ impl ReadDescriptors {
         None => 0,
     };
 
-    /// Reads `count` descriptors, starting at object `first`; objects are counted from 1.
+    /// Reads up to `count` descriptors, starting at object `first`; objects are counted from 1.
     ///
     /// If [`CountObjects`](super::CountObjects) returns 0, the list is empty: do not send a request.
     ///
@@ -68,7 +68,8 @@ impl ReadDescriptors {
         self.first
     }
 
-    /// The number of descriptors requested; never more than [`COUNT_MAX`](Self::COUNT_MAX).
+    /// The number of descriptors requested, at most [`COUNT_MAX`](Self::COUNT_MAX); 1 for a read
+    /// length that is not a multiple of 84 (assumed, COM-3).
     pub fn count(&self) -> u32 {
         match self.length.checked_rem(RECORD) {
             Some(0) => self.length.checked_div(RECORD).unwrap_or(1).min(Self::COUNT_MAX),
@@ -94,7 +95,8 @@ impl ReadDescriptors {
     }
 }
 
-/// Rejects an offset that belongs to a function, because it cannot be the offset of content (SDA-12).
+/// Rejects an address that belongs to a function other than access to content, because it cannot be
+/// the address of content (SDA-12).
 fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Error> {
     match Function::at(task, group, offset) {
         Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
@@ -102,7 +104,7 @@ fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Err
     }
 }
 
-/// The address of the content of a COM object, from its descriptor (COM-5).
+/// Checks the address of the content of a COM object, and parses its index group (COM-5).
 fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffset), Error> {
     const PLATFORM: ComGroup = ComGroup::platform(Access::Element);
     let (wanted, com) = match group.parts() {
@@ -117,8 +119,8 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     Ok((com, offset))
 }
 
-/// Rejects an element whose offset belongs to a function. The offset of the first element of an instance
-/// belongs to [`CountElements`](super::CountElements).
+/// Rejects an element whose address belongs to a function other than access to content. An offset
+/// that is a multiple of 0x10000 belongs to [`CountElements`](super::CountElements).
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
     content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
     Ok(element)
@@ -159,7 +161,8 @@ macro_rules! reads_content {
 reads_content! { ReadElement ReadObject }
 
 impl ReadObject {
-    /// Reads an object of a list, by its [`Descriptor`](crate::Descriptor) or [`DescriptorRef`].
+    /// Reads the content of an object, by its [`Descriptor`](crate::Descriptor) or
+    /// [`DescriptorRef`].
     ///
     /// ```
     /// use ads_cnc::Descriptor;
@@ -187,7 +190,8 @@ impl ReadObject {
         Self::new(object.index_group(), object.index_offset(), object.size())
     }
 
-    /// Reads the object with this group, offset and size, as in its descriptor.
+    /// Reads the content of the object with this group, offset and size in bytes, as in its
+    /// descriptor.
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for a group that does not address COM content; [`ErrorKind::Function`]
@@ -204,7 +208,7 @@ impl ReadObject {
 }
 
 impl<'a> WriteObject<'a> {
-    /// Writes this content to an object of a list, by its [`Descriptor`](crate::Descriptor) or
+    /// Writes this content to an object, by its [`Descriptor`](crate::Descriptor) or
     /// [`DescriptorRef`].
     ///
     /// # Errors
@@ -217,7 +221,7 @@ impl<'a> WriteObject<'a> {
         Self::new(object.index_group(), object.index_offset(), content)
     }
 
-    /// Writes to the object with this group and offset, as in its descriptor.
+    /// Writes this content to the object with this group and offset, as in its descriptor.
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for a group that does not address COM content; [`ErrorKind::Function`]
@@ -245,9 +249,10 @@ impl ReadElement {
     /// Reads the content of an element; `size` is the length of the content in bytes.
     ///
     /// # Errors
-    /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
-    /// element of an instance, which [`CountElements`] reads; [`ErrorKind::TooLong`] for a size
-    /// greater than [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX).
+    /// [`ErrorKind::Function`] for an element of the decoder whose index offset is that of a
+    /// function, and for an index offset that is a multiple of 0x10000, at which [`CountElements`]
+    /// reads the first element of an instance; [`ErrorKind::TooLong`] for a size greater than
+    /// [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX).
     pub fn new(address: ElementAddress, size: u32) -> Result<Self, Error> {
         Ok(Self { element: element(address)?, length: length(size)? })
     }
@@ -262,7 +267,8 @@ impl<'a> WriteElement<'a> {
     /// Writes this content to an element.
     ///
     /// # Errors
-    /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
+    /// [`ErrorKind::Function`] for an element of the decoder whose index offset is that of a
+    /// function, and for an index offset that is a multiple of 0x10000, which is that of the first
     /// element of an instance.
     pub fn new(address: ElementAddress, content: impl Into<WriteValue<'a>>) -> Result<Self, Error> {
         Ok(Self { element: element(address)?, content: content.into() })
@@ -280,10 +286,13 @@ impl<'a> WriteElement<'a> {
 }
 
 impl CountElements {
-    /// Reads the first element of an instance.
+    /// Reads the first element of an instance, such as
+    /// [`ObjectAddress::first_element`](crate::sda::ObjectAddress::first_element) returns. The
+    /// constructor does not check that the element is the first.
     ///
     /// # Errors
-    /// [`ErrorKind::Function`] for an element of the decoder that is another function (SDA-12).
+    /// [`ErrorKind::Function`] for an element of the decoder whose index offset is that of another
+    /// function (SDA-12).
     pub fn new(first: ElementAddress) -> Result<Self, Error> {
         let (group, offset) = (first.group(Attribute::Content), first.index_offset());
         match Function::at(Task::Sda, group, offset) {
@@ -305,7 +314,7 @@ impl FindInstance {
         Self { class: ClassGroup::object_address(class), channel, axis }
     }
 
-    /// Changes the query to addressing by index, which counts only the active channels and spindles.
+    /// Changes the query to addressing by index, which counts only the active channels (ADR-11).
     #[must_use]
     pub const fn by_index(mut self) -> Self {
         self.class.addressing = Addressing::Index;

@@ -9,7 +9,7 @@ use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 
-/// An ADS request that a CNC receives.
+/// An ADS request to a CNC: its port, service, address, read length and data.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.1 and 5.
 ///
@@ -73,8 +73,8 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, except access to content, which requires a
-    /// different service.
+    /// No function of the index group has this offset, except access to content with a service
+    /// other than that of the request.
     Offset(IndexOffset),
     /// The function requires another service.
     Service {
@@ -119,10 +119,12 @@ impl fmt::Display for DispatchError {
 impl core::error::Error for DispatchError {}
 
 impl<'a> Call<'a> {
-    /// Decodes the call to its function and arguments, by the first row of the function table that matches.
+    /// Finds the function of the call by the port, index group, index offset and service, and
+    /// decodes its arguments.
     ///
-    /// Both SDA and GEO serve the classes of the CNC (ADR-10, assumed). The server must check that its
-    /// reply fits the read length.
+    /// A function of the SDA task is also found at the port of the GEO task, because both tasks
+    /// serve the classes of the CNC (ADR-10, assumed). The server must check that its reply fits
+    /// the read length.
     ///
     /// ```
     /// use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -146,7 +148,8 @@ impl<'a> Call<'a> {
     /// ```
     ///
     /// # Errors
-    /// The first fault; port, group, offset, service and data are checked in this order.
+    /// The first fault; port, group, offset, service, data and read length are checked in this
+    /// order.
     pub fn dispatch(&self) -> Result<Request<'a>, DispatchError> {
         let task = Task::from_port(self.port).ok_or(DispatchError::Port(self.port))?;
         let mut error = DispatchError::Group(self.index_group);

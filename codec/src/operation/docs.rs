@@ -18,8 +18,8 @@ macro_rules! documented {
     (ReadDescriptors $($item:tt)+) => {
         /// Reads a range of descriptors of the objects in a list.
         ///
-        /// The read length determines the number of descriptors, of 84 bytes each. A length greater
-        /// than 84 that is not a multiple of 84 reads one descriptor (assumed, COM-3).
+        /// The read length determines the maximum number of descriptors, of 84 bytes each. A length
+        /// greater than 84 that is not a multiple of 84 reads one descriptor (assumed, COM-3).
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -61,7 +61,8 @@ macro_rules! documented {
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
         ///
-        /// A reply borrows from the received bytes; to keep it, use `to_owned`:
+        /// The reply borrows from the received bytes; to keep it longer than these bytes, use
+        /// `to_owned`, with the feature `alloc`:
         ///
         /// ```
         /// # #[cfg(feature = "alloc")] {
@@ -117,8 +118,8 @@ macro_rules! documented {
         $($item)+
     };
     (ReadByName $($item:tt)+) => {
-        /// Reads the value of a variable by its name. A name with indices selects one element of an
-        /// array.
+        /// Reads the value of a variable by its name. A name that ends in indices selects one
+        /// element of an array.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -149,12 +150,12 @@ macro_rules! documented {
         $($item)+
     };
     (WriteByName $($item:tt)+) => {
-        /// Writes a variable by its name. A name with indices selects one element of an array. **The
-        /// write may set the machine in motion.**
+        /// Writes a variable by its name. A name that ends in indices selects one element of an
+        /// array. **The write may set the machine in motion.**
         ///
-        /// The Rust type of the value determines the bytes, which the CNC cannot check: see
-        /// [`WriteValue`](super::WriteValue). To check the type, encode with the description of the
-        /// variable:
+        /// The Rust type of the value determines the bytes, whose type the CNC cannot check: see
+        /// [`WriteValue`](super::WriteValue). To check the type, encode the value with the
+        /// description of the variable:
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -180,7 +181,8 @@ macro_rules! documented {
     (DescribeExtended $($item:tt)+) => {
         /// Reads the extended description of a variable.
         ///
-        /// Only V.E variables have an extended description; the reply for other variables is empty.
+        /// V.E variables have an extended description; the reply for a V.G or V.A variable is empty
+        /// (VAR-16).
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -346,9 +348,10 @@ macro_rules! documented {
     (CountElements $($item:tt)+) => {
         /// Reads the number of element types of an instance, which is the content of its first element.
         ///
-        /// With the stride 0x1000 (platform axes of the HLD, E-01), a server cannot recognise the
-        /// first element of an axis: it dispatches this call as [`ReadElement`](super::ReadElement) of
-        /// four bytes.
+        /// [`Call::dispatch`] recognises a first element by its index offset, a multiple of
+        /// 0x10000. With the stride 0x1000, which the manuals print for a platform axis of the HLD
+        /// (E-01), the first element can have another offset: dispatch then returns
+        /// [`ReadElement`](super::ReadElement) with a read length of four bytes.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -365,7 +368,8 @@ macro_rules! documented {
     (ReadElement $($item:tt)+) => {
         /// Reads the content of an element.
         ///
-        /// The read length is the length attribute of the element: see [`ReadElementLength`].
+        /// The read length is the `size` that [`new`](Self::new) takes: use the length attribute of
+        /// the element, which [`ReadElementLength`] reads.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -376,7 +380,7 @@ macro_rules! documented {
         /// let op = ReadElement::new(feedhold, 1)?;
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_3301, 1));
         ///
-        /// // On the decoder, some element indices are functions for variables (SDA-12).
+        /// // On the decoder, some element indices are index offsets of functions (SDA-12).
         /// let function = ElementAddress::for_channel(Channel::new(1)?, Class::Decoder, 0x44)?;
         /// assert_eq!(ReadElement::new(function, 4).unwrap_err().kind(), ErrorKind::Function);
         /// # Ok::<(), ads_cnc::Error>(())
@@ -475,10 +479,10 @@ macro_rules! documented {
         $($item)+
     };
     (WriteProgramStream $($item:tt)+) => {
-        /// Writes NC text to the program stream of a channel. **The CNC executes it and moves the
-        /// machine.**
+        /// Writes NC text to the program stream of a channel. **The CNC executes the text, which
+        /// can move the machine.**
         ///
-        /// An error may be temporary: see [`Sender`](crate::streaming::Sender).
+        /// The ADS error of the reply may be temporary: see [`Ack`](crate::streaming::Ack).
         ///
         /// Manual: `stream-en`, sections 3.2 and 5.
         ///

@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::stream::{Decode, Encode};
 
 impl<'a> Call<'a> {
-    /// The call in a frame; `None` if its command is not Read, Write or ReadWrite. The state flags are
-    /// not checked.
+    /// The call in a frame; `None` if the command of the frame is not Read, Write or ReadWrite. The
+    /// state flags are not checked, so the data of a response is also decoded as a request.
     ///
     /// ```
     /// use ads_cnc::Encode;
@@ -32,7 +32,7 @@ impl<'a> Call<'a> {
     /// ```
     ///
     /// # Errors
-    /// Those of the decoder of the request.
+    /// Those of the decoders of the requests, such as [`ReadRequest`].
     pub fn from_frame(frame: &FrameRef<'a>) -> Result<Option<Self>, Error> {
         let port = frame.header().target.port;
         let (service, index_group, index_offset, read_length, data) = match frame.header().command {
@@ -57,7 +57,7 @@ impl<'a> Call<'a> {
 
 /// Encodes the request of the service: the data of a frame to the port of the call.
 ///
-/// A Read with data is rejected with [`Trailing`](crate::ErrorKind::Trailing), as by
+/// The encoder rejects a Read with data with [`Trailing`](crate::ErrorKind::Trailing), like
 /// [`dispatch`](Call::dispatch). The read length of a Write is not encoded.
 impl Encode for Call<'_> {
     fn encoded_len(&self) -> usize {

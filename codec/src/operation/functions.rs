@@ -1,17 +1,23 @@
-//! The function table: one row for each function, in the order of the manual. The types of a function
-//! and its dispatch are generated from its row.
+//! The function table: one row for each function. Macros generate the type of an operation, its
+//! implementation of [`Operation`] and its dispatch from its row.
 //!
-//! A row contains the function, its name in reports, ADS service, task and effect, index groups, index
-//! offsets, requirement, section; the parts of the address and, after `;`, the fields of the request,
-//! with their [`field!`] kinds; the stream of the request, built from these fields; the type of the
-//! reply.
+//! A row contains the function, its name in reports, ADS service, task and effect, index groups,
+//! index offsets, requirement, section; the origin of the constructor; the parts of the address
+//! and, after `;`, the fields of the request, with their [`field!`] kinds; the stream of the
+//! request, built from these fields; the type of the reply. A row of a Read has no fields and no
+//! stream of a request.
 //!
-//! - `plain`: the constructor cannot fail; `checked`: it can fail; `by_hand`: it is in `by_hand.rs`.
-//! - `asks 2048`: the read length, if it differs from the maximum length of the reply.
-//! - `sized length`: the caller chooses the read length.
+//! - `plain`: the constructor is generated and cannot fail; `checked`: the constructor is generated
+//!   and can fail; `by_hand`: the constructor is in `by_hand.rs`.
+//! - `asks 2048`: the read length, in a row whose read length is a constant other than the maximum
+//!   length of the reply.
+//! - `sized length`: the constructor computes the read length from its arguments.
 //!
-//! Dispatch selects the first row that matches the call. Access to content matches every offset of its
-//! groups, so its rows follow the other functions of the group (SDA-12).
+//! Dispatch tries the rows whose task, index groups and index offsets match the call, in the order
+//! of the table. If the service of a row is that of the call, dispatch selects the row. Otherwise,
+//! after a row of access to content it tries the next row, and at any other row it rejects the
+//! call. Access to content matches every offset of its groups, so its rows follow the other
+//! functions of these groups (SDA-12).
 
 use core::fmt;
 

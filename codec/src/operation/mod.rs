@@ -1,4 +1,4 @@
-//! The functions of a CNC: the address, the request and the reply of each.
+//! The documented functions of a CNC: the address, the request and the reply of each function.
 //!
 //! A client builds an [`Operation`], encodes it and sends the bytes over any transport:
 //!
@@ -16,7 +16,7 @@
 //! ```
 //!
 //! A server passes a received request to [`Call::dispatch`] and answers the [`Request`] with a
-//! [`Reply`]. A dispatched request encodes to the received data.
+//! [`Reply`] or an ADS error. A dispatched request encodes to the received data.
 
 mod address;
 mod argument;

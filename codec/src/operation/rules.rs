@@ -37,7 +37,7 @@ pub enum GroupRule {
 }
 
 impl GroupRule {
-    /// Whether the function exists in this group.
+    /// Whether this group is one of the groups of the rule.
     pub const fn contains(self, group: Group) -> bool {
         match (self, group) {
             // Platform axes are counted from 1; channel 0 is the platform.
@@ -64,7 +64,8 @@ impl GroupRule {
         }
     }
 
-    /// An example of an index group from the manuals, for the first channel if possible.
+    /// An index group that the rule contains, as an example. Its instance is 0 for
+    /// [`Instances`](Self::Instances), otherwise 1.
     pub const fn example(self) -> IndexGroup {
         match self {
             Self::ComObjects => com_group(Access::Object),
@@ -111,13 +112,13 @@ pub enum OffsetRule {
     AtLeast(u32),
     /// `axis * 0x10000` plus this element, for every axis from 1 on (VAR-26).
     OfAxis(u32),
-    /// The offset of the first element of an instance: of a channel, or of one of its axes with the stride
-    /// 0x10000.
+    /// All multiples of 0x10000: the offsets of the first elements of instances, including axes
+    /// with the stride 0x10000 but not axes with the stride 0x1000.
     FirstElement,
 }
 
 impl OffsetRule {
-    /// The smallest offset; for [`OfAxis`](Self::OfAxis), the element.
+    /// The first offset of the rule; for [`OfAxis`](Self::OfAxis), the element.
     pub(crate) const fn first(self) -> IndexOffset {
         IndexOffset::new(match self {
             Self::At(first) | Self::OfKind([first, ..]) | Self::AtLeast(first) => first,
@@ -126,7 +127,7 @@ impl OffsetRule {
         })
     }
 
-    /// Whether the function exists at this offset.
+    /// Whether this offset is one of the offsets of the rule.
     pub const fn contains(self, offset: IndexOffset) -> bool {
         match self {
             Self::At(at) => offset.get() == at,

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::ads::{AmsPort, Command};
 
-/// An ADS service.
+/// One of the three ADS services with which the functions of a CNC are called.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
 ///

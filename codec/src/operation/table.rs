@@ -35,7 +35,7 @@ pub struct FunctionSpec {
     pub request: Option<Stream>,
     /// The stream of the reply; `None` for a Write.
     pub reply: Option<Stream>,
-    /// The ID of the requirement that defines the function.
+    /// The ID of a requirement that describes the function.
     pub clause: &'static str,
     /// The section in `ads-en` 1.05 and `ads-de` 1.051; for another document, its name and the
     /// section; `online` for the vendors' public help pages.
@@ -43,8 +43,8 @@ pub struct FunctionSpec {
 }
 
 impl FunctionSpec {
-    /// Whether the function accesses content. Content may have any offset that no other function
-    /// has (SDA-12).
+    /// Whether the function reads or writes the content of an object or element. Content may have
+    /// any offset that no other function has (SDA-12).
     pub const fn is_content(&self) -> bool {
         matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
     }
@@ -86,9 +86,7 @@ macro_rules! functions {
             $how:ident ( $( $part:ident: $part_kind:ident ),+ $(; $( $field:ident: $field_kind:ident ),+ )? )
             $( $data:ident $body:tt )? => $reply:ty $(, asks $most:literal )? $(, sized $length:ident )?;
     )+) => {
-        /// A documented function.
-        ///
-        /// [`FunctionSpec::section`] is the section of the manual that documents the function.
+        /// A documented function. [`spec`](Self::spec) returns its row of the function table.
         ///
         /// ```
         /// use ads_cnc::operation::{AdsService, Function, Task};
@@ -106,10 +104,10 @@ macro_rules! functions {
         )+ }
 
         impl Function {
-            /// All functions.
+            /// All functions, in the order of the function table.
             pub const ALL: &'static [Self] = &[$( Self::$function, )+];
 
-            /// The function's row.
+            /// The row of the function in the function table.
             #[allow(elided_lifetimes_in_paths, reason = "a row names a type without its lifetime")]
             pub const fn spec(self) -> &'static FunctionSpec {
                 match self { $(

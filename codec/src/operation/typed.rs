@@ -1,4 +1,5 @@
-//! Typed operations: the trait, and the macro that declares an operation from its row in the table.
+//! Typed operations: the trait, and the macros that declare an operation from its row in the
+//! function table.
 
 use super::{AdsService, Call, Function};
 use crate::address::{IndexGroup, IndexOffset};
@@ -10,8 +11,9 @@ pub(super) mod sealed {
     pub trait Sealed {}
 }
 
-/// The parts of a call. Used as a trait object, so that all 30 operations share the code that builds a
-/// call; otherwise a program would contain a copy of this code for each operation.
+/// The parts of a call. This trait is used as a trait object, so that all 30 operations share the
+/// code that builds a call; otherwise a program would contain a copy of this code for each
+/// operation whose calls it builds.
 pub(super) trait Parts {
     fn index_group(&self) -> IndexGroup;
     fn index_offset(&self) -> IndexOffset;
@@ -126,20 +128,22 @@ pub trait Operation: sealed::Sealed {
     /// The index offset of the request.
     fn index_offset(&self) -> IndexOffset;
 
-    /// The read length: the maximum length of the reply in bytes; 0 for a Write.
+    /// The read length: the maximum number of data bytes that the CNC may return; 0 for a Write.
     fn read_length(&self) -> u32;
 
     /// The number of bytes that [`encode`](Self::encode) writes.
     fn encoded_len(&self) -> usize;
 
-    /// Writes the data of the request, which may be empty, to the front of `buf`.
+    /// Writes the data of the request, which may be empty, to the front of `buf`, and returns the
+    /// bytes written.
     ///
     /// # Errors
     /// A value that the function does not accept, or a buffer that is too small. On error,
     /// nothing is written.
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
-    /// Encodes the data into `buf` and returns it with port, service, address and read length.
+    /// Encodes the data of the request into `buf` and returns it with the port, service, address
+    /// and read length.
     ///
     /// # Errors
     /// Those of [`encode`](Self::encode).
@@ -153,7 +157,8 @@ pub trait Operation: sealed::Sealed {
     /// Decodes the data of the reply.
     ///
     /// # Errors
-    /// Those of the decoder of the reply, and an error for a reply longer than the read length.
+    /// Those of the decoder of the reply, and an error for a reply longer than the read length or
+    /// with more descriptors than [`ReadDescriptors::count`](super::ReadDescriptors::count).
     fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Self::Reply<'r>, Error> {
         Self::Reply::decode(data)
     }
@@ -230,7 +235,7 @@ macro_rules! operation {
         }
 
         impl $(<$a>)? $function $(<$a>)? {
-            /// Decodes a call whose address matches the rules.
+            /// Decodes a call whose address matches the rules of the function.
             fn dispatched<'c>(group: Group, call: &Call<'c>) -> Result<Request<'c>, DispatchError> {
                 let rule = const { Function::$function.spec().offset };
                 let ($( $part, )+) = Address::from_call(group, call.index_offset, rule)
@@ -270,7 +275,7 @@ macro_rules! operation {
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             pub struct $function $(<$a>)? {
                 $( #[doc = field!(doc $kind)] $vis $field: field!(ty $kind), )*
-                $( /// The read length.
+                $( /// The read length in bytes.
                 $vis $length: u32, )?
             }
         }

@@ -1,4 +1,5 @@
-//! The kinds of rows in the tables of streams: how to read, check and write each kind.
+//! Kinds of rows in the tables of streams: how to read, check and write each kind. Kinds that only
+//! `packed` or handwritten types have are not among them.
 
 #[cfg(feature = "arbitrary")]
 pub(crate) mod any;
@@ -16,8 +17,9 @@ use crate::layout::{Field, Size, Type};
 
 /// A kind of row.
 ///
-/// The fixed rows at the start of a stream are its head. One check of the length covers the whole head;
-/// each row is then read at its offset in the table.
+/// The fixed rows at the start of a stream are its head. One check of the length covers the whole
+/// head; each row of the head is then read at its offset in the table. The other rows are read from
+/// the bytes after the head, in order.
 pub(crate) trait Row {
     /// The type of the field in a borrowed type (a view).
     type View<'a>: Copy;
@@ -35,7 +37,8 @@ pub(crate) trait Row {
     ) -> Result<Self::View<'a>, Error>;
     /// The length of the encoded row in bytes, including the count of a list.
     fn len(view: Self::View<'_>) -> usize;
-    /// Rejects values that `read` would reject. The row, including its count, begins at offset `at`.
+    /// Rejects values that a decoder would reject, unless the check of the maximum length of the
+    /// stream rejects them. The row, including its count, begins at offset `at`.
     #[inline]
     fn check(_: Self::View<'_>, _: Field, _at: usize) -> Result<(), Error> {
         Ok(())

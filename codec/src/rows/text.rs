@@ -201,7 +201,8 @@ mod owned {
     use crate::rows::Pull;
     use crate::text::{CncString, Text};
 
-    /// Implements `Owned` for rows that are owned as a [`Text`], which keeps the bytes after the text.
+    /// Implements `Owned` for rows with the view [`TextRef`] and the owned type [`Text`], which
+    /// keeps the bytes after the text.
     macro_rules! texts {
         ($(
             [$($generics:tt)*] $row:ty, at most $max:ident,

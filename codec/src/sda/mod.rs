@@ -14,8 +14,8 @@
 //! | unit | base + 0x400 | [`ReadElementUnit`] | [`ElementTextRef`] |
 //! | write flag | base + 0x500 | [`ReadElementWriteFlag`] | [`ElementWriteFlag`] |
 //!
-//! The base is `0x120300` + `0x1000` × class + channel; for a spindle, it is `0x25300` + spindle.
-//! The group of the object address contains no channel or spindle.
+//! In logical addressing, the base is `0x120300` + `0x1000` × class + channel; for a spindle, it is
+//! `0x25300` + spindle. The group of the object address contains no channel or spindle.
 //!
 //! ```
 //! use ads_cnc::address::{Attribute, Class};

@@ -8,32 +8,34 @@ use crate::text::CncStr;
 /// A host of one or more services on the Service Interface of a channel.
 ///
 /// The host reads REQUEST_STATE. If the state is not 0, it reads UUID; if the UUID is that of one
-/// of its services, it reads REQUEST. It then reads the three variables again, because the program
-/// may have called another service between two reads. If the values are unchanged, the host returns
-/// the request in [`HostStep::Serve`] (SVC-2). When it has the answer, the host
-/// 1. reads the three variables once more, and drops the answer if a value has changed: the program
-///    gave up or called another service, or the CNC was reset,
+/// of its services, it reads REQUEST. It then reads the three variables again, because the NC
+/// program may have called another service between two reads. If the values are unchanged, the host
+/// returns the request in [`HostStep::Serve`] (SVC-2). After a call of [`answer`](Self::answer),
+/// the host
+/// 1. reads the three variables once more, and drops the answer if a value has changed, for example
+///    because the program gave up or called another service, or because the CNC was reset,
 /// 2. writes RESPONSE,
 /// 3. writes 0 to REQUEST_STATE, because it is not documented whether and when a CNC does so (SVC-4),
-/// 4. writes RESPONSE_STATE, for which the program waits (SVC-5). This write is last, because a write of
-///    REQUEST_STATE resets RESPONSE_STATE (SVC-3).
+/// 4. writes RESPONSE_STATE, for which the program waits (SVC-5, SVC-6). This write is last,
+///    because any write of REQUEST_STATE is assumed to reset RESPONSE_STATE (SVC-3).
 ///
 /// The order of the last two writes and the repeated reads are assumed. Between the last read and the
-/// writes, the program may still give up and make another request: the interface cannot distinguish
-/// the answers to the two requests, nor two requests with the same UUID, text and state.
+/// writes, the program may still give up and make another request: it may then take the answer to
+/// the first request for the answer to the second. The host does not distinguish two requests with
+/// the same UUID, text and state.
 ///
 /// # Failed steps
-/// [`step`](Self::step) returns the same step until the caller reports its completion with
-/// [`read`](Self::read), [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll).
-/// A failed read can be repeated. Report a failed write with [`failed`](Self::failed). The value may
-/// have been written and the program may have continued, so the host then reads the variables before it
-/// writes again.
+/// [`step`](Self::step) returns the same step until the caller reports its result with
+/// [`read`](Self::read), [`written`](Self::written), [`failed`](Self::failed),
+/// [`answer`](Self::answer) or [`poll`](Self::poll). A failed read can be repeated. Report a failed
+/// write with [`failed`](Self::failed). The value may have been written and the program may have
+/// continued, so the host then reads one or more of the variables before it writes again.
 ///
-/// One case cannot be detected: two hosts share a channel, and a write of RESPONSE_STATE by the first
-/// host is reported as failed but took effect. If the program then calls a service of the second host,
-/// and again a service of the first host while the first host reads, the first host writes the state
-/// again and ends a request that it has not served. To avoid this, use one host for all services of a
-/// channel.
+/// The host does not detect the following: two hosts share a channel, and a write of RESPONSE_STATE
+/// by the first host is reported as failed but took effect. If the program then calls a service of
+/// the second host, and again a service of the first host while the first host reads, the first
+/// host writes the state again and ends a request that it has not served. To avoid this, use one
+/// host for all services of a channel.
 ///
 /// After a reset of the CNC or on a new connection, call [`restart`](Self::restart).
 ///
@@ -69,7 +71,7 @@ pub struct Host<'s> {
     service: usize,
     request: ServiceText,
     request_state: u32,
-    /// The answer: the text and the state. The state is 0 as long as there is no answer.
+    /// The answer: the text and the state. While a request has no answer, the state is 0.
     response: ServiceText,
     response_state: [u8; 4],
     outcome: Option<Outcome>,
@@ -102,7 +104,7 @@ enum Phase {
 }
 
 impl Phase {
-    /// The variable to read in this phase.
+    /// The variable to read in this phase; `None` if the host does not read in this phase.
     const fn asks(self) -> Option<ServiceVariable> {
         Some(match self {
             Self::PollState | Self::CheckState | Self::LookCleared | Self::LookRequestState => {
@@ -132,7 +134,7 @@ impl Phase {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HostStep<'a> {
-    /// Read this variable and pass its value to [`Host::read`].
+    /// Read this variable and pass its value to [`Host::read`]; if this fails, repeat it.
     Read(ServiceVariable),
     /// Write this value to the variable, then call [`Host::written`] or [`Host::failed`].
     Write(ServiceVariable, &'a [u8]),
@@ -174,7 +176,8 @@ pub enum HostStep<'a> {
 pub enum Outcome {
     /// The answer was written.
     Answered,
-    /// The request was withdrawn; the answer was dropped or written only in part.
+    /// The variables no longer contained the request. The answer was dropped or written in part;
+    /// after a failed write of RESPONSE_STATE, it may also have been written completely.
     Abandoned,
 }
 
@@ -194,7 +197,7 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// The next step. Returns the same step until its completion is reported.
+    /// The next step. Returns the same step until the caller reports the result of the step.
     #[must_use = "the step has to be executed"]
     pub fn step(&self) -> HostStep<'_> {
         if let Some(variable) = self.phase.asks() {
@@ -216,8 +219,8 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// The outcome of the last answer; `None` before the first answer and while an answer is being
-    /// written.
+    /// The outcome of the last answer; `None` before the first answer, and after a call of
+    /// [`answer`](Self::answer) until the outcome of this answer is known.
     pub const fn outcome(&self) -> Option<Outcome> {
         self.outcome
     }
@@ -230,8 +233,8 @@ impl<'s> Host<'s> {
     /// - [`TooLong`](crate::ErrorKind::TooLong): a new request of more than 128 bytes including its
     ///   NUL.
     ///
-    /// After an invalid value, a host that looks for a request waits for the next
-    /// [`poll`](Self::poll); in any later phase, it reads the value again.
+    /// After an error, a host that looks for a request waits for the next [`poll`](Self::poll); in
+    /// any later phase, it reads the same variable again.
     pub fn read(&mut self, value: &[u8]) -> Result<(), Error> {
         let Some(variable) = self.phase.asks() else {
             return Ok(());
@@ -267,7 +270,8 @@ impl<'s> Host<'s> {
             Phase::CheckUuid => self.go_on(self.is_own(value), Phase::CheckRequest),
             Phase::CheckRequest => {
                 let next = if self.has_answer() { Phase::Respond } else { Phase::Serving };
-                // A text that is too long is an error, and differs from the request.
+                // `request()` is an error for a text that is too long, which differs from the
+                // request.
                 self.go_on(request() == Ok(self.request), next)
             }
             Phase::LookResponseState if state()?.to_le_bytes() == self.response_state => {
@@ -281,8 +285,8 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// The phase `next` if the values are unchanged; otherwise the phase after a request was
-    /// withdrawn.
+    /// The phase `next` if the value is still that of the request; otherwise the phase after the
+    /// end of the request.
     fn go_on(&mut self, is_unchanged: bool, next: Phase) -> Phase {
         match is_unchanged {
             true => next,
@@ -310,7 +314,8 @@ impl<'s> Host<'s> {
         Phase::Idle
     }
 
-    /// Answers the request that [`step`](Self::step) has returned. Does nothing without a request.
+    /// Answers the request that [`step`](Self::step) has returned. If the step is not
+    /// [`HostStep::Serve`], only checks the arguments.
     ///
     /// # Errors
     /// After an error, nothing is written, and the caller can pass another answer:
@@ -337,8 +342,8 @@ impl<'s> Host<'s> {
         };
     }
 
-    /// Reports that the step failed. A failed write may have taken effect, so the host reads the
-    /// interface before it writes again. A failed read remains the next step.
+    /// Reports that the step failed. A failed write may have taken effect, so the host reads one or
+    /// more of the variables before it writes again. Any other step remains the next step.
     pub fn failed(&mut self) {
         self.phase = match self.phase {
             Phase::Respond => Phase::CheckState,
@@ -355,8 +360,8 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// Discards the current request and its answer, and looks for a new request. A request that is still
-    /// in the variables is served again.
+    /// Discards the current request and its answer, and looks for a request. If the discarded
+    /// request is still in the variables, it is served again.
     pub fn restart(&mut self) {
         self.phase = Phase::PollState;
     }

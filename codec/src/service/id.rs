@@ -13,12 +13,12 @@ const HYPHENS: [usize; 4] = [8, 13, 18, 23];
 
 /// The UUID of a service, with its original case.
 ///
-/// A UUID has 8, 4, 4, 4 and 12 hexadecimal digits with hyphens between them, as in the examples;
-/// other forms are rejected (assumed). UUIDs are compared without regard to case (assumed, SVC-7); the
-/// case is kept.
+/// A UUID has 8, 4, 4, 4 and 12 hexadecimal digits with hyphens between them; other forms are
+/// rejected (assumed). UUIDs are compared without regard to case (assumed, SVC-7); the case is
+/// kept.
 ///
-/// Manual: `service-en` and `service-de` 1.03, section 2. In the example, the UUID in the NC program
-/// lacks a digit (E-21):
+/// Manual: `service-en` and `service-de` 1.03, section 2. In the NC program of the manuals, the
+/// UUID lacks a digit (E-21):
 ///
 /// ```
 /// use ads_cnc::service::ServiceId;

@@ -6,15 +6,15 @@
 //! | variable | type | meaning |
 //! |---|---|---|
 //! | [`V.G.SERVICE.UUID`](ServiceVariable::Uuid) | STRING | the called service: [`ServiceId`] |
-//! | [`V.G.SERVICE.REQUEST`](ServiceVariable::Request) | STRING, 128 bytes | the request |
+//! | [`V.G.SERVICE.REQUEST`](ServiceVariable::Request) | STRING, ≤ 128 bytes | the request |
 //! | [`V.G.SERVICE.REQUEST_STATE`](ServiceVariable::RequestState) | UNS32 | not 0 if a request is present |
 //! | [`V.G.SERVICE.RESPONSE_STATE`](ServiceVariable::ResponseState) | UNS32 | not 0 if a response is present |
-//! | [`V.G.SERVICE.RESPONSE`](ServiceVariable::Response) | STRING, 128 bytes | the response |
+//! | [`V.G.SERVICE.RESPONSE`](ServiceVariable::Response) | STRING, ≤ 128 bytes | the response |
 //!
-//! [`Host`] implements one or more external services on one channel: a state machine without I/O,
-//! clock or allocation. It returns the variable to read or write next. The caller accesses the
-//! variable, for example over ADS with [`ReadByName`](crate::operation::ReadByName), and reports the
-//! result.
+//! [`Host`] executes the protocol of the Service Interface for one or more services on one channel:
+//! it is a state machine without I/O, clock or allocation. It returns the next step, such as a
+//! variable to read or write. The caller executes the step, for example over ADS with
+//! [`ReadByName`](crate::operation::ReadByName), and reports the result.
 //!
 //! Manual: `service-en` and `service-de` 1.03, sections 1 and 2. CNC versions from V2.11.2030.01 and
 //! V3.1.3057.03 on have the Service Interface.

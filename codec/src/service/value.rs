@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind};
 use crate::limits::SERVICE_TEXT_MAX;
 use crate::text::CncStr;
 
-/// A text with its NUL, in a field of 128 bytes.
+/// A text with its NUL, at the start of 128 bytes; the bytes after the NUL are 0.
 #[derive(Clone, Copy)]
 pub(super) struct ServiceText {
     bytes: [u8; SERVICE_TEXT_MAX],
@@ -19,7 +19,7 @@ pub(super) struct ServiceText {
 impl ServiceText {
     pub(super) const EMPTY: Self = Self { bytes: [0; SERVICE_TEXT_MAX], len: 1 };
 
-    /// Checks that the text fits the field.
+    /// Copies a text; rejects a text that does not fit into 128 bytes with its NUL.
     pub(super) fn new(text: CncStr<'_>, variable: ServiceVariable) -> Result<Self, Error> {
         let len = text.len().saturating_add(1);
         let Some(len) =

@@ -6,7 +6,7 @@ use crate::layout::Field;
 use crate::layout::service;
 use crate::variable::VariableType;
 
-/// Declares [`ServiceVariable`] from one row per variable.
+/// Declares [`ServiceVariable`] from one row for each variable.
 macro_rules! service_variables {
     (
         $(#[$doc:meta])*
@@ -65,7 +65,7 @@ service_variables! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ServiceVariable {
-        /// The called service.
+        /// The UUID of the called service.
         Uuid: UUID, STRING;
         /// The text of the request.
         Request: REQUEST, STRING;

@@ -4,7 +4,8 @@ use core::fmt;
 
 use super::words::{LoopWord, ProgramEnd};
 
-/// A construct that is not permitted in a stream, or a line that would be lost.
+/// A construct that is not permitted in a stream, a line after a program end, or a comment block
+/// that does not end.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.
 ///
@@ -45,7 +46,8 @@ pub struct Diagnostic {
 pub enum DiagnosticKind {
     /// A word of a loop (STM-8).
     Loop(LoopWord),
-    /// `$GOTO` to a label that is in the same or an earlier line, but in no later line (STM-8).
+    /// `$GOTO` to a label that is in the same or an earlier line, but in no later line that was
+    /// checked together with it (STM-8).
     BackwardJump {
         /// The line of the label.
         to: u32,
@@ -64,7 +66,7 @@ pub enum DiagnosticKind {
 }
 
 impl DiagnosticKind {
-    /// The requirement that the text violates.
+    /// The ID of the requirement behind the diagnostic.
     pub const fn clause(self) -> &'static str {
         match self {
             Self::Loop(_) | Self::BackwardJump { .. } => "STM-8",

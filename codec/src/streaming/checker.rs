@@ -1,4 +1,4 @@
-//! The checks of a text, as a whole or packet by packet.
+//! The checks of a text, as a whole or part by part.
 
 use core::fmt;
 
@@ -9,14 +9,16 @@ use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 /// Checks a program that arrives in parts, such as the packets that a CNC receives.
 ///
 /// A checker reports the same diagnostics as [`Diagnostics`] for the whole text, and also program
-/// ends. It carries comment blocks, labels, program ends and line numbers over from one part to the
-/// next. Because it knows neither later lines nor all earlier lines, two differences remain:
+/// ends; it reports an open comment block only by [`open_comment`](Self::open_comment). It carries
+/// comment blocks, labels, program ends and line numbers over from one part to the next. Because it
+/// knows neither later lines nor all earlier lines, two differences remain:
 /// - A jump goes back if its label is in the same or an earlier line, and not in a later line *of the
-///   same part* (assumed). The split into parts therefore only affects a jump whose label occurs both
-///   before and after it.
-/// - The checker remembers at least the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels, if they have
-///   at most [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together. It does not detect a
-///   jump back to an older label.
+///   same part* (assumed). Apart from the next item, the split into parts therefore only affects a
+///   jump whose label occurs both before and after it.
+/// - Of the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) different labels up to the end of the part,
+///   the checker remembers at least those of the current program, if all of them have at most
+///   [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together; each label counts one
+///   character more than its digits or name. The checker can miss a jump back to an older label.
 ///
 /// A checker checks neither line ends, nor the length of lines, nor that all characters are ASCII.
 /// [`check_line_ends`](super::check_line_ends) checks line ends; [`NcText`](super::NcText) accepts any line
@@ -65,10 +67,11 @@ struct CheckerState {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CheckEvent {
-    /// A construct that is not permitted in a stream, or a line that would be lost.
+    /// A construct that is not permitted in a stream, or a line after a program end.
     Diagnostic(Diagnostic),
-    /// This line ends the program and streaming. The CNC discards the later lines that it has already
-    /// read; lines in the interface stay there (STM-10).
+    /// A program end. When the CNC executes it, the program and streaming end. The CNC discards the
+    /// later lines that it has already read; lines that are still in the interface stay there
+    /// (STM-10).
     ProgramEnd {
         /// The word that ends the program.
         end: ProgramEnd,
@@ -90,12 +93,13 @@ impl CheckEvent {
 }
 
 impl Checker {
-    /// The minimum number of recent labels that a checker remembers, if they have at most
-    /// [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together.
+    /// The number of recent different labels of which a checker remembers at least those of the
+    /// current program, if all of them have at most [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN)
+    /// characters together.
     pub const LABELS_KNOWN: usize = labels::LABELS;
 
-    /// The total number of characters up to which a checker remembers the last
-    /// [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels.
+    /// The total number of characters up to which [`LABELS_KNOWN`](Self::LABELS_KNOWN) holds; each
+    /// label counts one character more than its digits or name.
     pub const CHARACTERS_KNOWN: usize = labels::CHARACTERS;
 
     /// Creates a checker at the first line of a program.
@@ -114,12 +118,13 @@ impl Checker {
         CheckEvents { scan, judge: &mut self.judge }
     }
 
-    /// The number of lines checked so far.
+    /// The number of lines that were passed to [`check`](Self::check) so far.
     pub const fn lines(&self) -> u32 {
         self.state.lines
     }
 
-    /// The diagnostic for a comment block that is open; call this function after the last line.
+    /// The diagnostic for a comment block that is open, if there is one; call this function after
+    /// the last line.
     pub fn open_comment(&self) -> Option<Diagnostic> {
         self.state.open_comment()
     }
@@ -240,20 +245,22 @@ impl fmt::Debug for CheckEvents<'_> {
 ///   enabled).
 /// - A label is `N40:` or `[NAME]` at the start of a line. `/` may precede it; a block number may
 ///   precede `[NAME]`. `N040:` is the same label as `N40:` (assumed). Blanks before the colon are
-///   permitted (names and blanks: online). A label belongs to its program; each line that begins with
-///   `%` begins a program (online).
-/// - A jump goes forward if its label is in any later line. It goes back if the label is in the same
-///   or an earlier line, and not in a later line (assumed). A missing label causes no diagnostic,
-///   because a later text may contain it. A jump to an expression (`$GOTO NV.E.X`) is not checked.
+///   permitted (names and blanks: online). A label belongs to its program; each line outside a
+///   comment block that begins with `%`, after an optional `/` and block number, begins a program
+///   (online).
+/// - A jump goes forward if its label is in any later line of its program. It goes back if the
+///   label is in the same or an earlier line, and not in a later line (assumed). A missing label
+///   causes no diagnostic, because a later text may contain it. A jump to an expression
+///   (`$GOTO NV.E.X`) is not checked.
 /// - A program end is M2, M30, M17 or M29, with any leading zeros (M02: online, the others assumed),
 ///   and no `.` or `_` after the digits. It counts even if `$IF` or a jump may skip it (assumed),
 ///   because the lines after it are lost or remain when it is executed.
-/// - Each line with a program end causes at most one diagnostic, for the first later line that is
-///   neither blank nor a comment (assumed).
+/// - Each line with a program end causes at most one [`AfterEnd`](DiagnosticKind::AfterEnd), for
+///   the first later line that is neither blank nor a comment (assumed).
 /// - A line that is joined to the next line by `\` is checked as two lines (assumed).
 ///
-/// The text is read twice: first to record the last line of each label, then to find words. The labels
-/// need memory for their names, plus about 80 bytes each.
+/// The text is read twice: first to record the last line of each label, then to find words. In a
+/// text with many different labels, they need memory for their names, plus about 80 bytes each.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.
 ///

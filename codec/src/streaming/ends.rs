@@ -10,7 +10,7 @@ pub(super) const fn is_end(byte: u8) -> bool {
     matches!(byte, CR | LF)
 }
 
-/// Splits a text into its first line and the rest, which begins with the line end.
+/// Splits a text into its first line and the rest, which begins with the line end if there is one.
 pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
     let len = bytes.iter().position(|&byte| is_end(byte)).unwrap_or(bytes.len());
     bytes.split_at_checked(len).unwrap_or((bytes, &[]))
@@ -26,8 +26,8 @@ pub(super) const fn after_end(bytes: &[u8]) -> &[u8] {
 
 /// Checks that each line of received data ends in CR LF, as a CNC does when it reads its stream.
 ///
-/// Use this function in a server. The text of a client may have other line ends, which
-/// [`NcText::packets`](super::NcText::packets) replaces by CR LF.
+/// Use this function in a server. The text that a client sends may have other line ends, which are
+/// replaced by CR LF in its [`packets`](super::NcText::packets).
 ///
 /// Manual: `stream-en`, section 4.1 (STM-5).
 ///

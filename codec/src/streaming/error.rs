@@ -1,9 +1,11 @@
 //! Errors in lines.
 
-/// The error for a line that cannot be streamed: the position, and the expected and found characters.
+/// The error for a line that cannot be streamed, or for a wrong line end in received data: the
+/// position and the class of the fault.
 ///
-/// It is `Copy` and has 16 bytes. It describes the first fault of a text to be sent, which is
-/// detected before anything is sent, or of received data.
+/// It is `Copy` and has 16 bytes. It describes the first fault of a text to be sent, which
+/// [`NcText::new`](super::NcText::new) returns before anything is sent, or of received data, which
+/// [`check_line_ends`](super::check_line_ends) returns.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1, 3.2 and 4.1.
 ///
@@ -65,7 +67,7 @@ pub enum LineErrorKind {
 }
 
 impl LineErrorKind {
-    /// The requirement that the line violates.
+    /// The ID of the requirement that the line violates.
     pub const fn clause(self) -> &'static str {
         match self {
             Self::TooLong { .. } => "STM-20",

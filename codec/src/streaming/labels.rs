@@ -5,23 +5,25 @@ use alloc::vec::Vec;
 
 use super::scan::Label;
 
-/// The minimum number of recent labels that a checker remembers, if they have at most
-/// [`CHARACTERS`] characters together.
+/// The maximum number of labels of a generation of a `Checker`. The checker therefore remembers at
+/// least this number of recent different labels, except those that [`Labels::keep`] removes, if
+/// their keys have at most [`CHARACTERS`] bytes together.
 pub(super) const LABELS: usize = 8192;
 
-/// The total number of characters up to which a checker remembers the last [`LABELS`] labels.
+/// The number of bytes of the keys of a generation of a `Checker` at which the generation is full.
 pub(super) const CHARACTERS: usize = 256 * 1024;
 
-/// The last line of each label of the current program, and of earlier programs in the part of the
-/// text that is being checked.
+/// The last line of each recent label: of the programs in the part of the text that is being
+/// checked, and, from earlier parts, of the program that continues in this part.
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     recent: Generation,
-    /// The previous generation, discarded when the recent generation is full.
+    /// The previous generation. The recent generation replaces it when a label is recorded while
+    /// the recent generation is full.
     before: Generation,
     /// The maximum number of labels of a generation.
     labels: usize,
-    /// The maximum number of characters of a generation, without its last label.
+    /// The maximum number of characters of the keys of a generation, without its last label.
     characters: usize,
 }
 
@@ -60,7 +62,7 @@ impl Labels {
         self.recent.lines.get(&key).or_else(|| self.before.lines.get(&key)).copied()
     }
 
-    /// Removes the labels of other programs, which cannot be jump targets.
+    /// Removes the labels of other programs, which cannot be targets of jumps in later lines.
     pub(super) fn keep(&mut self, program: u32) {
         for generation in [&mut self.recent, &mut self.before] {
             let first = generation.lines.first_key_value().map(|((program, _), _)| *program);

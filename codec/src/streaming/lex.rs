@@ -1,7 +1,8 @@
-//! The tokens of a line.
+//! Functions that split a line of NC text into its tokens.
 
-/// The block number of a line, if it has one, and the text after it. A `/`, with or without digits,
-/// may precede the number. Blanks before and after each of them are skipped.
+/// The block number of a line, if it has one, and the text after the number. A `/`, with or without
+/// digits, may precede the number. Blanks before and after each of them are skipped. Without a
+/// number, the text is the line after the blanks and the `/`.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     let mut at = skip_while(line, is_blank);
     if let [b'/', after @ ..] = at {
@@ -22,13 +23,14 @@ pub(super) fn number_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     (!digits.is_empty()).then_some((digits, rest))
 }
 
-/// The name before the closing bracket, and the text after the bracket; `None` without a closing bracket.
+/// The name before the first closing bracket, without the white space around the name, and the text
+/// after the bracket; `None` without a closing bracket.
 pub(super) fn name_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     let (name, rest) = split_while(text, |&byte| byte != b']');
     Some((name.trim_ascii(), rest.get(1..)?))
 }
 
-/// The text after `#COMMENT` and `word`; `None` if the text does not start with these two words.
+/// The text after `#COMMENT`, blanks and `word`; `None` if the text does not start with them.
 pub(super) fn comment_command<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8]> {
     let (command, rest) = text.split_at_checked(b"#COMMENT".len())?;
     if command.first() != Some(&b'#') {
@@ -40,7 +42,7 @@ pub(super) fn comment_command<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8
     (is && found.eq_ignore_ascii_case(word)).then_some(rest)
 }
 
-/// Skips blanks and comments.
+/// Skips blanks and the comments that begin with `;` or `(`.
 pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     loop {
         match rest {
@@ -52,8 +54,9 @@ pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     }
 }
 
-/// Skips bytes that cannot begin a word of interest: numbers, signs, and addresses of one letter such as X.
-/// Most lines only consist of such bytes.
+/// Skips text that cannot begin a word of interest: numbers, signs, and addresses of one letter
+/// such as X. Many lines consist only of such text, which is skipped faster than by the scan of
+/// words.
 pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
     while let [byte, after @ ..] = rest {
         rest = match char_kind(*byte) {
@@ -73,12 +76,12 @@ pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
 /// A class of bytes, by the words that can begin with them.
 #[derive(Clone, Copy)]
 enum CharKind {
-    /// Begins no word.
+    /// Begins no text that must be examined.
     Sign,
     Digit,
     /// Begins an address of one letter, or a longer word.
     Letter,
-    /// Begins a word that must be checked.
+    /// May begin text that must be examined: a word of interest, a path, quoted text or a comment.
     Other,
 }
 
@@ -93,7 +96,8 @@ const fn char_kind(byte: u8) -> CharKind {
     }
 }
 
-/// The text after the closing parenthesis; empty if the parenthesis is not closed.
+/// The text after the parenthesis that closes one opened before `rest`; empty if no parenthesis
+/// closes it.
 pub(super) fn after_parentheses(mut rest: &[u8]) -> &[u8] {
     let mut open = 1_u32;
     while let Some((&byte, after)) = rest.split_first() {

@@ -10,13 +10,13 @@
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
 //! A packet consists of whole lines of ASCII text, each ended by CR LF, without a NUL and without a
-//! leading length (STM-4, STM-7). The module does no I/O; only `ProgramStream`, `Diagnostics` and
-//! `Checker` allocate.
+//! leading length (STM-4, STM-7). The module does no I/O. Only `ProgramStream`, `Diagnostics`,
+//! `Checker` and its iterator `CheckEvents`, all with the feature `alloc`, allocate memory.
 //!
 //! ```
 //! use ads_cnc::streaming::{Ack, NcText, Sender};
 //!
-//! // All faults of the text are detected before the first packet is sent.
+//! // Check the lines and the NC words of the whole text before the first packet is sent.
 //! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
 //! # #[cfg(feature = "alloc")]
 //! assert_eq!(text.diagnostics().next(), None);

@@ -5,7 +5,7 @@ use crate::limits::STREAM_PACKET_MAX;
 
 /// The packets of a text: whole lines, each ended by CR LF, as many as fit into 992 bytes.
 ///
-/// All packets together are the text with CR LF after each line. Text whose lines already end in CR LF
+/// All packets together are the text with CR LF after each line. Text whose lines all end in CR LF
 /// is not copied: its packets are slices of the text. A line that is joined to the next line by `\`
 /// is treated like any other line, so the two lines may be in different packets (assumed).
 ///
@@ -40,7 +40,7 @@ pub(super) enum PacketBytes<'a> {
 }
 
 impl<'a> Packets<'a> {
-    /// `crlf`: whether all line ends in `rest` are CR LF.
+    /// Creates the packets of `rest`; `crlf` is whether all line ends in `rest` are CR LF.
     pub(super) const fn new(rest: &'a [u8], crlf: bool) -> Self {
         Self { rest, crlf }
     }
@@ -50,7 +50,7 @@ impl<'a> Packets<'a> {
         self.rest
     }
 
-    /// The next packet, in `buf` or in the text itself; `None` after the last line.
+    /// The next packet, copied to `buf` or borrowed from the text; `None` after the last line.
     pub fn next_into<'b>(&mut self, buf: &'b mut [u8; STREAM_PACKET_MAX]) -> Option<&'b [u8]>
     where
         'a: 'b,
@@ -83,7 +83,8 @@ impl<'a> Packets<'a> {
         }
         let reach = match self.rest.get(..STREAM_PACKET_MAX) {
             Some(reach) => reach,
-            // The last packet. Copy it if its last line lacks a line end and there is room for CR LF.
+            // The last packet. If its last line lacks a line end, the packet must be copied,
+            // because there is room for CR LF.
             None if self.rest.len() < STREAM_PACKET_MAX.saturating_sub(1) => {
                 self.rest.ends_with(&[LF]).then_some(self.rest)?
             }

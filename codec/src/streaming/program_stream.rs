@@ -5,8 +5,8 @@ use crate::declare::stream;
 stream! {
     /// The data of one write to the program stream.
     ///
-    /// The CNC checks that the lines are complete when it reads them (STM-5).
-    /// [`Sender`](super::Sender) returns complete lines.
+    /// Neither the decoder nor the encoder checks that the lines are complete: the CNC does when it
+    /// reads them (STM-5). [`Sender`](super::Sender) returns complete lines.
     ///
     /// Manual: `stream-en`, sections 3.1, 3.2 and 4.1.
     ///

@@ -19,15 +19,15 @@ pub(super) struct Token<'a> {
 }
 
 pub(super) enum Word<'a> {
-    /// The start of the code of a line: the first text that is neither blank nor comment. A `Goto`, `Loop`
-    /// or other word may begin at the same position.
+    /// The start of the code of a line: the first text that is neither blank nor comment. A word of
+    /// another variant may begin at the same position.
     Code,
     Goto(Label<'a>),
     Loop(LoopWord),
     End(ProgramEnd),
 }
 
-/// A label and its program, which is the number of lines so far that begin with `%`.
+/// A label and its program, which is the number of lines so far that begin a program with `%`.
 #[derive(Clone, Copy)]
 pub(super) struct Label<'a> {
     program: u32,
@@ -53,9 +53,9 @@ impl Label<'_> {
 pub(super) struct ScanState {
     /// The number of lines so far.
     pub(super) lines: u32,
-    /// The number of lines so far that begin with `%`.
+    /// The number of lines so far that begin a program with `%`.
     pub(super) program: u32,
-    /// The start of the open comment block.
+    /// The start of the open comment block; `None` if no block is open.
     pub(super) block: Option<Position>,
 }
 
@@ -73,11 +73,11 @@ pub(super) struct Scan<'a> {
     /// The rest of the current line.
     rest: &'a [u8],
     stage: Stage,
-    /// Whether it is known that the rest of the line has no closing bracket.
+    /// Whether it is known that the rest of the current line has no closing bracket.
     open: bool,
-    /// The rest of the line after its block number.
+    /// The current line after its block number.
     body: &'a [u8],
-    /// The label of the line, and the text after it.
+    /// The label at the start of the current line, and the text after the label.
     label: Option<(Label<'a>, &'a [u8])>,
     program: u32,
     /// The start of the open comment block.
@@ -185,7 +185,8 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// The first word of a line with code.
+    /// Skips the title of a program, or the block number and the label of another line; returns
+    /// [`Word::Code`].
     fn head(&mut self) -> Word<'a> {
         match (self.stage, self.label) {
             (Stage::Title, _) => self.rest = &[],
@@ -200,7 +201,7 @@ impl<'a> Scan<'a> {
         Word::Code
     }
 
-    /// The word that begins at the current position, if it is of interest.
+    /// Skips the text that begins at the current position; returns the word if it is of interest.
     fn word(&mut self, first: u8, after: &'a [u8]) -> Option<Word<'a>> {
         match first {
             b'$' => {
@@ -235,7 +236,8 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// An address with its number, the name of a variable, or a word of letters.
+    /// Skips an address with its number, the name of a variable, the call of a subroutine or a word
+    /// of letters; returns a program end.
     fn letters(&mut self) -> Option<Word<'a>> {
         let (letters, after) = split_while(self.rest, u8::is_ascii_alphabetic);
         match after {
@@ -271,7 +273,7 @@ impl<'a> Scan<'a> {
         None
     }
 
-    /// The label of a `$GOTO`; `None` for an expression.
+    /// Skips the label after `$GOTO` and returns it; `None` for an expression or any other text.
     fn target(&mut self) -> Option<Label<'a>> {
         let at = skip_while(self.rest, is_blank);
         let (label, rest) = match at {

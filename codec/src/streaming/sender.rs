@@ -28,16 +28,17 @@ use crate::limits::STREAM_PACKET_MAX;
 pub enum Ack {
     /// The data was accepted.
     Accepted,
-    /// The data cannot be accepted at present; write it again.
+    /// The CNC cannot accept the data at present; write the same data again later.
     Busy,
-    /// The data will not be accepted.
+    /// The CNC does not accept the data; do not write the data again.
     Rejected,
 }
 
 impl Ack {
     /// The acknowledgement for the ADS result of a write. Which results a CNC returns is not documented.
-    /// It is assumed that an error about service, address, access or size rejects the data, and that any
-    /// other error means that the CNC is busy (STM-6, ADS-7).
+    /// It is assumed that an error about the target port or machine, the service, index group,
+    /// index offset, access or size rejects the data, and that any other error means that the CNC
+    /// is busy (STM-6, ADS-7).
     ///
     /// ```
     /// use ads_cnc::ads::AdsError;
@@ -85,7 +86,7 @@ pub enum SenderState {
     Waiting,
     /// A packet was rejected; no more packets are returned.
     Stopped,
-    /// All packets were accepted.
+    /// All packets were accepted, or the text has no lines.
     Done,
 }
 
@@ -153,7 +154,7 @@ pub struct Sender<'a> {
     text: NcText<'a>,
     /// The packets that the CNC has not accepted yet.
     packets: Packets<'a>,
-    /// The packet in flight or waiting for a retry, and the packets after it.
+    /// The packet that is in flight, waits for a retry or was rejected, and the packets after it.
     in_flight: Option<(PacketBytes<'a>, Packets<'a>)>,
     state: SenderState,
     sent: Progress,

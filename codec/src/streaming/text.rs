@@ -35,7 +35,8 @@ pub struct NcText<'a> {
 }
 
 impl<'a> NcText<'a> {
-    /// Checks the whole text, so that its packets can be sent without further checks.
+    /// Checks the length and the characters of all lines, so that each line fits into a packet. Use
+    /// `diagnostics`, with the feature `alloc`, to check the NC words.
     ///
     /// # Errors
     /// The first fault: a line of more than 990 characters, a byte that is not ASCII, or a NUL.
@@ -83,8 +84,8 @@ impl<'a> NcText<'a> {
         Packets::new(self.bytes, self.crlf)
     }
 
-    /// The diagnostics of the text: constructs that are not permitted in a stream, and lines that
-    /// would be lost.
+    /// The diagnostics of the text: constructs that are not permitted in a stream, lines after a
+    /// program end, and a comment block that does not end.
     #[cfg(feature = "alloc")]
     pub fn diagnostics(&self) -> Diagnostics<'a> {
         Diagnostics::new(*self)

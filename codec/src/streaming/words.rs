@@ -1,4 +1,4 @@
-//! The words that are not permitted in a stream, or end it.
+//! The words of loops, which are not permitted in a stream, and the words that end a program.
 
 use core::fmt;
 
@@ -65,7 +65,7 @@ impl fmt::Display for LoopWord {
     }
 }
 
-/// A word that ends a program, and with it streaming (STM-10).
+/// A word that ends the streamed program, and with it streaming (STM-10).
 ///
 /// Manual: `stream-en`, section 2.2.
 ///

@@ -27,7 +27,8 @@ pub struct CncStr<'a>(Source<'a>);
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bytes(&'a [u8]),
-    /// A Rust string with a character outside ASCII. All its characters have CP1252 bytes.
+    /// A Rust string with a character outside ASCII, or a part of such a string. All its characters
+    /// have CP1252 bytes.
     Str(&'a str),
 }
 
@@ -171,7 +172,7 @@ fn put(text: &str, out: &mut [u8]) {
     out.iter_mut().zip(bytes).for_each(|(slot, byte)| *slot = byte);
 }
 
-/// An iterator over the characters of a [`CncStr`].
+/// An iterator over the characters of a text, for example of a [`CncStr`].
 ///
 /// ```
 /// use ads_cnc::CncStr;

@@ -22,7 +22,7 @@ pub fn cp1252_to_char(byte: u8) -> char {
     high.copied().unwrap_or(char::from(byte))
 }
 
-/// The CP1252 byte of a character; `None` if the code page does not contain it.
+/// The byte that [`cp1252_to_char`] converts to this character; `None` if there is no such byte.
 ///
 /// ```
 /// assert_eq!(ads_cnc::text::char_to_cp1252('ß'), Some(0xDF));

@@ -3,7 +3,7 @@
 //! | | borrowed | owned (feature `alloc`) |
 //! |---|---|---|
 //! | a text without a NUL | [`CncStr`] | `CncString` |
-//! | a field of a stream: a text, its NUL and the bytes after the NUL | [`TextRef`] | `Text` |
+//! | a field of a stream: a text, its NUL if any, and the bytes after it | [`TextRef`] | `Text` |
 //!
 //! ```
 //! use ads_cnc::{CncStr, TextRef};

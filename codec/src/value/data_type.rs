@@ -7,7 +7,7 @@ use crate::text::CncStr;
 
 /// Declares the codes of the types of variables, and [`DataType`], from one table.
 ///
-/// The name of a type that variables do not use is a string literal.
+/// In the table, the name of a type that variables do not use is a string literal.
 macro_rules! data_types {
     (
         $(#[$code_doc:meta])*
@@ -104,7 +104,8 @@ data_types! {
     VariableType;
     /// The type of a value of a variable, an object or an element.
     ///
-    /// BYTE, WORD, DWORD and LWORD are assumed to be unsigned. The manuals do not define sizes (GEN-5).
+    /// BYTE, WORD, DWORD and LWORD are assumed to be unsigned. The manuals do not define the sizes
+    /// of all types (GEN-5).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.2.1 and 4.3.2.
     ///

@@ -1,4 +1,4 @@
-//! Methods of descriptions, descriptors and values that decode a value by its type.
+//! Methods of descriptions, descriptors and values for decoding a value by its type.
 
 use super::shape::known;
 use super::{DataType, Element, Elements, Shape};
@@ -54,7 +54,7 @@ impl<'a> ValueRef<'a> {
     /// The elements of a value of this type and these dimensions; for a single element,
     /// `dimensions` is empty.
     ///
-    /// [`DescriptionRef::elements`] also checks the size in a description.
+    /// [`DescriptionRef::elements`] also checks the size in the description.
     ///
     /// ```
     /// use ads_cnc::{Decode, Element, U32List, ValueRef, VariableType};

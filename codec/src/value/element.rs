@@ -1,4 +1,4 @@
-//! Elements of a type that is known at run time.
+//! Elements of a type that is known only at run time.
 
 use core::fmt;
 use core::iter::FusedIterator;
@@ -65,7 +65,8 @@ macro_rules! element {
                 #[doc = concat!("A value of the type [`DataType::", stringify!($variant), "`].")]
                 $variant($number),
             )+
-            /// Text up to its first NUL or to the end of its bytes (VAR-22, assumed).
+            /// Text up to its first NUL or to the end of its bytes (VAR-22, assumed), and the bytes
+            /// after the NUL.
             String(TextRef<'a>),
         }
 
@@ -139,11 +140,12 @@ impl<'a> Elements<'a> {
     /// The elements of a value with this type and these dimensions; for a single element,
     /// `dimensions` is empty.
     ///
-    /// In an array of texts, all texts have the same number of bytes (assumed).
+    /// In an array of STRING, all texts have the same number of bytes (assumed).
     ///
     /// # Errors
     /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] if the number of bytes is not the size of
-    /// the elements; [`ErrorKind::Mismatch`] if the bytes cannot be divided equally among the texts.
+    /// the elements; [`ErrorKind::Mismatch`] if the bytes of several texts cannot be divided
+    /// equally among them, with at least one byte for each text.
     pub fn new(
         data_type: DataType,
         dimensions: U32List<'a>,

@@ -10,7 +10,7 @@ use crate::layout::{ADS_DATA, Subject};
 use crate::text::{CncStr, TextRef};
 
 /// A value that can be encoded: a number, a `bool` or [`Boolean`](super::Boolean), a slice or an array
-/// of these, a text, an [`Element`] or [`Elements`].
+/// of these, a text ([`CncStr`] or [`TextRef`]), an [`Element`] or [`Elements`].
 ///
 /// The bytes are the value in a request, or the content of an object or element. A [`CncStr`] is
 /// written with one NUL, a [`TextRef`] with the end that it contains.
@@ -45,9 +45,10 @@ pub trait EncodeValue: sealed::Sealed {
 
     /// Writes the value to the front of `buf` and returns the bytes written.
     ///
-    /// This does not check the type or the number of elements: see
-    /// [`Shape::encode`](super::Shape::encode). The encoder of a request checks its limits: a value
-    /// has at most 2040 bytes in a request by handle, and 2047 in a request by name.
+    /// This does not check the type or the number of elements against a description: see
+    /// [`Shape::encode`](super::Shape::encode). The encoder of a request checks the limits of the
+    /// request: a value has at most 2040 bytes in a request by handle, and 2047 in a request by
+    /// name.
     ///
     /// # Errors
     /// [`ErrorKind::BufferTooSmall`], and [`ErrorKind::TooLong`] for a value of more than
@@ -126,7 +127,8 @@ encode_value! {
     /// Encodes one number or BOOLEAN.
     @T T, |item| T::TYPE, 1, size_of::<T::Wire>(),
     |buf| fill(item.value_len(), buf, |out| out.put(item.to_wire().as_bytes()));
-    /// Encodes all elements of an array; the last index varies fastest (VAR-21, assumed).
+    /// Encodes the numbers in the order of the slice; in an array with several dimensions, the last
+    /// index varies fastest (VAR-21, assumed).
     @T [T], |items| T::TYPE, items.len(), items.len().saturating_mul(size_of::<T::Wire>()),
     |buf| fill(items.value_len(), buf, |out| {
         items.iter().for_each(|item| out.put(item.to_wire().as_bytes()));

@@ -14,14 +14,14 @@
 //! | read a structure of your own | [`Reader`], [`content_error`] |
 //! | encode a value | [`EncodeValue`], [`Shape::encode`] |
 //!
-//! Only vectors and strings allocate. Bytes are little-endian (GEN-1, assumed) and need not be
-//! aligned. The order of the elements with more than one dimension is not documented. This crate
-//! **assumes** row-major order: the last index varies fastest (VAR-21). It also assumes that each text
-//! in an array of STRING has the same number of bytes.
+//! Only the functions that return vectors or strings allocate. Bytes are little-endian (GEN-1,
+//! assumed) and need not be aligned. The order of the elements with more than one dimension is not
+//! documented. This crate **assumes** row-major order: the last index varies fastest (VAR-21). It
+//! also assumes that each text in an array of STRING has the same number of bytes.
 //!
 //! Errors have the subject `typed-value`, except those of [`Reader`] and [`content_error`]. For a
-//! wrong index or an empty dimension, the offset of the error is the position of the dimension,
-//! from 0. The table of [`DataType`] lists the numbers of types in errors.
+//! wrong index in a list of indices, or an empty dimension, the offset of the error is the position
+//! of the dimension, from 0. The table of [`DataType`] lists the numbers of types in errors.
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};

@@ -12,10 +12,11 @@ use crate::text::TextRef;
 /// The field with the bytes of a content, for errors.
 const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
-/// Reads the members of a structure in sequence, without a panic and without a copy.
+/// Reads the members of a structure in sequence, without a panic and without an allocation.
 ///
 /// Use it to implement [`Decode`](crate::Decode) for an object or element whose type is a structure of
-/// your application. Errors have the field of the content and the offset of the member.
+/// your application. The error for a missing member has the field `content` of the stream `content`
+/// and the offset of the member.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.2 and 2.2.2.
 ///

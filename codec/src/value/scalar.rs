@@ -79,7 +79,7 @@ macro_rules! items {
 
 numbers!(items!);
 
-/// Any byte but 0 is decoded as TRUE. TRUE is encoded as 1. [`Boolean`] keeps the byte.
+/// Any byte but 0 is decoded as `true`, which is encoded as 1. [`Boolean`] keeps the byte.
 impl Scalar for bool {
     const TYPE: DataType = DataType::Boolean;
 }

@@ -43,12 +43,14 @@ pub struct Shape<'a> {
 impl<'a> Shape<'a> {
     /// The shape of a value of `size` bytes; for a single element, `dimensions` is empty.
     ///
-    /// In an array of STRING, all texts have the same number of bytes, at least one (assumed).
+    /// In an array of two or more STRINGs, all texts have the same number of bytes, at least one
+    /// (assumed).
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for a wrong size. [`Error::expected`] is the size of the elements,
     /// or `u32::MAX` if that size exceeds 32 bits; for STRING, it is `size` rounded down to a
-    /// multiple of the number of elements, but at least this number. [`Error::found`] is `size`.
+    /// multiple of the number of elements, but at least this number, or `u32::MAX` if this number
+    /// exceeds 32 bits. [`Error::found`] is `size`.
     pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
         if let Some(each) = data_type.size() {
@@ -113,7 +115,7 @@ impl<'a> Shape<'a> {
         self.count
     }
 
-    /// The size of one element in bytes; for a STRING, the maximum size including its NUL.
+    /// The size of one element in bytes; for a single STRING, the maximum size including its NUL.
     pub const fn element_size(&self) -> u32 {
         self.each
     }
@@ -137,10 +139,12 @@ impl<'a> Shape<'a> {
 
     /// The elements of a value of this shape.
     ///
-    /// A single STRING may have any length, because the length of its reply is not documented (VAR-25).
+    /// A single STRING may have any length, because the length of the reply for a STRING is not
+    /// documented (VAR-25).
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] for a value of a different size.
+    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] for any other value of a different
+    /// size.
     pub fn elements(&self, bytes: &'a [u8]) -> Result<Elements<'a>, Error> {
         if self.data_type == DataType::String && self.count == 1 {
             return Elements::new(self.data_type, self.dimensions, bytes);
@@ -158,8 +162,8 @@ impl<'a> Shape<'a> {
 
     /// Encodes a value of this shape to the front of `buf`, for a request or as content.
     ///
-    /// A STRING is written with the end of its [`TextRef`], a [`CncStr`] with one NUL. A single STRING
-    /// may be shorter than the size of the shape.
+    /// A [`TextRef`] is written with the end that it contains, a [`CncStr`] with one NUL. A single
+    /// STRING may be shorter than the size of the shape.
     ///
     /// ```
     /// use ads_cnc::value::{DataType, Shape};
@@ -202,8 +206,8 @@ impl<'a> Shape<'a> {
         value.encode_value(buf)
     }
 
-    /// Encodes texts, each with its NUL. Several texts are padded with NULs to the size of an
-    /// element (assumed); a single text is not padded.
+    /// Encodes texts, each with its NUL. If there are several texts, each is padded with NULs to
+    /// the size of an element (assumed); a single text is not padded.
     ///
     /// ```
     /// use ads_cnc::value::{DataType, Shape};

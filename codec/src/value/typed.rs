@@ -1,4 +1,4 @@
-//! Numbers of a type that is known at compile time.
+//! Numbers of a type that is known at compile time, and conversions of elements to Rust types.
 
 use zerocopy::FromBytes as _;
 
@@ -49,7 +49,7 @@ macro_rules! typed_reads {
         ///
         /// Only the number of bytes is checked.
         #[doc = $checked]
-        /// returns [`Elements`], whose methods also check the type.
+        /// returns [`Elements`], whose methods `items`, `copy_to` and `to_vec` also check the type.
         ///
         /// ```
         #[doc = $example]
@@ -65,10 +65,10 @@ macro_rules! typed_reads {
             /// The number at this index, from 0.
             ///
             /// # Errors
-            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
-            /// of the type's size, [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for an
-            /// index after the last number, [`ErrorKind::Missing`](crate::ErrorKind::Missing) if there
-            /// are no bytes.
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the number of bytes is not
+            /// a multiple of the type's size,
+            /// [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for an index after the last
+            /// number, [`ErrorKind::Missing`](crate::ErrorKind::Missing) if there are no bytes.
             pub fn get<T: Scalar>(&self, index: usize) -> Result<T, Error> {
                 get(&self.bytes, index)
             }
@@ -76,8 +76,8 @@ macro_rules! typed_reads {
             /// Iterates over the numbers in order.
             ///
             /// # Errors
-            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
-            /// of the type's size.
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the number of bytes is not
+            /// a multiple of the type's size.
             pub fn iter<$($own,)? T: Scalar>(
                 &$($own)? self,
             ) -> Result<
@@ -91,9 +91,9 @@ macro_rules! typed_reads {
             /// Copies all numbers to `out`, whose length must equal the number of numbers.
             ///
             /// # Errors
-            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
-            /// of the type's size, [`ErrorKind::Mismatch`](crate::ErrorKind::Mismatch) for a
-            /// different number of elements. On error, nothing is written.
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the number of bytes is not
+            /// a multiple of the type's size, [`ErrorKind::Mismatch`](crate::ErrorKind::Mismatch)
+            /// for an `out` of a different length. On error, nothing is written.
             pub fn copy_to<T: Scalar>(&self, out: &mut [T]) -> Result<(), Error> {
                 copy_to(&self.bytes, out)
             }
@@ -101,8 +101,8 @@ macro_rules! typed_reads {
             /// Copies the numbers to a vector.
             ///
             /// # Errors
-            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
-            /// of the type's size.
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the number of bytes is not
+            /// a multiple of the type's size.
             #[cfg(feature = "alloc")]
             pub fn to_vec<T: Scalar>(&self) -> Result<alloc::vec::Vec<T>, Error> {
                 Ok(self.iter()?.collect())
@@ -141,7 +141,7 @@ typed_reads! {
 /// assert_eq!(elements.items::<i32>()?.sum::<i32>(), 789);
 /// assert!(elements.items::<f64>().is_err());
 ///
-/// // A number of any type.
+/// // An element of any number type, if `f64` represents the number exactly.
 /// let first: f64 = elements.get(0)?.try_into()?;
 /// assert_eq!(first, 333.0);
 /// # Ok::<(), ads_cnc::Error>(())
@@ -186,7 +186,8 @@ pub(super) fn mismatch(expected: DataType, found: DataType) -> Error {
     Error::new(ErrorKind::Mismatch, TYPE, 0, expected.number(), found.number())
 }
 
-/// The error for a failed conversion: an integer that does not fit, or an element of the wrong type.
+/// The error for a failed conversion of an element: to a number type that does not represent the
+/// integer exactly, or from a wrong type.
 fn unfit(expected: DataType, element: Element<'_>) -> Error {
     let Some(number) = integer(element) else {
         return mismatch(expected, element.data_type());
@@ -197,7 +198,7 @@ fn unfit(expected: DataType, element: Element<'_>) -> Error {
     Error::new(ErrorKind::OutOfRange, field, high, expected.number(), low)
 }
 
-/// The number in an element of any integer type.
+/// The number in an element of any integer type; `None` for an element of another type.
 fn integer(element: Element<'_>) -> Option<i128> {
     Some(match element {
         Element::Sgn08(number) => number.into(),

@@ -7,9 +7,9 @@ stream! {
     /// The description of a variable: the reply to a request by index.
     ///
     /// The manuals do not document how the name ends (E-17). The decoder accepts a name that ends
-    /// in one NUL, in NULs up to 256 bytes, or at the end of the stream. Bytes after the NUL are
-    /// kept. The field has at least one byte, which is the NUL if the name is empty. A new
-    /// description ends in one NUL.
+    /// in a NUL or at the end of the stream, and keeps the bytes after the first NUL, up to 256
+    /// bytes in all. The field has at least one byte, which is the NUL if the name is empty. A new
+    /// description, whose name is made by [`TextRef::new`](crate::TextRef::new), ends in one NUL.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
     ///

@@ -1,4 +1,4 @@
-//! Handles, and reading and writing by handle.
+//! Handles, and the requests to read and write by handle.
 
 use core::fmt;
 
@@ -43,7 +43,8 @@ impl fmt::Debug for Handle {
 stream! {
     /// The request to read the value of a variable by its handle.
     ///
-    /// A request without indices reads the whole variable. Otherwise, it has one index for each dimension.
+    /// A request without indices reads the whole variable. Otherwise, it has one index for each
+    /// dimension, which the decoder cannot check.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.4.
     ///
@@ -70,7 +71,8 @@ stream! {
 stream! {
     /// The request to write the value of a variable by its handle.
     ///
-    /// A request without indices writes the whole variable. Otherwise, it has one index for each dimension.
+    /// A request without indices writes the whole variable. Otherwise, it has one index for each
+    /// dimension, which the decoder cannot check.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.6.
     ///

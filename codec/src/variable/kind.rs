@@ -1,4 +1,5 @@
-//! Requests for the number of variables of a kind, and for one description (VAR-1 … VAR-3).
+//! Kinds of variables, the request and the reply for the number of variables of a kind, and the
+//! request for a description or an extended description by index (VAR-1 … VAR-3).
 
 use core::fmt;
 use core::hash::{Hash, Hasher};
@@ -157,9 +158,9 @@ stream! {
 crate::number::shown!(VariableCount);
 
 stream! {
-    /// The request for the description of a variable by its index.
+    /// The request for the description, or the extended description, of a variable by its index.
     ///
-    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.2 and 4.3.8.
     ///
     /// `decode` can fail with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`MissingNul`](crate::ErrorKind::MissingNul), [`Trailing`](crate::ErrorKind::Trailing) or

@@ -1,11 +1,11 @@
-//! Reading and writing by name.
+//! Requests that contain the name of a variable.
 
 use crate::declare::stream;
 
 stream! {
     /// The request for the handle, the value or the description of a variable by its name.
     ///
-    /// NULs may pad the name up to 256 bytes (E-34).
+    /// NULs may pad the name to at most 256 bytes (E-34).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.3 and 4.3.5.
     ///

@@ -31,7 +31,7 @@ pub struct U32List<'a>(Source<'a>);
 enum Source<'a> {
     Wire(&'a [U32]),
     Memory(&'a [u32]),
-    /// Checked text such as `[3][4]`.
+    /// Text such as `[3][4]`, from a name that was checked.
     Name(&'a [u8]),
 }
 
@@ -44,7 +44,7 @@ impl<'a> U32List<'a> {
         Self(Source::Wire(numbers))
     }
 
-    /// The indices in a checked name.
+    /// The indices in these brackets, which are from a name that was checked.
     pub(crate) const fn from_name(brackets: &'a [u8]) -> Self {
         Self(Source::Name(brackets))
     }

@@ -3,7 +3,8 @@
 use crate::declare::stream;
 
 stream! {
-    /// The value of a variable: one element, or the whole variable if the request has no indices.
+    /// The value of a variable: one element, or the whole variable if the request has no indices of
+    /// an element.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.4 and 4.3.5.
     ///

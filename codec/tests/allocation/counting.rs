@@ -14,8 +14,8 @@ thread_local! {
     static BYTES: Cell<usize> = const { Cell::new(0) };
 }
 
-// SAFETY: passes every call on to the system's allocator; the counters neither allocate nor are
-// dropped.
+// SAFETY: the implementation passes every call on to the system's allocator; the counters neither
+// allocate nor have a destructor.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         LIVE.set(LIVE.get().saturating_add(layout.size()));
@@ -27,7 +27,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        // Does not fall below 0 if a thread frees memory that another thread allocated.
+        // The counter does not fall below 0 if a thread frees memory that another thread allocated.
         LIVE.set(LIVE.get().saturating_sub(layout.size()));
         // SAFETY: the caller upholds the same contract.
         unsafe { System.dealloc(memory, layout) }
@@ -38,7 +38,7 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 /// Runs a function; returns the maximum by which the allocated bytes of this thread exceed those
-/// before the call, and the number of allocations.
+/// before the call, and the number of allocations of this thread during the call.
 pub(crate) fn measure(run: impl FnOnce()) -> (usize, usize) {
     let before = (LIVE.get(), COUNT.get());
     PEAK.set(before.0);
@@ -46,7 +46,7 @@ pub(crate) fn measure(run: impl FnOnce()) -> (usize, usize) {
     (PEAK.get() - before.0, COUNT.get() - before.1)
 }
 
-/// Runs a function; returns the number of allocations.
+/// Runs a function; returns the number of allocations of this thread during the call.
 pub(crate) fn allocations(run: impl FnOnce()) -> usize {
     measure(run).1
 }
@@ -57,7 +57,7 @@ pub(crate) fn allocated() -> (usize, usize) {
     (COUNT.get(), BYTES.get())
 }
 
-/// The counters detect allocations; otherwise the tests of this program could not fail.
+/// The counters detect allocations, on which the other tests of this program rely.
 #[test]
 fn counters_detect_allocations() {
     let before = BYTES.get();

@@ -10,8 +10,9 @@ use crate::common::each_sample;
 /// exceed the items that follow in every vector and sample.
 const HUGE: [u32; 6] = [u32::MAX, 0x8000_0000, 0x7FFF_FFFF, 0x4000_0001, 0x0100_0000, 0xFFFF];
 
-/// The maximum length in bytes of the inputs that [`each_long`] accepts. It is so great that a
-/// decoder that copies such an input three times exceeds the limit in `excess`.
+/// The length in bytes of the inputs that [`each_long`] builds for a stream of at least this
+/// maximum length. It is so great that a decoder that copies such an input three times exceeds the
+/// limit in `excess`.
 pub(crate) const LONG: usize = 0x4000;
 
 /// Every golden vector of a stream, including vectors that the decoder must reject.
@@ -20,8 +21,9 @@ pub(crate) fn each_vector() -> impl Iterator<Item = (Stream, Vec<u8>)> {
 }
 
 /// Calls `visit` with every vector and sample: unchanged, truncated at every length, and with four
-/// bytes at one offset (see [`ends`]) replaced by a number that is huge or close to the number of
-/// bytes after it. Also calls it with long variants of every sample ([`each_long`]).
+/// bytes at one offset (see [`ends`]) replaced by a number that is huge ([`HUGE`]) or close to the
+/// number of bytes or numbers after it ([`counts`]). Also calls `visit` with long variants of every
+/// sample ([`each_long`]).
 pub(crate) fn each_input(mut visit: impl FnMut(Stream, &[u8])) {
     let samples = || each_sample().map(|(stream, sample)| (stream, sample.bytes()));
     for (stream, bytes) in each_vector().chain(samples()) {
@@ -50,10 +52,11 @@ fn counts(left: u32) -> [u32; 6] {
     [left, left + 1, left.saturating_sub(1), left / 4, left / 4 + 1, (left / 4).saturating_sub(1)]
 }
 
-/// Calls `visit` with an input that repeats the sample up to a length of [`LONG`] or the maximum
-/// length of the stream, and with inputs that extend the sample to this length and to one byte more
-/// than the maximum. In the extended inputs of this length, every four bytes of the sample are also
-/// replaced by numbers close to the number of bytes after them.
+/// Calls `visit` with an input that repeats the sample as often as fits into the smaller of
+/// [`LONG`] and the maximum length of the stream, and with inputs that extend the sample to this
+/// length and to one byte more than the maximum. In the inputs that are extended to this length,
+/// the four bytes at each offset of the sample, in turn, are also replaced by [`counts`] of the
+/// bytes after them.
 fn each_long(stream: Stream, sample: &[u8], visit: &mut impl FnMut(Stream, &[u8])) {
     let max = stream.layout().max as usize;
     let len = max.min(LONG);

@@ -1,4 +1,4 @@
-//! The allocations of decoding and encoding, counted by the allocator of this test binary.
+//! Tests of the allocations of the codec, which the allocator of this test binary counts.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -25,7 +25,7 @@ use inputs::{each_input, each_vector};
 type Decoder = fn(&[u8]) -> Result<usize, Error>;
 
 /// The number of bytes by which the memory that decoding holds at its peak exceeds twice the length
-/// of the input plus 4 KiB.
+/// of the input plus 4 KiB; 0 if it does not exceed them.
 fn excess(decode: Decoder, bytes: &[u8]) -> usize {
     let (held, _) = measure(|| {
         let _ = black_box(decode(bytes));
@@ -76,8 +76,8 @@ fn views_walks_and_encoders_allocate_nothing() {
 }
 
 /// The code of the no-panic proof (`everything`) allocates nothing with any vector of at most 4096
-/// bytes as input. It calls the public functions that borrow; the script `proofs/reached.py`
-/// compares it with the list of the public API.
+/// bytes as input. This code calls the public functions that exist without features; the script
+/// `proofs/reached.py` compares the code with the list of the public API.
 #[test]
 fn borrowing_functions_allocate_nothing() {
     for (stream, bytes) in each_vector().filter(|(_, bytes)| bytes.len() <= 4096) {
@@ -195,7 +195,7 @@ fn names_allocate_nothing() {
 }
 
 /// Values of all types are decoded and encoded without allocating; `to_vec` allocates only the
-/// items.
+/// items, and nothing if it rejects the type.
 #[test]
 fn typed_values_hold_no_more_than_their_bytes() {
     use ads_cnc::value::{DataType, Elements, EncodeValue};

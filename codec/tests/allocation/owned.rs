@@ -128,7 +128,7 @@ fn encoding_an_owned_value_allocates_nothing() {
     });
 }
 
-/// The allocations of decoding are counted; otherwise the tests above could not fail.
+/// The allocations of decoding are counted, on which the tests above rely.
 #[test]
 fn allocations_of_decoding_are_detected() {
     let owned = Subject::of(Stream::VariableHandleRead).owned;
@@ -140,7 +140,7 @@ fn allocations_of_decoding_are_detected() {
 }
 
 /// The memory of a checker is limited for an endless stream of lines: with short labels, with long
-/// labels, and if every label begins a new program.
+/// labels, and if each label is in a program of its own.
 #[test]
 fn memory_of_a_checker_is_limited() {
     use ads_cnc::streaming::Checker;
@@ -161,7 +161,7 @@ fn memory_of_a_checker_is_limited() {
         let (long, endless) = (held(3 * known), held(6 * known));
         assert!(endless <= MOST, "{endless} of {MOST}");
         assert!(endless <= long + long / 4, "{length}: {long}, then {endless}");
-        // If each label begins a new program, the labels before it are discarded.
+        // If each label is in a program of its own, the labels of earlier programs are discarded.
         let forgets = each.starts_with('%');
         assert_eq!(forgets, endless < 4096, "{endless}");
         assert_ne!(forgets, long > Checker::CHARACTERS_KNOWN / 2, "{long}");

@@ -56,8 +56,8 @@ const fn sample(
     CallSample { slug, function, call }
 }
 
-/// At least one call of each function, and calls by index of some functions. If the manuals print
-/// values for a call, it has these values.
+/// At least one call of each function, and for some functions also a call that addresses its
+/// instance by index. `printed` in a slug marks a call with values that a manual prints.
 pub(crate) const CALLS: &[CallSample] = &[
     read("objects-of-channel-1", Function::CountObjects, (0x13_0101, 0, 4)),
     read("objects-of-platform", Function::CountObjects, (0x13_0100, 0, 4)),

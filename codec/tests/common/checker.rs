@@ -6,7 +6,7 @@ use super::findings::{DiagnosticsMutation, findings_of};
 use super::streaming::reference_lines;
 
 /// Passes lines to the checker. Returns the reported diagnostics, and the reported program ends
-/// with line and column. They do not include an open comment block.
+/// with line and column. A comment block that is open after the lines is not among the diagnostics.
 pub(crate) fn check_lines(
     checker: &mut Checker,
     lines: &[u8],
@@ -21,8 +21,8 @@ pub(crate) fn check_lines(
     (findings, ends)
 }
 
-/// The first program end of a text, and its line. A diagnostic of the text with an appended line
-/// names both.
+/// The first program end of a text, and its line, unless a comment block is open at the end of the
+/// text: the first `AfterEnd` diagnostic of the text with an appended line names both.
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
@@ -32,8 +32,9 @@ fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     })
 }
 
-/// Passes a text to a checker part by part. The diagnostics of each part must equal those that the
-/// diagnostics of the whole text so far contain for the same lines.
+/// Passes a text to a checker part by part. The diagnostics of each part must equal the diagnostics
+/// of the text so far, without those of the lines before the part and without an open comment
+/// block.
 pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,
@@ -46,8 +47,8 @@ impl CheckedLots {
         Self { checker: Checker::new(), so_far: Vec::new(), ended: None, mutation }
     }
 
-    /// Passes the next part to the checker. It must consist of whole lines that can be streamed.
-    /// Returns its diagnostics.
+    /// Passes the next part to the checker. The part must consist of whole lines that can be
+    /// streamed. Returns the diagnostics of the part.
     pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Diagnostic> {
         let before = self.checker.lines();
         self.so_far.extend_from_slice(lot);
@@ -70,8 +71,8 @@ impl CheckedLots {
     }
 }
 
-/// Checks for any parts that the events of each part are in order, that their lines exist, and that
-/// lines are counted.
+/// Checks for parts of any bytes that the diagnostics of each part are in the order of the text,
+/// and so are its program ends, that their lines exist, and that lines are counted.
 pub(crate) fn check_any_lots<'l>(lots: impl IntoIterator<Item = &'l [u8]>) {
     let (mut checker, mut lines) = (Checker::new(), 0);
     for lot in lots {

@@ -24,7 +24,7 @@ impl Fault {
     }
 }
 
-/// An expected fault. In `numbers`, the expected number precedes the found number.
+/// A fault that a test expects.
 pub(crate) fn fault(
     kind: ErrorKind,
     field: &'static str,

@@ -4,16 +4,17 @@ use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 
 use super::streaming::reference_lines;
 
-/// A fault that changes diagnostics. The second argument is the number of lines before the checked
-/// lines.
+/// A fault that is added to diagnostics, to verify that the laws detect it. The second argument is
+/// the number of lines before the checked lines.
 pub(crate) type DiagnosticsMutation = fn(&mut Vec<Diagnostic>, u32);
 
 pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {
     NcText::new(text).expect("a text that can be streamed").diagnostics().collect()
 }
 
-/// Checks that the diagnostics of a text are at lines and columns of the text, are in its order,
-/// and do not depend on its line ends. Returns them.
+/// Checks that the diagnostics of a text are at lines and columns of the text, that they are in the
+/// order of the text, except that of an open comment block, and that they do not depend on the line
+/// ends. Returns the diagnostics.
 pub(crate) fn check_findings(text: &[u8], mutation: DiagnosticsMutation) -> Vec<Diagnostic> {
     let mut all = findings_of(text);
     mutation(&mut all, 0);

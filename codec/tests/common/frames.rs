@@ -1,4 +1,4 @@
-//! Laws of frames on a TCP stream, which may be split into any pieces (ADS-5).
+//! Laws of frames on a TCP stream, which may be received in any pieces (ADS-5).
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::ADS_DATA_MAX;
@@ -18,7 +18,8 @@ pub(crate) fn frame_header() -> [u8; 32] {
     samples[0].bytes().try_into().unwrap()
 }
 
-/// The bytes of a frame with this data: both headers, with the lengths of this data, and the data.
+/// The bytes of a frame with this data: the AMS/TCP header and the AMS header, both with the length
+/// that this data requires, and the data.
 pub(crate) fn frame(data: &[u8]) -> Vec<u8> {
     let length = |more: usize| u32::try_from(data.len() + more).unwrap().to_le_bytes();
     let mut header = frame_header();

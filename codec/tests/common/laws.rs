@@ -1,5 +1,5 @@
-//! Laws of streams, calls and replies. They hold for any bytes, whether the codec accepts or
-//! rejects them.
+//! Laws of streams, of their values, of calls and of replies. The bytes of a stream, the data of a
+//! call and the bytes of a reply may be valid or invalid.
 
 use std::fmt::Debug;
 
@@ -13,24 +13,24 @@ use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 use super::subjects::ReadAndWritten;
 use super::{Fault, StreamType, Subject};
 
-/// The initial value of the bytes of a buffer, which shows that a byte was not written.
+/// The initial value of the bytes of a buffer. A byte with any other value was written.
 const UNTOUCHED: u8 = 0x55;
 
-/// The encoded length of a decoded stream in bytes, or the error of the decoder.
+/// The length of a decoded stream in bytes, or the error of the decoder.
 type Length = Result<usize, Error>;
 
 /// A fault added to a correct codec, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct Mutation {
-    /// Changes the result of `encoded_len` of the decoded value, or the error.
+    /// Changes the result of `encoded_len` of a value, or the error of the decoder.
     pub(crate) len: fn(Length) -> Length,
     /// Changes the parts of an error.
     pub(crate) fault: fn(Fault) -> Fault,
-    /// Changes the bytes that `encode` writes.
+    /// Changes the bytes that `encode` writes; in [`check_value_bent`], those of `encode_to_vec`.
     pub(crate) written: fn(&mut [u8]),
     /// Changes a buffer after `encode` rejected it because it is too small.
     pub(crate) small: fn(&mut [u8]),
-    /// Changes the bytes that `encode_to_vec` returns.
+    /// Changes the bytes that `encode_to_vec` returns for a decoded value.
     pub(crate) vec: fn(&mut Vec<u8>),
     /// Changes the length of each segment that `Stream::walk` reports.
     pub(crate) segment: fn(usize) -> usize,
@@ -40,7 +40,7 @@ pub(crate) struct Mutation {
     pub(crate) same: fn(&[u8], bool) -> bool,
     /// Changes the result of `decode_prefix`: the length of the stream, or the error.
     pub(crate) prefix: fn(&[u8], Length) -> Length,
-    /// Changes the bytes that `BinWrite` writes after `BinRead`, and the position of the reader.
+    /// Changes the bytes that `BinWrite` writes after `BinRead`, or the position of the reader.
     #[cfg(feature = "binrw")]
     pub(crate) binrw: fn(&[u8], ReadAndWritten) -> ReadAndWritten,
     /// Changes the bytes of a value that are written element by element.
@@ -64,15 +64,16 @@ impl Mutation {
         typed: |_| (),
     };
 
-    /// Drops the value of a result, and converts an error to the parts that are compared. `fault`
-    /// changes them.
+    /// Drops the value of a result, and converts an error to the parts that are compared, which
+    /// `self.fault` changes.
     fn told<T>(&self, told: Result<T, Error>) -> Result<(), (Fault, Field)> {
         told.map(drop).map_err(|error| ((self.fault)(Fault::of(error)), error.field()))
     }
 }
 
-/// Checks that the borrowed type, the owned type and the walk of a stream have the same result,
-/// including errors, and that accepted bytes encode to the same bytes. Returns this result.
+/// Checks, among other laws, that the borrowed type, the owned type (with `alloc`) and the walk of
+/// a stream have the same result, including errors, and that accepted bytes encode to the same
+/// bytes. Returns the result.
 pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
     check_bent(stream, bytes, &Mutation::NONE)
 }
@@ -106,20 +107,21 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], mutation: &Mutation) -> R
     }
     #[cfg(feature = "binrw")]
     {
-        // After an error, the reader is at its initial position, and nothing is written.
+        // After an error, the reader must be at its initial position, and nothing may be written.
         let prefix = (subject.prefix)(bytes);
         let wanted = prefix.map_or((None, 0), |len| (Some(bytes[..len].to_vec()), len));
         let read = (mutation.binrw)(bytes, (subject.binrw)(bytes));
         assert_eq!(read, wanted, "{stream}: BinRead and BinWrite of {bytes:x?}");
     }
-    // A longer value would take more time without testing further code.
+    // Longer values are left out to save time.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
         super::check_typed(bytes, mutation.typed);
     }
     verdict
 }
 
-/// Returns true if the fields determine where the stream ends, even if bytes follow it.
+/// Whether the stream has fields that determine the end of every valid stream of this kind, even if
+/// bytes follow it.
 fn ends_by_its_fields(stream: Stream) -> bool {
     let layout = stream.layout();
     let ends = |row: &FieldSpec| {
@@ -128,9 +130,9 @@ fn ends_by_its_fields(stream: Stream) -> bool {
     !layout.repeats && !layout.fields.is_empty() && layout.fields.iter().all(ends)
 }
 
-/// Checks the result of `decode_prefix`. `prefix` is the length of the decoded stream, and
-/// `verdict` the result for all bytes. If all bytes are a stream, it must be decoded to its end;
-/// otherwise the decoded bytes must be a stream.
+/// Checks the result of `decode_prefix`. `prefix` is the length of the decoded stream or the error,
+/// and `verdict` is the result for all bytes. If all bytes are a stream, it must be decoded to its
+/// end; otherwise the decoded bytes, if any, must be a stream.
 fn check_prefix(
     stream: Stream,
     bytes: &[u8],
@@ -210,8 +212,8 @@ fn check_encode(reading: StreamType, bytes: &[u8], mutation: &Mutation) {
     check_too_small(bytes.len(), mutation, |buf| (reading.encode)(bytes, buf));
 }
 
-/// Checks that a buffer that is too small causes an error with the needed and the available bytes, and that
-/// nothing is written to it.
+/// Checks for some buffers that are too small that encoding fails with the numbers of needed and
+/// available bytes, and that nothing is written to the buffer.
 fn check_too_small<T: Debug>(
     len: usize,
     mutation: &Mutation,
@@ -230,8 +232,9 @@ fn check_too_small<T: Debug>(
     }
 }
 
-/// Checks that a dispatched request encodes to a call with the same service, address and data,
-/// which is dispatched to the same request. Returns the error of dispatch, if any.
+/// Checks that a call can be carried in a frame, and that its dispatched request encodes to a call
+/// with the same service, address and data, which is dispatched to the same request. Returns the
+/// error of dispatch, if any.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Mutation::NONE, |_| ()).map(drop)
 }
@@ -266,7 +269,8 @@ pub(crate) fn check_call_bent(
 }
 
 /// Checks that a call is unchanged after it was encoded to a frame and decoded from it, except for
-/// the read length of a Write, which a frame does not contain. A Read with data must be rejected.
+/// the read length of a Write, which a frame does not contain. Only a Read with data may be
+/// rejected.
 fn check_frame(call: &Call<'_>, mutation: &Mutation) {
     let mut bytes = vec![0; call.encoded_len()];
     let data = match call.encode(&mut bytes) {
@@ -286,8 +290,8 @@ fn check_frame(call: &Call<'_>, mutation: &Mutation) {
     assert_eq!(Call::from_frame(&frame), Ok(Some(Call { read_length, ..*call })));
 }
 
-/// Checks that dispatch of a call accepts and rejects the same data as the stream of the request of
-/// `function`.
+/// Checks a call to `function` by [`check_call`], and that dispatch accepts and rejects the same
+/// data as the stream of the request of `function`, if it has one.
 pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), DispatchError> {
     let verdict = check_call(call);
     if let Some(stream) = function.spec().request {
@@ -298,14 +302,14 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), D
 }
 
 /// Checks that the request of a call accepts and rejects the same replies as the stream of the
-/// reply of its function, except for replies longer than the read length, and that accepted replies
-/// encode to the same bytes.
+/// reply of its function, except for replies longer than the call permits, and that accepted
+/// replies encode to the same bytes. The call must be valid.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
     check_reply_bent(call, bytes, &Mutation::NONE).map(drop)
 }
 
 /// Like [`check_reply`], for a codec to which `mutation` adds a fault. Returns the function of the
-/// call.
+/// call, or the error of the reply.
 pub(crate) fn check_reply_bent(
     call: &Call<'_>,
     bytes: &[u8],
@@ -323,8 +327,8 @@ pub(crate) fn check_reply_bent(
         (Request::ReadDescriptors(_), length) if length % DESCRIPTOR_LEN != 0 => DESCRIPTOR_LEN,
         (_, length) => length,
     };
-    // An accepted reply is at most as long as the read length of the request when it is encoded
-    // again.
+    // An accepted reply must not be longer than the read length of the call that the request
+    // encodes to.
     let mut buf = vec![0; request.encoded_len()];
     let most = request.encode(&mut buf).map(|call| call.read_length as usize);
     if let Ok(len) = verdict {

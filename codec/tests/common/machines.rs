@@ -10,7 +10,7 @@ pub(crate) fn service_ids() -> [ServiceId; 2] {
     ]
 }
 
-/// The bytes of a value before its first NUL, or all of them.
+/// The bytes of a value before its first NUL, or all bytes of a value without a NUL.
 pub(super) fn text(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or(value)
 }
@@ -56,11 +56,12 @@ pub(crate) enum Step {
     Wait,
 }
 
-/// A host with its inputs so far. Each method checks the state of the host after a call.
+/// A host with its inputs since its start or restart. Each method that reports something to the
+/// host then checks the state of the host.
 pub(crate) struct CheckedHost<'s> {
     host: Host<'s>,
     ids: &'s [ServiceId],
-    /// The variables that were read and their values, in order.
+    /// The variables and values that the host has read, in order, without values that it rejected.
     reads: Vec<(ServiceVariable, Vec<u8>)>,
     asked: Option<Step>,
     answer: (Vec<u8>, u32),
@@ -105,13 +106,13 @@ impl<'s> CheckedHost<'s> {
         self.reads.push((variable, value.to_vec()));
         match self.step() {
             Step::Read(_) | Step::Wait => {}
-            // The host has read the same request twice in sequence (SVC-2).
+            // The host must have read the same request twice in sequence (SVC-2).
             Step::Serve(id, request, asked) => {
                 assert!(asked != 0 && request.len() < 128 && self.ids.contains(&id));
                 assert!(self.found(2, &id, &request, asked), "{:x?}", self.reads);
                 self.asked = Some(self.step());
             }
-            // The host has read the same request once more after it was handed out.
+            // The host must have read the same request once more after it was handed out.
             Step::Write(ServiceVariable::Response, value) => {
                 assert_eq!(value, [&self.answer.0[..], b"\0"].concat());
                 let Some(Step::Serve(id, request, asked)) = &self.asked else { unreachable!() };

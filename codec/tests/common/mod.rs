@@ -1,5 +1,6 @@
-//! Common code of the tests: samples, the types of each stream, and laws, which are functions that
-//! check properties for any input. The fuzz targets include this file to check the same laws.
+//! Common code of the tests, such as samples, the types of each stream, and laws: functions that
+//! check properties for any input. The crate of the fuzz targets includes this file, so that the
+//! fuzz targets can check the same laws.
 
 #![allow(dead_code, unused_imports, reason = "no test uses all of it")]
 #![allow(unexpected_cfgs, reason = "the fuzz targets have not all features of the codec")]

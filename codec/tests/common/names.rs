@@ -6,7 +6,7 @@ use ads_cnc::{CncStr, Error, ErrorKind, Kind, PathPart, U32List, VariablePath};
 
 use super::Fault;
 
-/// The pieces of a name: the expected result of parsing, and the input for building a name.
+/// The pieces of a name: the result of parsing it, and the input for building it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pieces {
     pub(crate) kind: String,
@@ -160,8 +160,8 @@ fn check_built(path: VariablePath<'_>, pieces: &Pieces, mutation: NameMutation) 
     }
 }
 
-/// Checks the numbers and the position of a fault. The text before it must be a valid name, or a
-/// name that ends too early.
+/// Checks the numbers and the position of a fault. The text before the fault must be a valid name
+/// or a name that ends too early; for `TooLong`, it may have any other fault.
 fn check_fault(name: &str, fault: Fault) {
     let count = name.chars().count();
     assert!(fault.offset <= count, "{fault:?} of {name:?}");

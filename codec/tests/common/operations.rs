@@ -19,7 +19,8 @@ pub(crate) struct Parameters<'a> {
     pub(crate) spindle: Spindle,
     pub(crate) class: Class,
     pub(crate) dynamic: DynamicKind,
-    /// Selects the list of objects, the group of an object, or the kind of address of an element.
+    /// Selects the list of objects, the group of an object, the kind of address of an element, or
+    /// the addressing of a class.
     pub(crate) place: u8,
     pub(crate) element: u32,
     pub(crate) number: u32,
@@ -58,8 +59,8 @@ impl Parameters<'_> {
     }
 }
 
-/// Makes the operation of this function from the parameters. If they are valid, checks that a
-/// server dispatches its call to the same operation; `mutation` adds a fault to the encoded call.
+/// Makes the operation of this function from the parameters. If they are valid, checks it as
+/// [`check_operation`] does; `mutation` adds a fault to the encoded call.
 pub(crate) fn check_made(
     function: Function,
     of: &Parameters<'_>,
@@ -130,13 +131,14 @@ pub(crate) fn check_made(
     }
 }
 
-/// Checks that a server dispatches the call of a valid operation to the same operation, and that
-/// the call satisfies [`check_call`].
+/// Checks that a server dispatches the call of a valid operation to the same operation (with an
+/// exception for `CountElements`), and that the call satisfies [`check_call`].
 pub(crate) fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
     assert_eq!(made(operation, &|_| ()), Ok(()));
 }
 
-/// Like [`check_operation`], for an operation that may be invalid: then encoding must write nothing.
+/// Like [`check_operation`], for an operation that may be invalid: then encoding must write
+/// nothing, and its error is returned.
 fn made<'a, O: Operation + Into<Request<'a>>>(
     operation: O,
     mutation: &dyn Fn(&mut Call<'_>),
@@ -160,7 +162,8 @@ fn made<'a, O: Operation + Into<Request<'a>>>(
     assert_eq!(found, wanted, "{request:?}");
     assert_eq!((call.port, call.service), (spec.task.port(), spec.service), "{request:?}");
     match call.dispatch() {
-        // With the stride 0x1000, a server dispatches `CountElements` as `ReadElement` (E-01).
+        // A server dispatches `CountElements` as `ReadElement` if the low 16 bits of the offset are
+        // not 0, for example with the stride 0x1000 (E-01).
         Ok(read @ Request::ReadElement(_)) if O::FUNCTION == Function::CountElements => {
             assert_eq!(read.encode(&mut []), Ok(call));
         }

@@ -1,11 +1,13 @@
-//! Samples: valid bytes of every stream, written by hand field by field, not by an encoder.
+//! Samples: valid bytes of every stream except `NoData`, written by hand field by field, not by an
+//! encoder.
 
 use ads_cnc::layout::Stream;
 
 use super::samples_ads::*;
 use super::samples_elements::*;
 
-/// A valid stream, split by hand into its fields. A field that is a list occurs once for each item.
+/// A valid stream, split by hand into its fields. A list of numbers occurs once for each number; a
+/// field without bytes may be left out.
 pub(crate) struct Sample {
     pub(crate) slug: &'static str,
     pub(crate) fields: &'static [(&'static str, &'static [u8])],
@@ -51,7 +53,7 @@ pub(super) const fn padded<const N: usize>(text: &[u8]) -> [u8; N] {
     bytes
 }
 
-/// The samples of every stream.
+/// The samples of every stream except `NoData`.
 pub(crate) const SAMPLES: &[(Stream, &[Sample])] = &[
     (Stream::AmsTcpHeader, AMS_TCP_HEADER),
     (Stream::AmsHeader, AMS_HEADER),

@@ -23,7 +23,7 @@ pub(super) const AMS_HEADER: &[Sample] = &[
             ("invoke_id", b"\x01\0\0\0"),
         ],
     ),
-    // Undocumented numbers; the codec keeps them.
+    // Arbitrary numbers, such as an undocumented command, which the codec keeps.
     sample(
         "unknown",
         &[

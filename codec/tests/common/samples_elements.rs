@@ -1,4 +1,5 @@
-//! Samples of content, of the attributes of elements, of dynamic parameters and of NC text.
+//! Samples of content, of the addresses of instances, of the attributes of elements, of dynamic
+//! parameters, of descriptions by name and of NC text.
 
 use super::samples::{Sample, padded, sample};
 

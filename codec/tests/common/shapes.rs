@@ -1,4 +1,5 @@
-//! Laws of shapes and their values, for any type, dimensions and size (VAR-8, VAR-21).
+//! Laws of shapes and their values, for any type, any size and at most four dimensions (VAR-8,
+//! VAR-21).
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue as _, Shape};
 use ads_cnc::{ErrorKind, U32List};
@@ -44,8 +45,8 @@ fn each(of: &Described<'_>) -> Option<u32> {
     }
 }
 
-/// The expected index of the element, computed from the sizes of the inner arrays, or the expected fault of
-/// the indices.
+/// The expected index of the element, computed from the sizes of the inner arrays, or the expected
+/// fault of the indices.
 fn place(of: &Described<'_>) -> Result<u128, Fault> {
     let fault = |kind, field, offset, expected: usize, found: u32| {
         Err(Fault { kind, field, offset, expected, found: found as usize })
@@ -70,8 +71,8 @@ fn place(of: &Described<'_>) -> Result<u128, Fault> {
 }
 
 /// Checks that a shape is accepted exactly if its size matches its type and dimensions, that the
-/// index of an element is the expected one, and that a value encodes to the same bytes. Returns the
-/// number of elements.
+/// index of an element is the expected one, and that a value that fits the shape encodes to the
+/// same bytes. Returns the number of elements, or the kind of the error.
 pub(crate) fn check_shape(of: &Described<'_>, mutation: ShapeMutation) -> Result<u32, ErrorKind> {
     let dimensions = U32List::from(of.dimensions);
     let shape = Shape::new(of.data_type, dimensions, (mutation.size)(of.size));
@@ -112,8 +113,8 @@ pub(crate) fn check_shape(of: &Described<'_>, mutation: ShapeMutation) -> Result
     Ok(shape.count())
 }
 
-/// Checks that an element encodes to its bytes, both by `encode_value` and by the shape of an
-/// element.
+/// Checks that an element encodes to its bytes by `encode_value` and, if the shape of an element
+/// has room for these bytes, also by this shape.
 fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], mutation: ShapeMutation) {
     let mut buf = vec![0x55; bytes.len()];
     assert_eq!(element.encode_value(&mut buf), Ok(bytes));

@@ -122,7 +122,8 @@ impl SenderMutation {
     pub(crate) const NONE: Self = Self { ack: |ack| ack, sent: |sent| sent };
 }
 
-/// A sender and its expected state. Each method checks the sender after a call.
+/// A sender and its expected state. `new`, `packet` and `acknowledge` check the sender after the
+/// call.
 pub(crate) struct CheckedSender<'t> {
     sender: Sender<'t>,
     wire: Vec<u8>,

@@ -39,8 +39,8 @@ pub(crate) struct Subject {
     /// Decodes the bytes to the owned type, and encodes it into a vector.
     #[cfg(feature = "alloc")]
     pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
-    /// Decodes the bytes to the owned type and calls the function; then copies the value, if decoding
-    /// succeeded, and calls the function again.
+    /// Decodes the bytes to the owned type and calls the function; then copies the value, if
+    /// decoding succeeded, and calls the function again.
     #[cfg(feature = "alloc")]
     pub(crate) twice: fn(&[u8], &mut dyn FnMut()),
     /// Generates a value from the bytes, checks the laws, and returns the encoded bytes.
@@ -143,5 +143,5 @@ macro_rules! subjects {
     (@made $view:ty, $owned:ty) => { |bytes, mutation| super::check_value_bent(&made::<$owned>(bytes), mutation) };
 }
 
-/// All streams.
+/// All streams except `NoData`.
 pub(crate) static SUBJECTS: &[Subject] = ads_cnc::streams! { subjects };

@@ -3,8 +3,9 @@
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Scalar};
 use ads_cnc::{ErrorKind, U32List, ValueRef};
 
-/// Checks for every type that all ways to decode the bytes return the same elements, and that these
-/// encode to the same bytes; `wrong` is a fault that changes the bytes written element by element.
+/// Checks for every type that several ways to decode the bytes return the same elements, and that
+/// these encode to the same bytes; `wrong` is a fault that changes the bytes written element by
+/// element. Bytes whose number does not fit the type must be rejected.
 pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
     for data_type in DataType::ALL {
         let each = data_type.size().map_or(3, |size| size as usize);

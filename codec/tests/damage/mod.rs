@@ -38,7 +38,7 @@ impl Damage {
             Self::Set(at, byte) => bytes[at.index(len)] = *byte,
             Self::Flip(at, bit) => bytes[at.index(len)] ^= 1 << bit,
             Self::Remove(at) => drop(bytes.remove(at.index(len))),
-            // Write the number at a multiple of four, because most numbers of streams are there.
+            // Write the number at a multiple of four, because many numbers of streams are there.
             Self::Number(at, number) => {
                 let at = at.index(len) / 4 * 4;
                 let le = number.to_le_bytes();

@@ -1,7 +1,7 @@
-//! Calls the functions of the codec that borrow: decoding, operations, frames, texts, values and
-//! state machines, with bytes that the compiler does not know. The no-panic proof (`proofs/run`)
-//! links this code; linking fails if a panic is reachable. A test in `allocation/main.rs` runs this
-//! code and counts its allocations.
+//! Calls the public functions of the codec that exist without features, and the diagnostics of a
+//! program: decoding, operations, frames, texts, values and state machines, with bytes that the
+//! compiler does not know. The no-panic proof (`proofs/run`) links this code; linking fails if a
+//! panic is reachable. A test in `allocation/main.rs` runs this code and counts its allocations.
 
 #![allow(unused_qualifications, reason = "the proof is searched for whole paths")]
 
@@ -73,8 +73,9 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
     Ok(reply.encode(&mut out)?.len().wrapping_add(again))
 }
 
-/// Encodes a write of the second element of the instance whose address is in the bytes, and decodes
-/// the bytes as the reply to a read of an object at the same address.
+/// Makes a read and a write of the element after the address in the bytes, and then a read of an
+/// object at the address of this element. The read of an object is rejected, because the group is
+/// that of a class, so the last line does not run.
 fn elements(bytes: &[u8]) -> Result<usize, Error> {
     let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
     let next = first.nth(black_box(1))?;
@@ -190,7 +191,7 @@ fn services(bytes: &[u8]) -> Result<usize, Error> {
     Ok(0)
 }
 
-/// Calls all functions above with these bytes and ignores their results. Returns true.
+/// Calls the functions above and those of `named` with these bytes. Returns true.
 pub(crate) fn runs(bytes: &[u8]) -> bool {
     let numbers = [
         operations(bytes).unwrap_or(1),

@@ -176,7 +176,7 @@ static size_t list_length(Json list) {
     return length;
 }
 
-/* A number in a context: 5, "5" or "0x5". Any other text is 0 or out of range. */
+/* A number in a context: 5, "5" or "0x5". A text that does not begin with a number is 0. */
 static uint64_t read_number(Json value) {
     return value ? strtoull(value + (*value == '"'), NULL, 0) : 0;
 }

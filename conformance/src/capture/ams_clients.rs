@@ -17,7 +17,8 @@ const NUMBERS: u64 = 1 << 63;
 /// The conversation of all clients on one machine (one AMS Net ID) with all CNCs.
 #[derive(Debug)]
 struct AmsClient {
-    /// Number of the last frame of the conversation, and number of its packet.
+    /// Number of the last frame of the conversation among all frames without TCP, and number of its
+    /// packet.
     last: u64,
     packet: u64,
     /// Number of bytes sent by the machine (index 0) and to the machine (index 1).
@@ -62,7 +63,7 @@ impl AmsClients {
         known.packet = mark.packet;
         let [asked, replied] = &mut known.sent;
         let (sent, received) = if is_reply { (replied, asked) } else { (asked, replied) };
-        // Add the AMS/TCP header that the frame would have if it was sent over TCP.
+        // Add an AMS/TCP header, as over TCP. Its length is that of the captured bytes.
         let length = to_u32(frame.bytes.len());
         let bytes = [&[0, 0], &length.to_le_bytes()[..], frame.bytes].concat();
         *sent = sent.saturating_add(u64::try_from(bytes.len()).unwrap_or(u64::MAX));

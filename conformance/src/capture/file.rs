@@ -14,7 +14,8 @@ use crate::text::plural;
 /// Initial size of the read buffer in bytes.
 const BUFFER: usize = 0x1_0000;
 
-/// Maximum length of a record or block in bytes; reading ends at a longer one.
+/// A record or block of a pcap or pcapng file must be shorter than this number of bytes, and the
+/// captured part of a NetMon packet not longer; otherwise, reading ends there.
 pub const RECORD_MAX: usize = 0x80_0000;
 
 /// Maximum number of interfaces of a pcapng section; further ones are ignored.
@@ -30,8 +31,8 @@ pub(super) struct Packet<'p> {
     pub(super) bytes: &'p [u8],
     /// Number of bytes that were not captured.
     pub(super) missing: usize,
-    /// Whether the suite is the client, according to the comment that the suite writes to its
-    /// captures.
+    /// Whether the suite sent the requests, according to the comment that `ads-cnc run` writes to
+    /// its captures.
     pub(super) is_of_suite: bool,
 }
 
@@ -54,14 +55,14 @@ pub enum FileError {
     /// The file has an unsupported format.
     #[error("neither pcap nor pcapng nor NetMon 2.x")]
     Format,
-    /// The file has another version of the NetMon format: major and minor.
+    /// The file has an unsupported version of the NetMon format: major and minor.
     #[error("NetMon {0}.{1} instead of 2.x; convert it with editcap -F pcapng")]
     NetMonVersion(u8, u8),
     #[error("the file is empty")]
     Empty,
 }
 
-/// The link type of an interface, and the resolution and offset of its times.
+/// The link type of an interface, and the resolution and offset (in seconds) of its times.
 struct CaptureInterface {
     link: Linktype,
     /// Units of time per second.
@@ -71,13 +72,13 @@ struct CaptureInterface {
 
 #[derive(Default)]
 struct Interfaces {
-    /// The interfaces of the current pcapng section.
+    /// The interfaces of the current pcapng section, or the only interface of a pcap file.
     all: Vec<CaptureInterface>,
     packets: u64,
     is_of_suite: bool,
 }
 
-/// Calls a function for each packet of a file.
+/// Calls a function for each packet of a pcap or pcapng file.
 pub(super) fn packets(
     input: impl Read + Send,
     mut each: impl FnMut(Packet<'_>),
@@ -129,8 +130,8 @@ pub(super) fn packets(
     }
 }
 
-/// A reader that fills the whole buffer unless the file ends, because the parser interprets a short
-/// read as the end.
+/// A reader that fills the whole buffer unless the file ends: `create_reader` looks for the header
+/// of the file in its first read only, and `netmon` takes a short read as the end of the file.
 pub(super) struct FullReader<R>(pub(super) R);
 
 impl<R: Read> Read for FullReader<R> {

@@ -15,7 +15,7 @@ pub(super) enum FramePiece {
     Frame(Vec<u8>, Span),
     /// A message between a client and its local router.
     Router,
-    /// Bytes that are not a frame, where a frame must begin.
+    /// Bytes that are not a frame, although a frame must begin there: at most `SHOWN` bytes.
     Broken(Error, Vec<u8>, Span),
     /// The beginning of a frame whose rest was not captured.
     Cut(Vec<u8>, Span),
@@ -202,8 +202,8 @@ impl Frames {
 const SHOWN: usize = 64;
 
 /// Length of a message between a client and its local router (open port, close port, router
-/// notification, local NetId); `None` if `tcp` is not the header of such a message. Such a message
-/// is shorter than an AMS header.
+/// notification, local NetId), including its header `tcp`; `None` if `tcp` is not the header of
+/// such a message. The rest of such a message is shorter than an AMS header.
 fn router(tcp: &[u8]) -> Option<usize> {
     let header = AmsTcpHeader::decode(tcp).ok()?;
     let length = usize::try_from(header.length).ok().filter(|length| *length < AMS_HEADER_LEN)?;
@@ -216,8 +216,9 @@ pub(super) fn is_cnc(port: AmsPort) -> bool {
     Task::from_port(port).is_some()
 }
 
-/// Whether a frame is a reply, according to its state flags; if they are invalid, according to its
-/// ports.
+/// Whether a frame is a reply, according to its state flags. If these are invalid: not a reply if
+/// the target port belongs to a CNC; otherwise a reply if the source port belongs to a CNC;
+/// otherwise according to the lowest bit of the state flags.
 pub(super) fn is_reply(header: &AmsHeader) -> bool {
     match header.state_flags {
         StateFlags::REQUEST => false,

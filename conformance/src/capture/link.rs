@@ -51,7 +51,7 @@ pub(super) enum PacketContent<'p> {
     Ams(AmsFrame<'p>),
     /// Another protocol.
     Other,
-    /// A fragment of an IP packet; fragments are not reassembled.
+    /// A fragment of an IP packet that contains TCP; fragments are not reassembled.
     Fragment,
     /// A header is truncated or invalid.
     Unreadable,
@@ -72,8 +72,8 @@ pub(super) fn content<'p>(packet: &Packet<'p>) -> PacketContent<'p> {
         Linktype::RAW | Linktype::IPV4 | Linktype::IPV6 | Linktype(12 | 14) => {
             LaxSlicedPacket::from_ip(bytes).ok()
         }
-        // The first four bytes are the address family in the byte order of the capturing machine.
-        // They are skipped: the IP header contains the version.
+        // The first four bytes are the address family. They are skipped: the IP header contains the
+        // version.
         Linktype::NULL | Linktype::LOOP => LaxSlicedPacket::from_ip(after(4)).ok(),
         Linktype::LINUX_SLL => Some(LaxSlicedPacket::from_ether_type(typed(14), after(16))),
         Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), after(20))),

@@ -5,11 +5,12 @@
 //! | read packets from pcap and pcapng, or NetMon 2.x | `file`, `netmon` |
 //! | find TCP segments, or AMS frames in EtherCAT frames | `link` |
 //! | TCP reassembly | `tcp`, `table` |
-//! | split into AMS frames | `frames`, `ams_clients` |
+//! | split into AMS frames, or follow those without TCP | `frames`, `ams_clients` |
 //! | pair requests with replies and judge them | `judge` |
 //! | write a conversation to a pcapng file | `writer`, `frame` |
 //!
-//! The judge stores only facts that later judgements need, and limits the size of each store.
+//! The memory for requests and replies that wait for each other, and for the facts about CNCs with
+//! which later replies are compared, is limited.
 //!
 //! ```
 //! use ads_cnc_conformance::capture::{CaptureOptions, check};
@@ -102,13 +103,15 @@ pub enum CapturePiece {
         /// Number of missing bytes; 0 if unknown.
         length: u64,
     },
-    /// The number of bytes that are not a frame, or that are only the beginning of a frame; 0 for
-    /// the beginning of a frame at the end of a connection.
+    /// The number of bytes that are only the beginning of a frame, or that were skipped to find a
+    /// frame. If bytes are not a frame although a frame must begin there, the number of bytes that
+    /// `ads-cnc check` shows, at most 64. 0 for the beginning of a frame at the end of a
+    /// connection.
     Rest(usize),
 }
 
-/// Reads a pcap, pcapng or NetMon 2.x file, reassembles its TCP connections and calls `each` with
-/// each frame and gap, without judging them.
+/// Reads a pcap, pcapng or NetMon 2.x file, reassembles its TCP connections, and calls `each` with
+/// each piece, without judging it.
 ///
 /// ```
 /// use ads_cnc_conformance::capture::{FileEnd, Ports, frames};
@@ -162,7 +165,7 @@ impl CapturePiece {
 
 /// An event while reading a file.
 enum ReadStep<'s> {
-    /// The next packet, its content, and whether the content is a TCP segment of a selected port.
+    /// The next packet, its content, and whether the content is a TCP segment on a selected port.
     Packet(&'s Packet<'s>, PacketContent<'s>, bool),
     /// An event on a connection.
     Event(ConnectionEvent, &'s ConnectionTable),

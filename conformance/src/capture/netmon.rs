@@ -49,10 +49,10 @@ const TABLES_END: usize = 72;
 /// pcap.
 const NETMON_LINKS: i32 = 0x1_0000;
 
-/// Units of time per second.
+/// Number of microseconds per second.
 const MICROSECONDS: u64 = 1_000_000;
 
-/// Number of bytes of the frame table that are read at once.
+/// Maximum number of bytes that are read at once up to the end of the frame table.
 const TABLE_CHUNK: usize = 4096;
 
 /// Calls a function for each packet of a file whose [`MAGIC`] was already read.
@@ -197,7 +197,8 @@ impl<R: Read> Input<R> {
         Ok((time, link_type(link), original))
     }
 
-    /// The offsets in the frame table; `None` if the file ends before the end of the frame table.
+    /// The offsets in the frame table; none if the packets end after the beginning of the table.
+    /// `None` if the file cannot be read up to the end of the frame table.
     fn frame_table(&mut self, (offset, length): (u64, u64)) -> Option<Offsets> {
         let mut chunk = [0; TABLE_CHUNK];
         while self.offset < offset {

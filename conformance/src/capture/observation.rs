@@ -43,9 +43,10 @@ impl Display for Location {
 /// The frames to which a check applies.
 #[derive(Debug)]
 pub(super) enum CapturedFrames<'e> {
-    /// A request, and its reply if one was captured.
+    /// A request of a Read, Write or ReadWrite, with its reply or alone.
     Exchange(&'e Exchange, Location),
-    /// Bytes that are not a frame, or not a complete one.
+    /// Any other bytes: one frame that is not judged as an exchange, bytes that are not a whole
+    /// frame, or no bytes for a gap or a direction that was not captured.
     Bytes(&'e [u8], Location),
 }
 

@@ -11,15 +11,15 @@ use super::link::TcpSegment;
 use super::tcp::{CapturePosition, DirectedSegment, DirectionState, ReassembledPiece};
 use crate::number::to_u32;
 
-/// Maximum number of connections that are followed at the same time; beyond that, the connection
-/// that was idle for the longest time is ended.
+/// Maximum number of TCP connections, and of conversations without TCP, that are followed at the
+/// same time; beyond that, the one that was idle for the longest time is ended.
 pub(super) const CONNECTIONS_MAX: usize = 1024;
 
-/// Maximum memory in bytes for incomplete frames and early segments of all connections; beyond
+/// Maximum memory in bytes for incomplete frames and early segments of all TCP connections; beyond
 /// that, the connection of the current segment is ended.
 pub(super) const BUFFERED_MAX: usize = 0x200_0000;
 
-/// The TCP ports whose connections are judged.
+/// The TCP ports whose connections are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ports {
     /// Connections from or to one of these ports.
@@ -62,9 +62,10 @@ pub(super) enum ConnectionEvent {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ConnectionEnd {
     pub(super) connection: u64,
+    /// Number of the last packet of the connection.
     pub(super) last: u64,
-    /// The direction of which no segment was captured, not even an acknowledgement; `None` if the
-    /// capture contains segments of both directions.
+    /// The direction of which no segment was captured, not even an acknowledgement (without TCP, no
+    /// frame); `None` if the capture contains both directions.
     pub(super) unseen: Option<SegmentDirection>,
 }
 
@@ -112,7 +113,7 @@ impl ConnectionTable {
             .is_some_and(|direction_state| direction_state.memory_size() > 0)
     }
 
-    /// Whether the bytes of the sender were captured up to this offset.
+    /// Whether the bytes of the sender were emitted, or counted as gaps, up to this offset.
     pub(super) fn has(&self, direction: &SegmentDirection, place: u64) -> bool {
         // Without TCP, the offset is always that of the last captured byte.
         matches!(direction.from, Endpoint::Ams(..))
@@ -148,8 +149,8 @@ impl ConnectionTable {
             self.end(key, out);
         }
         if !self.open.contains_key(&key) {
-            // A segment without data does not open a connection: it may be an acknowledgement or a
-            // FIN that follows the end of a connection.
+            // A segment without data and without SYN does not open a connection: it may be an
+            // acknowledgement or a FIN that follows the end of a connection.
             if segment.payload.is_empty() && !segment.syn {
                 return;
             }

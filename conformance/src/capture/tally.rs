@@ -27,9 +27,9 @@ const SHOWN: usize = 8;
 pub struct CaptureTally {
     /// Packets in the file.
     pub packets: u64,
-    /// Packets of connections in which the suite is the client.
+    /// Packets in the parts of the file that `ads-cnc run` wrote, in which the suite is the client.
     pub of_suite: u64,
-    /// IP fragments.
+    /// Fragments of IP packets that contain TCP.
     pub fragments: u64,
     /// Packets with a truncated or invalid header.
     pub unreadable: u64,
@@ -39,11 +39,12 @@ pub struct CaptureTally {
     pub segments: u64,
     /// TCP segments on other ports.
     pub elsewhere: u64,
-    /// TCP connections on the selected ports.
+    /// TCP connections on the selected ports. With [`Ports::Any`](super::Ports::Any), also those
+    /// without an AMS frame.
     pub connections: u64,
     /// AMS frames in EtherCAT frames instead of TCP, as ADS Monitor records them.
     pub ethercat: u64,
-    /// Connections whose beginning was not captured.
+    /// AMS connections whose beginning was not captured.
     pub joined: u64,
     /// Retransmitted segments.
     pub repeated: u64,
@@ -53,19 +54,20 @@ pub struct CaptureTally {
     pub gaps: u64,
     /// Bytes skipped to find a frame.
     pub skipped: u64,
-    /// AMS frames.
+    /// Whole AMS frames.
     pub frames: u64,
     /// Messages between clients and their local router.
     pub router: u64,
     /// Requests to, and replies from, AMS ports that do not belong to a task of a CNC, by port.
     pub other_ports: BTreeMap<u16, u64>,
-    /// Frames with commands other than Read, Write and ReadWrite, by command.
+    /// Frames to and from the ports of a CNC with commands other than Read, Write and ReadWrite, by
+    /// command.
     pub commands: BTreeMap<u16, u64>,
     /// Requests to addresses without a documented function, by address.
     pub unknown: BTreeMap<String, u64>,
     /// Requests with a reply.
     pub exchanges: u64,
-    /// The first exchanges: packet, function, address and result.
+    /// The first exchanges: packet, function with the name, the index or the address, and result.
     pub listed: Vec<String>,
     /// Requests with an error reply.
     pub rejected: u64,
@@ -120,7 +122,8 @@ impl CaptureTally {
         cut.into_iter().chain(gaps).collect()
     }
 
-    /// Whether all packets are of connections in which the suite is the client.
+    /// Whether there are packets, and the suite is the client in all of them, because `ads-cnc run`
+    /// wrote the file.
     pub const fn is_of_suite(&self) -> bool {
         self.packets > 0 && self.of_suite == self.packets
     }
@@ -193,7 +196,8 @@ const FIELD_MAX: usize = 64;
 /// Maximum number of characters of a reply that are shown.
 const REPLY_MAX: usize = 100;
 
-/// Describes a request: the function with the name or index in its data, or the address.
+/// Describes a request: the function with the fields in its data that identify an object, or with
+/// the address; only the service and the address if no function matches.
 fn asked(exchange: &Exchange) -> String {
     let call = exchange.call();
     let (function, fault) = match call.dispatch() {
@@ -210,7 +214,7 @@ fn asked(exchange: &Exchange) -> String {
     let spec = function.spec();
     let mut fields = Vec::new();
     if let Some(stream) = spec.request {
-        // Ignore the error of the walk, because `mistake` has already described it.
+        // Ignore the error of the walk: `fault` describes the error of a rejected request.
         let _fault = stream.walk(call.data, |segment| {
             if fields.len() < FIELDS_MAX {
                 fields.extend(shown(segment.field.name(), segment.bytes));

@@ -7,22 +7,23 @@ use std::ops::Bound;
 use super::time::Time;
 use crate::number::to_usize;
 
-/// Maximum number of bytes of one direction that wait for earlier bytes.
+/// Maximum number of bytes of one direction that wait for earlier bytes. If more bytes wait, the
+/// missing bytes count as a gap.
 pub(super) const AHEAD_MAX: usize = 0x10_0000;
 
-/// Maximum number of segments of one direction that wait for earlier bytes.
+/// Maximum number of segments of one direction that wait for earlier bytes, with the same effect.
 const SEGMENTS_MAX: usize = 4096;
 
-/// Maximum distance of a sequence number from the expected one; a larger distance means another
-/// connection.
+/// Sequence numbers must be closer than this to the expected one. Otherwise, a segment is taken as
+/// part of another connection with the same ends, and an acknowledgement is ignored.
 const WINDOW: u32 = 0x4000_0000;
 
 /// Number of segments after a gap until acknowledged bytes count as missing; packets that are
 /// captured on several processors may be out of order.
 const REORDERED_SEGMENTS_MAX: u32 = 64;
 
-/// Maximum number of bytes of a connection that may be captured before its SYN; a SYN at a larger
-/// distance opens another connection.
+/// Fewer than this number of bytes of a connection may be captured before its SYN; a SYN at a
+/// larger distance opens another connection.
 const BEFORE_SYN: u32 = 0x1_0000;
 
 /// The location of bytes in the capture.
@@ -65,14 +66,16 @@ pub(super) struct DirectionState {
     seen: bool,
     /// Offset of the FIN.
     end: Option<u64>,
-    /// Offset of the next byte, that is, the number of emitted bytes; it does not wrap around.
+    /// Offset of the next byte, that is, the number of bytes emitted so far, including those of
+    /// gaps; it does not wrap around.
     offset: u64,
     /// Segments that wait for earlier bytes, by offset.
     ahead: BTreeMap<u64, EarlySegment>,
     buffered: usize,
-    /// Offset acknowledged by the other side; `acknowledged_by` is the location of the segment with
-    /// this acknowledgement.
+    /// Offset acknowledged by the other side.
     acknowledged: u64,
+    /// The location of the segment with this acknowledgement or, without an acknowledgement, of the
+    /// segment with the FIN.
     acknowledged_by: Option<CapturePosition>,
     waiting: u32,
     /// Retransmitted segments.
@@ -123,17 +126,18 @@ impl DirectionState {
         })
     }
 
-    /// Sets the sequence number of the first byte, known from an acknowledgement.
+    /// Sets the sequence number of the next byte, known from an acknowledgement or a FIN, unless
+    /// this number is already known.
     pub(super) fn begin_at(&mut self, sequence: u32) {
         self.next.get_or_insert(sequence);
     }
 
-    /// The offset up to which bytes were emitted.
+    /// The offset up to which bytes and gaps were emitted.
     pub(super) const fn offset(&self) -> u64 {
         self.offset
     }
 
-    /// Whether all bytes up to the FIN were emitted.
+    /// Whether all bytes and gaps up to the FIN were emitted.
     pub(super) fn is_over(&self) -> bool {
         self.end.is_some_and(|end| self.offset >= end)
     }
@@ -210,7 +214,8 @@ impl DirectionState {
         }
     }
 
-    /// Emits the waiting segments, and the gaps before and after them, at the end of the direction.
+    /// Emits the waiting segments, and the gaps before and after them: at the end of the direction,
+    /// or before a segment that is taken as part of another connection.
     pub(super) fn flush(&mut self, out: &mut impl FnMut(ReassembledPiece<'_>)) {
         while !self.ahead.is_empty() {
             self.skip_gap(out);

@@ -1,5 +1,5 @@
-//! Creates golden vectors from captured traffic, without addresses and texts that identify a
-//! machine.
+//! Creates golden vectors from captured traffic, without the network addresses of the machines and,
+//! by default, without the letters of their texts.
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
@@ -20,15 +20,15 @@ use serde_json::json;
 use crate::ads_service;
 use crate::client::frame;
 use crate::codec::decode_stream;
+use crate::number::digest;
 use crate::number::to_usize;
 use crate::rules::TargetVariable;
-use crate::simulator::program::digest;
 use crate::text::json as json_text;
 
 /// Maximum number of vectors of a capture.
 pub const VECTORS_MAX: usize = 10_000;
 
-/// The addresses of client and CNC in every collected frame.
+/// The AMS address of the client, and the AMS NetId of the CNC, in every collected frame.
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 20, 1, 1]), port: AmsPort(0x8001) };
 const CNC: AmsNetId = AmsNetId([192, 0, 2, 10, 1, 1]);
 
@@ -40,8 +40,8 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// Creates a collector that keeps captured texts if `keep_texts`, and replaces each of their
-    /// letters otherwise.
+    /// Creates a collector that keeps captured texts and NC programs if `keep_texts`; otherwise, it
+    /// replaces the letters of texts, and omits NC programs.
     pub fn new(keep_texts: bool) -> Self {
         Self { keep_texts, vectors: BTreeMap::new() }
     }
@@ -55,7 +55,7 @@ impl Collector {
     }
 
     /// Adds vectors of the data of a request, of the data of its reply, and of both frames. `reply`
-    /// is the data of a successful reply; `None` for an error.
+    /// is the data of a successful reply; `None` for an error, of which nothing is added.
     pub(super) fn add(
         &mut self,
         request: &Request<'_>,
@@ -140,7 +140,8 @@ impl Collector {
         );
     }
 
-    /// Adds a stream if it decodes, and returns the ID of its vector.
+    /// Adds a stream and returns the ID of its vector; `None` if the stream does not decode, or the
+    /// collector is full.
     fn stream(
         &mut self,
         stream: Stream,
@@ -214,7 +215,7 @@ impl Collector {
     }
 
     /// Writes the vectors to a new file, or to one new file for each stream in an existing folder.
-    /// No file is overwritten.
+    /// No file is overwritten; without vectors, no file is written.
     ///
     /// # Errors
     /// An error of the system, or [`io::ErrorKind::AlreadyExists`].
@@ -252,7 +253,7 @@ impl Collector {
     }
 }
 
-/// The context with the type and dimensions of the read or written value.
+/// The context with the type and dimensions of the read or written value, if they are known.
 fn typed(known: Option<&TargetVariable>) -> Context {
     let Some(known) = known else { return Context::default() };
     let name = known.description.var_type.name();
@@ -319,7 +320,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     scrubbed
 }
 
-/// A hash that is the same on every machine and in every version, as the IDs of vectors must be.
+/// A hash function that is the same on every machine, so that the IDs of vectors are.
 fn hash<const N: usize>(parts: [&[u8]; N]) -> u64 {
     let bytes = parts.iter().flat_map(|part| part.iter().copied().chain([0xFF]));
     digest(&bytes.collect::<Vec<_>>())

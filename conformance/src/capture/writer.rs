@@ -1,9 +1,10 @@
 //! Writes a capture for Wireshark in pcapng format, with artificial Ethernet, IP and TCP headers
 //! around the bytes of a connection.
 //!
-//! The file contains the bytes that were passed to and received from the system, in this order and
+//! The file contains the bytes that were passed to and received from the system, in their order and
 //! with the time of this machine, not the segments and acknowledgements on the network. Each
-//! connection begins with a handshake and ends with a FIN, so that a reader can reassemble it.
+//! connection begins with a handshake, and a closed connection ends with a FIN of both sides, so
+//! that a reader can reassemble it.
 //!
 //! ```
 //! use std::net::SocketAddr;
@@ -78,8 +79,8 @@ impl Capture {
         Ok(Self { out, flow: None, error: None, dropped: None })
     }
 
-    /// Calls `tell` with an error of the system if the capture is dropped before it is
-    /// [finished](Self::finish).
+    /// Calls `tell` with the first error of the system, if any, when the capture is dropped before
+    /// it is [finished](Self::finish).
     #[must_use]
     pub fn or_tell(self, tell: impl FnOnce(io::Error) + Send + 'static) -> Self {
         let mut capture = self;
@@ -200,7 +201,7 @@ fn interface() -> Vec<u8> {
     block(1, &[1, 0, 0, 0, 0, 0, 0, 0])
 }
 
-/// Enhanced packet: interface 0, time, captured length, original length.
+/// Enhanced packet: interface 0, time, captured length, original length, packet.
 fn enhanced(packet: &[u8]) -> Vec<u8> {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     let time = u64::try_from(since.as_micros()).unwrap_or(u64::MAX).to_le_bytes();

@@ -1,4 +1,4 @@
-//! `ads-cnc browse`: lists the objects, elements and variables of a CNC.
+//! `ads-cnc browse`: lists the objects and elements of a CNC, or its variables and parameters.
 
 use std::io::{self, BufWriter, Write as _};
 
@@ -19,7 +19,8 @@ use crate::session::{Session, ToolError};
 use crate::text::{hex, json, plural};
 use crate::values::plain;
 
-/// Maximum number of characters of a value in a table; CSV and JSON contain the whole value.
+/// Maximum number of characters of a value in a table, before an ellipsis; CSV and JSON shorten no
+/// value.
 const VALUE_MAX: usize = 48;
 /// Maximum size in bytes of a value that is read; `get` reads larger values.
 const CONTENT_MAX: u32 = 0x1_0000;
@@ -261,7 +262,7 @@ fn read_all(
                 enough = Some(format!("not read: {why}"));
                 Err(format!("not read: {why}"))
             }
-            // A value that cannot be read does not prevent reading the other values.
+            // After each of these errors, the other values can still be read.
             Err(
                 why @ (ToolError::Ads { .. }
                 | ToolError::Reply(_)

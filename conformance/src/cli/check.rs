@@ -242,7 +242,8 @@ impl CheckArgs {
         capture::check(CountedRead { file, odd: 0 }, CaptureOptions { ports, vectors })
     }
 
-    /// Writes the vectors; returns a line with their number and files, or no line without vectors.
+    /// Writes the vectors, and returns a line with their number and files. Without
+    /// --extract-vectors, writes nothing and returns no line.
     fn extract(&self, checked: &Checked) -> io::Result<Vec<String>> {
         let (Some(place), Some(vectors)) = (&self.extract_vectors, &checked.vectors) else {
             return Ok(Vec::new());
@@ -287,7 +288,8 @@ impl CheckArgs {
     }
 }
 
-/// The message for a compressed file, with the command that unpacks it; `None` for any other file.
+/// The message for a file that gzip, zstd or xz has compressed, with the command that unpacks it;
+/// `None` for any other file.
 pub(super) fn compressed(file: &Path) -> Option<String> {
     let mut start = [0; 4];
     File::open(file).and_then(|mut file| file.read_exact(&mut start)).ok()?;

@@ -48,7 +48,7 @@ const ABORT_EXIT_CODE: i32 = 134;
 
 impl ClientCommandArgs {
     /// Executes the instructions of the suite until `bye` or the end of stdin; with --once,
-    /// executes one action.
+    /// executes the action in `ADS_CNC_DO`; with --list-defects, lists the defects.
     pub(super) fn execute(&self) -> Exit {
         if self.list_defects {
             return written(list());

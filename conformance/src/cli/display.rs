@@ -17,8 +17,8 @@ impl Color {
     pub(super) fn is_on(self) -> bool {
         let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        // Older consoles of Windows print escape sequences as text; newer consoles and terminal
-        // emulators set one of these variables.
+        // Some consoles of Windows print escape sequences as text. Windows Terminal, ANSICON and
+        // many terminal emulators set one of these variables.
         let takes = !cfg!(windows) || ["WT_SESSION", "ANSICON", "TERM"].into_iter().any(set);
         match self {
             Self::Always => true,
@@ -35,8 +35,7 @@ pub(super) struct DisplayArgs {
     #[arg(long, short)]
     verbose: bool,
 
-    /// Show only the last line and, above it, each reason for the exit code that is not a verdict,
-    /// such as a rejected write
+    /// Show only the last line and, above it, reasons such as a rejected write
     #[arg(long, short, conflicts_with = "verbose")]
     quiet: bool,
 
@@ -46,7 +45,7 @@ pub(super) struct DisplayArgs {
 }
 
 impl DisplayArgs {
-    /// Whether only the last line is shown.
+    /// Whether --quiet is given.
     pub(super) const fn is_quiet(self) -> bool {
         self.quiet
     }

@@ -22,7 +22,7 @@ use crate::explain::{
 };
 use crate::text::did_you_mean;
 
-/// Maximum size of the input in bytes (16 MiB).
+/// Maximum number of bytes that are read from a file or stdin (16 MiB).
 const INPUT_MAX: u64 = 0x100_0000;
 
 /// Explain bytes field by field
@@ -130,13 +130,13 @@ fn is_capture(bytes: &[u8]) -> bool {
     starts.iter().any(|start| bytes.starts_with(start))
 }
 
-/// Whether the bytes are a text of hexadecimal bytes; false for an empty text.
+/// Whether the bytes are a text of at least one hexadecimal byte.
 fn is_hex(bytes: &[u8]) -> bool {
     let text = std::str::from_utf8(bytes);
     text.is_ok_and(|text| parse_hex(text).is_ok_and(|bytes| !bytes.is_empty()))
 }
 
-/// Whether the bytes begin like an Ethernet frame with IPv4 or IPv6, with or without a VLAN tag.
+/// Whether the bytes begin like an Ethernet frame with IPv4 or IPv6, with one VLAN tag or none.
 fn is_ethernet(bytes: &[u8]) -> bool {
     let of_ip = |at: usize| match bytes.get(at..) {
         Some([8, 0, version, ..]) => version >> 4 == 4,
@@ -324,8 +324,8 @@ fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Adds the exit code and a message to a write error. A broken pipe is not an error, because the
-/// reader closed it on purpose.
+/// Adds the exit code and a message to a write error. A broken pipe is not an error: its reader
+/// wants no more output.
 fn written(result: io::Result<()>) -> Result<(), (Exit, String)> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

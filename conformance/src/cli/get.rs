@@ -93,7 +93,7 @@ impl Get {
     }
 
     /// The exit code for these bytes. Without --hex, it is a failure if they are not a value of the
-    /// type and, with --plain, if the type is unknown.
+    /// type and, with --plain, also if the type is unknown; the reason is printed to stderr.
     fn judge(&self, object: &ListedValue, bytes: &[u8]) -> Exit {
         match object.ty.elements(bytes) {
             Ok(Some(_)) => Exit::Success,

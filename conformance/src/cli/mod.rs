@@ -190,7 +190,7 @@ impl Cli {
             Some(Subcommands::Selftest(selftest)) => selftest.execute().into(),
             Some(Subcommands::Client(client)) => client.execute().into(),
             Some(Subcommands::Serve(args)) => serve::serve(&args),
-            // `run` with its default options: the suite against the simulated CNC.
+            // `run` with its default options, which judge the codec and the simulated CNC.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }
     }

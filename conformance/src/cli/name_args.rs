@@ -1,4 +1,5 @@
-//! Options of the commands that take a name.
+//! Options of the commands that take a name (`get` and `set`), and functions that other commands
+//! use too.
 
 use std::io;
 use std::time::Duration;
@@ -58,8 +59,8 @@ impl NameArgs {
         }
     }
 
-    /// Advice for the user after an ADS error, or if the name was not found; `None` after any other
-    /// error.
+    /// Advice for the user after an ADS error, after [`ToolError::Absent`] and, if the name begins
+    /// like that of a variable, after [`ToolError::Unable`]; `None` after any other error.
     pub(super) fn advice(
         &self,
         error: &ToolError,
@@ -92,8 +93,8 @@ impl NameArgs {
         // A V.A name without its axis has three parts; the axis is the fourth part.
         let lacks_axis =
             name.starts_with("V.A.") && name.split('.').count() == 3 && self.axis.is_none();
-        // Parameter names contain numbers, which always resemble each other: do not suggest similar
-        // names.
+        // The name of a P parameter is P and a number: the names of other parameters would resemble
+        // it, so no similar names are suggested after an ADS error.
         if (is_variable || is_absent)
             && !lacks_axis
             && let Some(found) = self.look_for(target, model, is_absent)
@@ -146,8 +147,8 @@ fn is_like_variable(name: &str) -> bool {
 }
 
 impl NameArgs {
-    /// Lists the axes of the channel that have the variable, as advice if the axis of --axis does
-    /// not have it.
+    /// With --axis, lists the axes of the channel that have the variable, as advice; `None` if no
+    /// axis has it, and with --capture.
     fn axes(&self, target: &TargetArgs, model: &ModelArgs) -> Option<String> {
         if self.axis.is_none() || target.capture().is_some() {
             return None;
@@ -237,8 +238,8 @@ fn axis(text: &str) -> Result<ChannelAxis, String> {
     ChannelAxis::new(place).map_err(|error| error.to_string())
 }
 
-/// Converts a write error to [`ToolError::Internal`]. A broken pipe is not an error, because the
-/// reader closed it on purpose.
+/// Converts a write error to [`ToolError::Internal`]. A broken pipe is not an error: its reader
+/// wants no more output.
 pub(super) fn written(result: io::Result<()>) -> Result<(), ToolError> {
     match result {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

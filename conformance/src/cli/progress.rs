@@ -10,7 +10,8 @@ use crate::number::to_u32;
 use crate::process::progress::{Counts, counts};
 use crate::text::plural;
 
-/// Minimum time between two updates of the line on a terminal.
+/// Minimum time between two updates of the line on a terminal, except for an event that is shown at
+/// once.
 pub(super) const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
 /// Maximum number of characters of the line on a terminal. On a terminal of 80 columns, a longer
 /// line would wrap, and a part of it would stay on the screen.
@@ -79,7 +80,7 @@ impl Drop for ProgressLine {
 /// Number of characters that [`Watch`] has written to the last line of the terminal.
 static SHOWN: AtomicUsize = AtomicUsize::new(0);
 
-/// Clears the line of [`Watch`], before another text is written.
+/// Clears the line of [`Watch`].
 pub(super) fn clear() {
     let width = SHOWN.swap(0, Ordering::Relaxed);
     if width > 0 {
@@ -87,13 +88,14 @@ pub(super) fn clear() {
     }
 }
 
-/// The time after which a run first shows its progress on a terminal.
+/// The time after which [`Watch`] first shows the progress on a terminal.
 const SHORT_RUN: Duration = Duration::from_secs(1);
 
-/// Time between two lines, and before the first line, if stderr is not a terminal.
+/// Time between two lines if stderr is not a terminal; for [`Watch`], also the time before the
+/// first line.
 pub(super) const LOG_INTERVAL: Duration = Duration::from_secs(10);
 
-/// Shows the counts of a run on stderr until it is dropped.
+/// Shows the counts of `process::progress` on stderr until it is dropped.
 #[derive(Debug)]
 pub(super) struct Watch {
     thread: Option<(Sender<()>, JoinHandle<()>)>,
@@ -139,8 +141,7 @@ impl Drop for Watch {
 
 pub(super) fn progress_text(counts: Counts, unit: &str, elapsed: Duration) -> String {
     let Counts { all, done, failed, requests } = counts;
-    // `all` is 0 until a testee or client has answered hello, because the number of steps depends
-    // on its answer.
+    // When a testee or a client is judged, `all` is 0 until it has answered hello.
     let mut text = match all {
         0 if requests == 0 => "waiting for the first message".to_owned(),
         _ => format!("{done} of {all} {unit}"),

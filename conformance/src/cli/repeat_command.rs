@@ -38,7 +38,7 @@ pub(super) fn again(arguments: impl IntoIterator<Item = String>) -> String {
     words.join(" ")
 }
 
-/// A word quoted for a shell.
+/// A word as written in a POSIX shell: in quotes if it is empty or has other than plain characters.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,@%+".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

@@ -1,4 +1,4 @@
-//! `ads-cnc report`: converts and compares reports that were written as JSON.
+//! `ads-cnc report`: shows, converts and compares reports that were written as JSON.
 
 use std::ffi::OsStr;
 use std::io::{self, Read as _};

@@ -74,7 +74,8 @@ impl ReportFormats {
         self.requested().map(|(file, _)| file)
     }
 
-    /// Checks that at most one of the requested formats and the file `json` is written to stdout.
+    /// Checks that at most one of the requested formats and `json`, another file to be written,
+    /// goes to stdout.
     pub(super) fn check(&self, json: Option<&Path>) -> Result<(), String> {
         let files = json.into_iter().chain(self.files());
         match files.filter(|file| is_stdout(file)).count() {
@@ -88,7 +89,7 @@ impl ReportFormats {
     }
 }
 
-/// The reports of a run, and the file of known failures.
+/// The options of `run` and `check` for the reports and the file of known failures.
 #[derive(Args, Clone, Debug)]
 pub(super) struct Reports {
     /// Read the accepted known failures from this file

@@ -1,4 +1,5 @@
-//! `ads-cnc requirements`: prints requirements with everything that verifies them.
+//! `ads-cnc requirements`: prints requirements with the vectors, cases, tests and fuzz targets that
+//! verify them, and errata.
 
 use std::io::{self, Write as _};
 
@@ -80,7 +81,7 @@ impl Requirements {
         });
         match printed {
             Ok(()) => Exit::Success,
-            // The reader closed the pipe on purpose.
+            // The reader of the pipe wants no more output.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
             Err(error) => {
                 print_error(format_args!("cannot write the requirements: {error}"));
@@ -94,17 +95,17 @@ impl Requirements {
     }
 }
 
-/// Whether the word or pattern names the requirement in this row, its area, one of its parts,
-/// sections, cases or vectors; or the word is the name of a stream or function that cites the
-/// requirement.
+/// Whether the word or pattern names the requirement in this row, its area, one of its parts or
+/// sections, a case in the row, or a vector or sequence in the row by the ID of its case (`vec-…`,
+/// `seq-…`); or the word is the name of a stream whose table cites the requirement, or of a function
+/// that the requirement defines.
 fn is_named(row: &RequirementRow, word: &str) -> bool {
     let has =
         |ids: &[String], prefix: &str| ids.iter().any(|id| matches(word, &format!("{prefix}{id}")));
     names(word, &row.id)
         || clauses(word).iter().any(|clause| names(clause, &row.id))
         || has(&row.cases, "")
-        || has(&row.accepted, "vec-")
-        || has(&row.rejected, "vec-")
+        || ["vec-", "seq-"].iter().any(|kind| has(&row.accepted, kind) || has(&row.rejected, kind))
 }
 
 /// The message for a word that matches neither a row nor an erratum, with similar names.

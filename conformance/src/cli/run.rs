@@ -1,4 +1,4 @@
-//! `ads-cnc run`: runs the suite against a target.
+//! `ads-cnc run`: judges a target, a codec or a client by the cases of the suite.
 
 #![cfg_attr(
     not(test),
@@ -312,8 +312,8 @@ impl Run {
                 return Exit::Internal;
             }
         };
-        // A run that waits for a client prints no time limit, because the first line on stderr must
-        // contain the address on which it waits.
+        // A run that waits for a client prints no time limit: apart from messages about its
+        // options, the first line on stderr must contain the address on which it waits.
         let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
         let is_default = self.deadline.is_default();
         if asks && !is_default && !self.client.waits() && !self.display.is_quiet() {
@@ -350,7 +350,8 @@ impl Run {
     }
 
     /// The profile in the file of --profile, or the default profile, with the edition of --edition
-    /// if set.
+    /// if set. For the simulated CNC, it also has the names that the default profile excludes from
+    /// writes.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
         let without = if self.is_simulated() {
@@ -362,7 +363,8 @@ impl Run {
         let kept = if self.is_simulated() { without.unwritten.clone() } else { Cow::default() };
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);
-        // Writing these variables would change values that other cases of the simulated CNC expect.
+        // A write to these objects and elements exchanges axes, and writing the old value does not
+        // undo the exchange.
         let new = kept.iter().filter(|name| !profile.unwritten.contains(name));
         let unwritten = profile.unwritten.iter().chain(new).cloned().collect();
         Ok(Profile { edition, unwritten, ..profile })

@@ -1,4 +1,5 @@
-//! `ads-cnc run --client`: the suite acts as the CNC and judges a client.
+//! `ads-cnc run` with `--client` or `--client-listen`: the suite acts as the CNC and judges a
+//! client.
 
 #![cfg_attr(
     not(test),
@@ -61,7 +62,7 @@ impl ClientArgs {
         self.client.is_some() || self.client_listen.is_some()
     }
 
-    /// Whether the run waits for a client that connects by itself; a signal ends the wait.
+    /// Whether the run waits for clients that connect by themselves, see [`wait_for_client`].
     pub(super) const fn waits(&self) -> bool {
         self.client.is_none() && self.client_listen.is_some()
     }
@@ -75,10 +76,12 @@ impl ClientArgs {
         }
     }
 
-    /// Judges the client by the cases of a plan. After `most` failed cases, the others are not run.
+    /// With --client, judges the client by the cases of a plan; after `most` failed cases, the
+    /// others are not run. Otherwise, judges the requests of clients that connect by themselves.
     ///
     /// # Errors
-    /// If the suite may not or cannot listen on the address, or the capture cannot be written.
+    /// If the suite may not or cannot listen on the address, the default model is invalid, or the
+    /// capture cannot be written.
     pub(super) fn judge(
         &self,
         plan: &Plan,

@@ -16,8 +16,9 @@ use ads_cnc::operation::{Effect, Function};
 use crate::gate::Allowed;
 use crate::profile::{Claim, Profile};
 
-/// Lists the functions that a run requests from a device with this profile, and its allowed writes.
-/// Without a profile file, the run first queries the device for its ports, channels and axes.
+/// Lists the queries that a run may send to a device with this profile, and its allowed writes.
+/// `has_file`: whether --profile is given; otherwise, the run first queries the device for its
+/// ports, channels, axes and spindles.
 pub(super) fn list(
     profile: &Profile,
     has_file: bool,

@@ -73,7 +73,8 @@ pub(super) fn target(
 }
 
 /// Checks the protocol step by step. Prints each step and, for a wrong step, the fault and the
-/// lines sent and received.
+/// lines sent and received; then the end of stderr. Prints no step if a signal interrupts the
+/// check.
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
     let mut process = TesteeProcess::new(command, timeout);
     let findings = check_protocol(&mut process);

@@ -259,7 +259,7 @@ fn list_defects(part: &str) -> ExitCode {
     for seed in listed {
         let broken = seed.requirements.join(" ");
         if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
-            // The reader closed the pipe on purpose.
+            // The reader of stdout wants no more output.
             break;
         }
     }

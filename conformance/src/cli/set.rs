@@ -124,8 +124,9 @@ impl Set {
         Ok(judge(&ty, &bytes, new.as_deref()))
     }
 
-    /// Reads the description of the object from the device to find an error in the name or the
-    /// value. `None` if no such error is found, and if --allow-write is given.
+    /// Finds the object, reads its value and parses the new value, to find an error that says more
+    /// than the rejection of the write by the gate, such as an unknown name. `None` if no such
+    /// error is found, and if --allow-write is given.
     fn wrong(&self, question: &Lookup) -> Option<ToolError> {
         if self.target.has_file() {
             return None;
@@ -159,8 +160,8 @@ impl Set {
         Ok(NewValue { old, ty, bytes })
     }
 
-    /// Checks the write with the gate of the session before the description is requested. A dry run
-    /// prints a rejected write.
+    /// Checks the write with the gate of the session before the description is requested; for the
+    /// simulated CNC, only with --allow-write. A dry run prints a rejected write.
     fn ask_gate(&self, object: &ListedValue, session: &mut Session) -> Result<(), ToolError> {
         if session.is_simulated() && !self.target.has_file() {
             return Ok(());
@@ -198,7 +199,7 @@ impl Set {
             None => "(not readable)".to_owned(),
         };
         let (name, old, new) = (object.name.to_string(), text(old), text(new));
-        // Show long values on two lines.
+        // Show long values on lines of their own.
         let between = if old.len().max(new.len()) > 30 { "\n  → " } else { " → " };
         let start = if between.starts_with('\n') { "\n    " } else { " " };
         let name = crate::values::printable(&name);

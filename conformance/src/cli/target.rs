@@ -1,4 +1,4 @@
-//! Options of all commands that connect to a CNC.
+//! Options of the commands that connect to a device or start a simulated CNC for themselves.
 
 use std::fmt;
 use std::io;
@@ -27,7 +27,7 @@ use crate::text::shown_time;
 /// The heading of these options in the help.
 const TARGET: &str = "Target";
 
-/// The end of the long help of a command that connects to a CNC.
+/// A part of the long help of the commands that connect to a device.
 pub(super) const REACHING_A_DEVICE: &str = "\
 Reaching a device:
   The device listens for AMS/TCP on TCP port 48898 and answers only clients with a route. In its ADS
@@ -36,7 +36,7 @@ Reaching a device:
   --net-id is the device's own AMS NetId, as its router shows it. Requests go to the AMS ports 551
   (GEO), 552 (SDA) and 553 (COM); nothing is written without --allow-write.";
 
-/// The end of the long help of a command that may write.
+/// A part of the long help of the commands that may write.
 pub(super) const WHAT_MAY_BE_WRITTEN: &str = "\
 Allowed writes, a file for --allow-write:
   target = \"192.0.2.7.1.1\"             # AMS NetId of the device; 127.0.0.1.1.1 on loopback only
@@ -65,8 +65,7 @@ pub(super) struct TargetArgs {
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     source_net_id: Option<AmsNetId>,
 
-    /// Timeout for a connection and for a reply, in milliseconds; without effect on a simulated CNC
-    /// that the command starts [default: 2000]
+    /// Timeout for a connection to a device and for its replies, in milliseconds [default: 2000]
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "MS",
         allow_negative_numbers = true, value_parser = time())]
     timeout: Option<u64>,
@@ -145,7 +144,7 @@ impl TargetArgs {
         self.target.is_some()
     }
 
-    /// The timeout for a connection and for a reply.
+    /// The timeout for a connection and for a reply; in a run, also for an answer of a testee.
     pub(super) fn timeout(&self) -> Duration {
         self.timeout.map_or(TIMEOUT, Duration::from_millis)
     }
@@ -226,8 +225,8 @@ impl TargetArgs {
     /// The gate that checks each request before it is sent to the target.
     ///
     /// # Errors
-    /// If the file for --allow-write is invalid, the host of --target has no address, or the file
-    /// does not permit the malformed requests that --malformed asks for.
+    /// If the file for --allow-write is invalid, the host of --target has no address, or
+    /// --malformed is given and the file does not permit malformed requests to this target now.
     pub(super) fn gate(&self) -> Result<Gate, ToolError> {
         let gate = Gate::queries().with_allowed(self.allowed()?);
         match (self.device()?, self.malformed) {

@@ -108,7 +108,7 @@ fn misbehave(miniature: Miniature, own: &CodecTestee) -> io::Result<()> {
     Ok(())
 }
 
-/// Hangs until the process is killed; exits after a minute.
+/// Hangs until the process is killed, but at most for a minute.
 fn stay() -> ! {
     std::thread::sleep(std::time::Duration::from_secs(60));
     std::process::exit(i32::from(Exit::Internal.code()))

@@ -63,11 +63,11 @@ pub struct Inquired<R> {
     pub port: AmsPort,
     /// The frame sent; empty if nothing was sent.
     pub sent: Vec<u8>,
-    /// The frame received, or the part of it that arrived.
+    /// The frame received, or the bytes that arrived instead.
     pub received: Vec<u8>,
     /// The reply, or why there is no valid reply.
     pub outcome: Result<InquiryReply<R>, ExchangeError>,
-    /// The requirements of the headers and of the reply that the received frames violate.
+    /// Violations of the requirements of the headers and of the reply in the received bytes.
     pub violations: Vec<Violation>,
 }
 
@@ -90,7 +90,7 @@ impl<R: Inquiry> fmt::Display for Inquired<R> {
 }
 
 impl Client {
-    /// Sends an inquiry to a device.
+    /// Sends an inquiry, unless the gate rejects it or this is a dry run.
     pub fn inquire<R: Inquiry>(&mut self, port: AmsPort) -> Inquired<R> {
         let (sent, received, violations) = (Vec::new(), Vec::new(), Vec::new());
         let mut inquired =

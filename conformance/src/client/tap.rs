@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::net::SocketAddr;
 
-/// Records all bytes that a client sends and receives.
+/// Records the bytes that a client sends and receives.
 pub trait Tap: fmt::Debug + Send {
     fn opened(&mut self, local: SocketAddr, remote: SocketAddr);
 

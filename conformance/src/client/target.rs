@@ -14,7 +14,8 @@ pub struct Target {
     pub net_id: AmsNetId,
     /// The NetId from which requests are sent; a device replies only to a NetId for which it has a
     /// route. The default is the IPv4 address of this machine's interface to the target, with .1.1
-    /// appended: 192.0.2.7.1.1 for 192.0.2.7. On loopback and over IPv6, it is 127.0.0.1.1.2.
+    /// appended: 192.0.2.7.1.1 for 192.0.2.7. On loopback and over IPv6, it is 127.0.0.1.1.2. In a
+    /// dry run, which has no connection, it is made from the address of the target.
     pub source: Option<AmsNetId>,
     /// How long to wait for a connection, and for each reply.
     pub timeout: Duration,
@@ -31,7 +32,7 @@ impl Target {
 }
 
 /// The usual NetId for an IP address: an IPv4 address with .1.1 appended. For loopback and IPv6, it
-/// is 127.0.0.1.1.2, because 127.0.0.1.1.1 is the NetId of the simulated CNC.
+/// is 127.0.0.1.1.2; 127.0.0.1.1.1 is the NetId of the simulated CNC.
 pub(crate) const fn net_id_of(ip: IpAddr) -> AmsNetId {
     match ip {
         IpAddr::V4(ip) if !ip.is_loopback() => {

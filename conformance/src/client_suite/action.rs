@@ -1,4 +1,5 @@
-//! The actions that the suite tells a client to execute. The meaning of an action never changes.
+//! The actions that the suite tells a client to execute. Actions may be added, but the meaning of
+//! an action must not change.
 
 use std::fmt;
 
@@ -7,7 +8,8 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActionWord {
     pub name: &'static str,
-    /// Names of the arguments. The value of the last argument may contain spaces.
+    /// Names of the arguments. In a line with an action, only the value of the last argument may
+    /// contain spaces.
     pub arguments: &'static [&'static str],
     /// The result of the action and, if needed, the possible values of an argument and the effect
     /// of the action.
@@ -55,11 +57,10 @@ pub const VOCABULARY: &[ActionWord] = words! {
     "ask-service" ["CHANNEL" "UUID" "REQUEST"] "the response";
 };
 
-/// An action of the vocabulary with its arguments.
+/// An action with its arguments.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Action {
     pub action: String,
-    /// The arguments.
     pub args: Vec<String>,
 }
 

@@ -113,7 +113,7 @@ pub fn judge(
         let played =
             caught(|| play(actor, server, scenario, &cnc_address(port))).and_then(|played| played);
         if interrupt::is_requested() {
-            // The user interrupted the action, so the scenario has no verdict.
+            // A signal interrupted the action, so the scenario is not judged.
             outcomes.push(CaseOutcome::interrupted(case));
             continue;
         }
@@ -208,8 +208,8 @@ fn play(
     let mut requests = RequestJudge::of_scenario();
     requests.judge(&exchanges, &mut scenario_checks);
     requests.finish(&mut scenario_checks);
-    // `asks` is empty if the scenario is about replies, the order of requests, or a program that
-    // the client must not stream.
+    // `asks` is empty for example if the scenario is about replies, the Service Interface or the
+    // streaming of a program.
     request_match::judge(&scenario.asks, &exchanges, may_write(scenario), &mut scenario_checks);
     if let Some(watch) = scenario.watch {
         ordering::judge(watch, scenario, &script, &exchanges, &mut scenario_checks);
@@ -235,8 +235,8 @@ fn may_write(scenario: &Scenario) -> bool {
     word.starts_with("write") || ["stream", "serve-echo", "ask-service"].contains(&word)
 }
 
-/// Judges the client's answer to the action. Returns why the scenario has no verdict; `None` if it
-/// has a verdict.
+/// Judges the client's answer to the action. Returns why the answer is not judged by the rules of
+/// the scenario; `None` if it is.
 fn judge_reaction(
     scenario: &Scenario,
     script: &ScenarioScript,
@@ -432,7 +432,7 @@ mod tests {
         assert!(note.starts_with("the case panicked: ") && note.contains("the first action"));
     }
 
-    /// A scenario whose expected answer is unknown has no verdict, and is not passed silently.
+    /// A scenario whose expected answer is unknown has the verdict *harness error*.
     #[test]
     fn an_unknown_expected_answer_is_a_harness_error() {
         let server = TestServer::new(([127, 0, 0, 1], 0).into()).unwrap();

@@ -1,6 +1,6 @@
-//! The requests and replies that the manuals print, as whole frames: the printed data and
-//! handwritten headers, without the codec. These frames detect errors of the codec, which this
-//! project's client and the simulated CNC share.
+//! Printed requests and replies as whole frames: the data that the manuals print and handwritten
+//! headers, without the codec. These frames can detect errors of the codec, which this project's
+//! client and the simulated CNC share.
 
 use crate::number::to_u32;
 
@@ -40,8 +40,9 @@ impl Literal {
         forms
     }
 
-    /// The service data of the request before the read length, and after it. The read length is not
-    /// compared, because the client may choose it.
+    /// The service data of the request before the read length, and after it; for a Write, which has
+    /// no read length, the address and the rest. The read length is not compared, because the
+    /// client may choose it.
     fn request(&self) -> (Vec<u8>, Vec<u8>) {
         let mut front = self.group.to_le_bytes().to_vec();
         front.extend(self.offset.to_le_bytes());

@@ -1,4 +1,4 @@
-//! The messages of the client protocol, each of which is one line.
+//! The messages of the client protocol: lines of JSON, and environment variables.
 
 use std::net::SocketAddr;
 
@@ -71,7 +71,7 @@ pub(super) fn environment(
     ]
 }
 
-/// Maximum number of characters of a result or an error in a message.
+/// Maximum number of characters of a client's answer in a message.
 const SHOWN: usize = 200;
 
 /// The result that this project's client returns for an action without a value.

@@ -1,5 +1,6 @@
 //! Tests clients: the suite acts as the CNC, tells a client what to do, and judges its requests and
-//! its reactions to invalid replies.
+//! its answers, also after invalid replies. A client that takes no actions is judged only by its
+//! requests.
 //!
 //! `adapters/CLIENTS.md` specifies the protocol. [`ClientProcess`] is a client that is started by a
 //! command; [`ReferenceClient`] is this project's client, optionally with one of its [`defects`].

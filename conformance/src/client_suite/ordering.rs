@@ -1,5 +1,5 @@
-//! Checks the order of a client's requests: of the packets of an NC program, and of the reads and writes
-//! of the variables of the Service Interface.
+//! Checks the order and the data of a client's requests: of the packets of an NC program, and of
+//! the reads and writes of the variables of the Service Interface.
 
 use ads_cnc::operation::Request;
 use ads_cnc::service::ServiceVariable;

@@ -29,8 +29,8 @@ pub fn requests_case() -> Case {
 }
 
 /// Serves the default model to every client until all connections are closed or `go_on` returns
-/// false, and judges every request. Returns the outcome, which has the checked requirements,
-/// and the number of requests.
+/// false, and judges every request that the server has recorded. Returns the outcome, which has the
+/// checked requirements, and the number of requests.
 ///
 /// # Errors
 /// An error in the default model, which a test excludes.

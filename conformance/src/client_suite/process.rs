@@ -25,7 +25,7 @@ pub struct ClientProcess {
 }
 
 impl ClientProcess {
-    /// Creates a client with a time limit for each action.
+    /// Creates a client with its command line and a time limit for each action.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self { process: Subprocess::new(line, timeout), stays: false, unasked: Vec::new() }
     }

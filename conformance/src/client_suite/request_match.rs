@@ -13,7 +13,8 @@ use crate::judge::assumed;
 use crate::text::plural;
 use crate::values::until_nul;
 
-/// The fields of a client's request, read from its bytes without the codec.
+/// The fields of a client's request, read from its bytes without the codec. The group is converted
+/// by [`logical`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct RawRequest {
     command: u16,
@@ -48,7 +49,8 @@ impl RawRequest {
 }
 
 /// Converts an index group from addressing by rank to logical addressing, for the default model, in
-/// which the channels 1, 2 and 6 have the ranks 1, 2 and 3. Other groups are returned unchanged.
+/// which the channels 1, 2 and 6 have the ranks 1, 2 and 3. Groups of spindles and logical groups
+/// are returned unchanged.
 pub(super) const fn logical(group: u32) -> u32 {
     let spindle = group & 0xF000 == 0x5000;
     let known = group & 0xF0_0000 == 0 && group & 0x0F_0000 >= 0x02_0000;
@@ -59,7 +61,8 @@ pub(super) const fn logical(group: u32) -> u32 {
     }
 }
 
-/// Checks that the client sent all requests of the scenario and, unless `may_write`, no other write.
+/// Checks that the client sent all requests of the scenario and, unless `may_write`, no write at
+/// any other address.
 pub(super) fn judge(
     asks: &[ExpectedRequest],
     exchanges: &[RecordedExchange],
@@ -130,8 +133,8 @@ fn one(
         scenario_checks.check(ask.place, false, exchange, || describe(ask), found);
         return;
     }
-    // The manual specifies only for the decoder which port serves the class. For other classes, the
-    // port of GEO is accepted too.
+    // The manuals state only for the variables of the decoder that they belong to SDA (ADR-10). For
+    // other classes, the port of GEO is accepted too.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
     scenario_checks.check(GEN_4, port, exchange, || format!("port {}", ask.port), || one.port);

@@ -24,7 +24,8 @@ pub(super) struct RequestJudge {
     /// The connection and the invoke ID of the previous request.
     before: Option<(usize, u32)>,
     /// Whether requests are compared with earlier replies, for example with the types that they
-    /// contained. False in a scenario, where the suite tells the client the names and changes replies.
+    /// contained. False in a scenario, in which the suite tells the client the names and may change
+    /// replies.
     learns: bool,
 }
 
@@ -79,8 +80,8 @@ impl RequestJudge {
         let port = header.target.port;
         let has_task = Task::from_port(port).is_some();
         check(GEN_4.into(), has_task, "port 551, 552 or 553", &port);
-        // A client that repeats an invoke ID cannot distinguish a late reply to one request from the
-        // reply to the next.
+        // A client that repeats an invoke ID cannot distinguish a late reply to one request from
+        // the reply to the next.
         let before = self.before.replace((exchange.connection, header.invoke_id));
         let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
         self.rules.request_headers(exchange, &header, is_repeated);
@@ -151,7 +152,8 @@ pub(super) fn with_request<T>(
     Some(then(&request))
 }
 
-/// The requirement of the function that a request calls, if the function changes the state of the CNC.
+/// The requirement of the function that a request calls, if the function changes the state of the
+/// CNC.
 pub(super) fn writes(exchange: &RecordedExchange) -> Option<Rule> {
     with_request(exchange, |request| {
         let spec = request.function().spec();

@@ -153,9 +153,10 @@ pub(super) enum RequestOrder {
 /// An action, and how the client's requests and answer are judged.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// The ID, whose meaning never changes.
+    /// The ID, which is never used again for another behaviour.
     pub id: String,
-    /// The verified behaviour, as a sentence; for a changed reply, the action and the change.
+    /// The verified behaviour, as a sentence; for a changed reply, the action and the change; for a
+    /// printed example, the title of its vector.
     pub title: String,
     /// The action with its arguments; for `stream`, the suite appends the file name.
     pub(super) action: String,
@@ -240,7 +241,8 @@ impl Scenario {
 
     /// The scenario as a case of the suite.
     pub fn case(&self) -> Case {
-        // If the client may send no request, the requirements of frames and ports are not tested.
+        // A client that must not stream a program may send no request at all: then the requirements
+        // of frames and ports are not tested.
         let silent = matches!(self.watch, Some(RequestOrder::NoStream(_)));
         let mut requirements =
             if silent { Vec::new() } else { vec![ADS_5.as_str(), GEN_4.as_str()] };

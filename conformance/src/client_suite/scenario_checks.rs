@@ -1,4 +1,4 @@
-//! Records the checks of a client in one scenario.
+//! Records the checks of a client in one case.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
@@ -10,7 +10,7 @@ use crate::exchange::meaning;
 use crate::judge::{Record, Rule, Rules, Verdict};
 use crate::text::plural;
 
-/// The checks of a scenario and their verdicts.
+/// The checks of a case and their verdicts.
 #[derive(Debug, Default)]
 pub(super) struct ScenarioChecks {
     pub(super) record: Record,
@@ -65,7 +65,8 @@ impl ScenarioChecks {
 
 /// The evidence of an exchange in a report.
 pub(super) fn evidence(exchange: &RecordedExchange) -> Evidence {
-    // The suite judges the client's request, so the evidence shows the request, not only the reply.
+    // The suite judges the client's request, so the evidence shows the request even if it is not a
+    // frame.
     let fault = exchange.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
         call: format!("bytes that are not a request{fault}"),

@@ -80,8 +80,8 @@ impl ScenarioScript {
         })
     }
 
-    /// The error with which the script rejects a request; `None` unless the request is a write to the
-    /// program stream that must be rejected. Counts these writes.
+    /// The error with which the script rejects a request; `None` unless the request is a write to
+    /// the program stream that must be rejected. Counts these writes.
     fn rejection(&mut self, dispatched: &Request<'_>) -> Option<AdsError> {
         let Request::WriteProgramStream(_) = dispatched else { return None };
         let number = self.streamed;
@@ -92,8 +92,8 @@ impl ScenarioScript {
             .map(|(_, error)| *error)
     }
 
-    /// Simulates the service: after [`POLLS`] reads of RESPONSE_STATE, it writes the response to the
-    /// client's request.
+    /// Simulates the service: after [`POLLS`] reads of RESPONSE_STATE, it writes the response to
+    /// the client's request.
     fn host(&mut self, dispatched: &Request<'_>) {
         let Some(response) = self.response else { return };
         match self.service_variable(dispatched) {

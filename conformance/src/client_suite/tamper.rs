@@ -16,17 +16,20 @@ pub(super) enum Tamper {
     Bytewise,
     /// Sends two pieces with a pause between them; the first piece has this many bytes.
     Pieces(usize),
-    /// Sends a reply with another invoke ID and other data, and then the reply, in one write.
+    /// Sends a reply with another invoke ID and, if it has data, other data, and then the reply, in
+    /// one write.
     Foreign,
     /// Sends the reply twice, in one write.
     Twice,
     /// Sends the reply to the previous request once more, and then the reply, in one write.
     Late,
-    /// Sends only a reply with another invoke ID and other data, and closes the connection after a pause.
+    /// Sends only a reply with another invoke ID and, if it has data, other data, and closes the
+    /// connection after a pause.
     OtherInvokeId,
     /// Sends a reply with a wrong length field, and closes the connection after a pause.
     Length(LengthField, WrongLength),
-    /// Sends a reply with another command in its AMS header, and closes the connection after a pause.
+    /// Sends a reply with another command in its AMS header, and closes the connection after a
+    /// pause.
     OtherCommand,
     /// Sends a reply with the state flags of a request, and closes the connection after a pause.
     Request,
@@ -99,8 +102,8 @@ const PAUSE: Duration = Duration::from_millis(40);
 const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
 
 impl Tamper {
-    /// The steps that send the changed reply. `before` is the reply to the previous request on the same
-    /// connection.
+    /// The steps that send the changed reply. `before` is the unchanged reply to the previous
+    /// request on the same connection.
     pub(super) fn steps(self, reply: &[u8], before: Option<&[u8]>) -> Vec<SendStep> {
         let send = |bytes: Vec<u8>| vec![SendStep::Send(bytes)];
         let then_close =
@@ -190,13 +193,14 @@ enum ReplyBody {
     Result(AdsError, Option<Vec<u8>>),
 }
 
-/// The reply, changed and encoded again with matching lengths. A reply that does not decode is left
-/// unchanged.
+/// The reply, changed and encoded again with matching lengths. A reply that does not decode, or
+/// cannot be encoded after the change, is left unchanged.
 fn rebuilt(reply: &[u8], change: impl FnOnce(&mut ReplyParts)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
         let header = frame.header();
-        // A reply to any other command is decoded like a reply to a Write: a result without data.
+        // A reply to a command that is not a service is decoded like a reply to a Write: a result
+        // without data.
         let service = service_of(header.command).unwrap_or(AdsService::Write);
         let (result, data) = decode_reply(service, frame.data()).ok()?;
         let body = ReplyBody::Result(result, data.map(<[u8]>::to_vec));
@@ -225,7 +229,7 @@ fn with_data(reply: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
     })
 }
 
-/// The reply with an invoke ID that the client did not use, and other data of the same length.
+/// The reply with another invoke ID and, if it has data, other data of the same length.
 fn foreign(reply: &[u8]) -> Vec<u8> {
     let other = with_data(reply, |data| {
         for byte in data.iter_mut() {

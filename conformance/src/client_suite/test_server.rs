@@ -1,5 +1,5 @@
-//! The CNC to which a client under test connects: a TCP server that records all frames and can change
-//! the replies of the simulated CNC.
+//! The CNC to which a client under test connects: a TCP server that records the frames, up to a
+//! limit, and can change the replies of the simulated CNC.
 
 use std::collections::HashMap;
 use std::io::{self, Read as _, Write as _};
@@ -39,7 +39,6 @@ pub(super) struct RecordedExchange {
     pub(super) connection: usize,
     /// The request; the last request of a connection may be incomplete.
     pub(super) request: Vec<u8>,
-    /// All bytes that the server sent as the reply.
     pub(super) sent: Vec<u8>,
     /// Why the bytes of the request are not a frame; `None` if they are a frame.
     pub(super) fault: Option<String>,
@@ -115,7 +114,7 @@ impl Recording {
 /// The number of requests and connections that exceeded the limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Overflow {
-    /// Number of requests to which the server replied, but which are not judged.
+    /// Number of requests that were not recorded, and so are not judged.
     pub(super) requests: usize,
     /// Number of connections that the server closed immediately.
     pub(super) connections: usize,
@@ -164,7 +163,7 @@ pub struct TestServer {
     capture: Option<Mutex<ClientCapture>>,
 }
 
-/// The capture of the traffic with clients, one connection after another.
+/// The capture of the recorded traffic with clients, in which one connection is open at a time.
 #[derive(Debug)]
 struct ClientCapture {
     tap: Box<dyn Tap>,
@@ -193,7 +192,7 @@ impl ClientCapture {
 struct TestRun {
     script: Mutex<ScenarioScript>,
     exchanges: Mutex<Recording>,
-    /// All connections so far, so that the end of the scenario can close them.
+    /// The accepted connections, so that the end of the scenario can close them.
     streams: Mutex<Vec<TcpStream>>,
     /// The address of the client for each connection number.
     peers: Mutex<HashMap<usize, SocketAddr>>,
@@ -208,15 +207,16 @@ impl TestServer {
         let run: Arc<Mutex<Option<Arc<TestRun>>>> = Arc::default();
         let playing = Arc::clone(&run);
         let acceptor = net::Acceptor::start("clients", net::listen(addr)?, move |stream, _| {
-            // If no scenario is running, the connection is dropped and so closed. The lock is held until
-            // the connection is registered with its scenario, because a scenario may end at any time.
+            // If no scenario is running, the connection is dropped and so closed. The lock is held
+            // until the connection is registered with its scenario, because a scenario may end at
+            // any time.
             let run = lock(&playing);
             let _gone = run.clone().map(|run| run.connect(stream));
         })?;
         Ok(Self { acceptor, run, capture: None })
     }
 
-    /// Writes the traffic of all connections to a capture.
+    /// Writes the recorded traffic of all connections to a capture.
     #[must_use]
     pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
         self.capture = Some(Mutex::new(ClientCapture { tap: capture.into(), open: None }));
@@ -287,8 +287,8 @@ impl TestServer {
         }
     }
 
-    /// Removes and returns the exchanges recorded since the last call, up to the first exchange whose
-    /// reply the server has not sent completely.
+    /// Removes and returns the exchanges recorded since the last call, up to the first exchange
+    /// whose reply the server has not sent completely.
     pub(super) fn exchanges(&self) -> Vec<RecordedExchange> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
         let exchanges = lock(&run.exchanges).take_answered();
@@ -296,12 +296,15 @@ impl TestServer {
         exchanges
     }
 
-    /// Ends the scenario and closes all connections. The script is `None` if it is still in use.
+    /// Ends the scenario and closes all connections. Returns the exchanges that were not taken
+    /// before, what exceeded the limits, and the script, which is `None` if it is still in use or
+    /// no scenario was running.
     pub(super) fn end(&self) -> (Vec<RecordedExchange>, Overflow, Option<ScenarioScript>) {
         let Some(run) = lock(&self.run).take() else {
             return (Vec::new(), Overflow::default(), None);
         };
-        // Waits until the server has read the bytes that a client sent before it closed a connection.
+        // Waits, for at most `LINGER`, until the server has read the bytes that a client sent
+        // before it closed a connection.
         drop(run.closed.wait_timeout_while(lock(&run.open), LINGER, |open| *open > 0));
         for stream in lock(&run.streams).iter() {
             let _closed = stream.shutdown(Shutdown::Both);

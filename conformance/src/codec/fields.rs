@@ -81,8 +81,8 @@ pub(super) fn element(element: Element<'_>) -> Tagged {
     }
 }
 
-/// The shortest decimal notation of a float, as in the vectors: an exponent has a sign and two
-/// digits.
+/// The shortest decimal notation of a float, as in the vectors: an exponent has a sign and at least
+/// two digits.
 pub(super) fn decimal(number: f64) -> String {
     let shortest = format!("{number:?}").to_lowercase();
     match shortest.split_once('e') {

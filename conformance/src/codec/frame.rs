@@ -58,15 +58,16 @@ fn cut(context: &Context, bytes: &[u8]) -> CodecError {
         service(context, &AmsHeader::decode(header)?, data)?;
         Ok(())
     };
-    // The data of other commands is not a stream: only the length in the header shows that the data
-    // is truncated.
+    // Data that belongs to no service is not decoded as a stream: only the length in the header
+    // shows that the data is truncated.
     let rest =
         || CodecError::InvalidFields("fewer bytes of data than the header requires".to_owned());
     parts().err().unwrap_or_else(rest)
 }
 
-/// Name and fields of the service's stream, or `data` and the bytes for a command that is not a
-/// service. `None` if the AMS header contains an error and no bytes follow.
+/// Name and fields of the service's stream; `data` and the bytes for a command that is not a
+/// service, and for state flags other than those of a request or a response. `None` if the AMS
+/// header contains an error and no bytes follow.
 fn service(
     context: &Context,
     header: &AmsHeader,

@@ -63,7 +63,7 @@ pub enum Edition {
     German,
 }
 
-/// The kinds that a request by index can contain.
+/// The kinds whose variables have indices.
 const INDEXED: &[Kind<'static>] = &[Kind::V_E, Kind::V_G, Kind::V_A];
 const KIND_REQUIREMENT: &str = VAR_1.as_str();
 

@@ -1,8 +1,8 @@
-//! Whether an edition or a version has a feature.
+//! Whether an edition of the manual or a version of the CNC has a feature.
 
 use std::fmt;
 
-/// Whether an edition or a version has a feature, and the requirement that states it.
+/// Whether an edition of the manual or a version of the CNC has a feature, and the requirement that states it.
 ///
 /// ```
 /// use ads_cnc::Kind;

@@ -14,16 +14,16 @@ use crate::number::to_usize;
 use crate::text::hex::spaced;
 use crate::value_format::ValueFormat;
 
-/// What to explain, and the type of the values in it.
+/// The bytes or the address to explain, and the type of the values in the bytes.
 #[derive(Clone, Debug)]
 pub struct ExplainQuery {
-    /// What the bytes are: a stream, data of a service, or frames; or an address without bytes.
+    /// The kind of the bytes: a stream, data of a service, or frames; or an address without bytes.
     pub subject: ExplainSubject,
     /// The type of values and contents, which the streams do not contain.
     pub values: ValueFormat,
 }
 
-/// What the bytes are.
+/// The kind of the bytes, or an address without bytes.
 #[derive(Clone, Debug)]
 pub enum ExplainSubject {
     Stream(Stream),
@@ -83,11 +83,11 @@ impl ExplanationOutcome {
     }
 }
 
-/// The explanation of a stream, or of bytes that no table describes.
+/// The explanation of a stream, of bytes that no table describes, or of an address without data.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct ExplainedStream {
     pub title: String,
-    /// The stream's name; `None` for bytes that no table describes.
+    /// The stream's name; `None` for bytes that no table describes, and without data.
     pub stream: Option<&'static str>,
     /// The requirement that defines the stream.
     pub clause: Option<&'static str>,
@@ -98,10 +98,11 @@ pub struct ExplainedStream {
     pub length: usize,
     /// The address to which the stream is sent, or which returns it.
     pub address: Option<ExplainedAddress>,
-    /// The fields up to the first error.
+    /// The fields that were read; for NC text, each line; for a value of a specified type, each
+    /// element.
     pub rows: Vec<ExplainedField>,
     pub faults: Vec<ExplainedFault>,
-    /// The bytes after the last field that was read, if there is an error.
+    /// The bytes after the last field that was read, if an error in the stream ended the reading.
     pub unread: Option<Unread>,
     /// Notes about the whole stream.
     pub notes: Vec<String>,
@@ -119,7 +120,7 @@ pub struct ExplainedField {
     pub field: String,
     /// Index of the record in a stream of records, otherwise 0.
     pub record: u32,
-    /// Index of the item in a field with several items, otherwise 0.
+    /// Index of the item, the element or the line in a field with several, otherwise 0.
     pub item: u32,
     /// Name of the type.
     #[serde(rename = "type")]
@@ -176,7 +177,7 @@ pub struct ExplainedAddress {
     /// The meaning of the index offset.
     pub offset: String,
     pub function: Option<FunctionReport>,
-    /// Other meanings of the address, and the reason if no function has this address.
+    /// Notes, such as other meanings of the address, or the reason if no function has this address.
     pub notes: Vec<String>,
 }
 

@@ -172,7 +172,7 @@ impl FrameExplainer<'_> {
             }
             return;
         };
-        // An error reply has no data, and the data of a truncated service may be missing
+        // An error reply usually has no data, and the data of a truncated service may be missing
         // completely.
         if (failed || faulty) && inside.is_none_or(|(_, data)| data.is_empty()) {
             return;

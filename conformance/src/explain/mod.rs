@@ -1,8 +1,9 @@
 //! Explains bytes field by field: offset, bytes, field, value, meaning, requirement.
 //!
 //! [`explain`] accepts any bytes and never fails: an error in the bytes is part of the
-//! [`Explanation`], which contains all fields before the error, the error itself and the unread
-//! bytes. The fields are those of the tables in [`ads_cnc::layout`].
+//! [`Explanation`], which contains the fields before the error, the error itself and the unread
+//! bytes. The fields are those of the tables in [`ads_cnc::layout`]; NC text is split into lines,
+//! and a value whose type is specified into elements.
 //!
 //! ```
 //! use ads_cnc::layout::Stream;

@@ -14,7 +14,7 @@ struct Line<'a> {
     bytes: &'a [u8],
 }
 
-/// Adds a row for each line of NC text, and the faults that the codec finds in the text.
+/// Adds a row for each line of NC text, and the faults and notes of the codec about the text.
 pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
     let (data, whole) = (segment.bytes, row(segment));
     let lines = lines(data);

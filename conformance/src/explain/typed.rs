@@ -5,7 +5,7 @@ use ads_cnc::{Error, U32List};
 
 use super::codes::text_of;
 use crate::number::to_usize;
-use crate::values::indices;
+use crate::values::element_label;
 
 /// An element of a value.
 pub(super) struct TypedElement {
@@ -27,7 +27,7 @@ pub(super) fn elements(
     Ok(placed
         .map(|(item, one)| TypedElement {
             len,
-            place: indices(item, dimensions),
+            place: element_label(item, dimensions),
             value: element(one),
         })
         .collect())

@@ -13,8 +13,8 @@ use crate::number::to_usize;
 use crate::text::plural;
 use crate::value_format::ValueFormat;
 
-/// Maximum length in bytes of a value of unknown type that is shown as every numeric type of its
-/// size.
+/// Maximum length in bytes of a value of unknown type that is shown as every type of its size
+/// except STRING.
 const GUESSED: usize = 8;
 
 /// Adds the rows of a segment to its part.
@@ -123,8 +123,9 @@ fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     }
 }
 
-/// Adds a value or content: if the user has specified the type, a row for each element; otherwise
-/// one row, with a note that shows the bytes as each possible type.
+/// Adds a value or content: if the user has specified a type that fits the bytes, a row for each
+/// element; if the type does not fit, one row and a fault; without a type, one row, with a note
+/// that shows the bytes as the types that [`guesses`] finds.
 fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values: &ValueFormat) {
     let Some(ty) = values.ty else {
         row.value = plural(all.len(), "byte");
@@ -175,8 +176,8 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
     }
 }
 
-/// Formats at most `GUESSED` bytes as each numeric type of their size, and longer printable bytes
-/// as a STRING.
+/// Formats at most `GUESSED` bytes as each type of their size except STRING, and longer printable
+/// bytes, up to 128, as a STRING.
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {
         let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));

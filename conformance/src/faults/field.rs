@@ -55,16 +55,15 @@ impl FieldChange {
 }
 
 impl FieldDefect {
-    /// The defects of every stream that is sent on its own.
-    ///
-    /// `Stream::ObjectDescriptors` has no defects of its own: a defect of `Stream::ObjectDescriptor`
-    /// changes each record of the list.
+    /// The defects of every stream except `Stream::ObjectDescriptors`: a defect of
+    /// `Stream::ObjectDescriptor` changes each record of that list.
     pub fn all() -> Vec<Self> {
         let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);
         streams.flat_map(Self::of_stream).collect()
     }
 
-    /// The defects of one stream: every change to every field, except reversing a single byte.
+    /// The defects of one stream: every change to every field, except the reversal of a field with
+    /// a fixed length of one byte.
     pub fn of_stream(stream: Stream) -> Vec<Self> {
         let each = |field: Field| {
             let one = field.spec().is_some_and(|spec| spec.size == Size::Fixed(1));

@@ -1,5 +1,5 @@
-//! Generated defects of one function: each operator rejects the request, executes another request, or
-//! changes the correct reply.
+//! Generated defects of one function: each operator rejects the request, executes another request
+//! instead of the request or in addition to it, or changes the correct reply.
 //!
 //! ```
 //! use ads_cnc_conformance::faults;
@@ -29,7 +29,8 @@ use super::cnc::{
 };
 use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 
-/// A defect that every function for which `applies` returns true can have.
+/// A kind of defect. `seeds` generates one defect for each function for which `applies` returns
+/// true, except for `WriteProgramStream`.
 struct Operator {
     name: &'static str,
     what: &'static str,
@@ -51,7 +52,8 @@ const fn operator(
 }
 
 /// Defects that treat a request as another request, reject it, or answer a rejected request with
-/// success. They also violate the requirement of the stream of the request.
+/// success. They also violate the requirement of the stream of the request, if the function has
+/// one.
 const OF_REQUESTS: &[Operator] = &[
     operator(
         "reject",

@@ -60,8 +60,8 @@ impl From<FieldDefect> for SeededDefect {
             requirements.push(SDA_4.as_str());
         }
         requirements.dedup();
-        // A zero turns an error into a success, which ADS-7 forbids; other error numbers are not
-        // specified.
+        // A zero turns an error into a success, which ADS-7 forbids. Which other number an error
+        // has is not specified.
         if defect.field.name() == "result" && defect.change == FieldChange::Zero {
             requirements.push(ADS_7.as_str());
         }
@@ -111,7 +111,7 @@ impl SeededDefect {
         matches!(self.how, Mechanism::Field(_) | Mechanism::Cnc(_))
     }
 
-    /// The data model that this variant uses instead of the default model; `None` if it uses the default.
+    /// The data model of a variant that replaces the model of the CNC; `None` for any other seed.
     pub(crate) const fn own_model(&self) -> Option<&'static str> {
         match self.how {
             Mechanism::Cnc(CncFault::Model(model)) => Some(model),

@@ -11,7 +11,8 @@ use ads_cnc::{CncStr, CncString};
 /// table of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// A variable by its name, or by a handle that the device returned for this name.
+    /// A variable by its name. Without an axis and without indices, the entry also allows writes by
+    /// a handle that the device returned for this name.
     Variable {
         channel: Channel,
         /// The axis, if the write uses the axis interface.
@@ -52,8 +53,8 @@ impl AllowedList {
 }
 
 impl Entry {
-    /// The entry that would allow a request; `None` if no entry can, or if the request is a write
-    /// by a handle, because the name of the variable is unknown.
+    /// The entry that would allow a write; `None` for a query, and for a write by a handle, because
+    /// the name of the variable is unknown.
     pub fn needed(request: &Request<'_>) -> Option<Self> {
         Some(match request {
             Request::WriteByName(op) if is_of_service(op.name) => Self::Service(op.channel),

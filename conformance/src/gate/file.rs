@@ -53,8 +53,8 @@ impl Allowed {
     /// Parses the text of a file.
     ///
     /// # Errors
-    /// Unknown or missing keys, values out of range, or an address that cannot be written. The
-    /// error contains the number of the line.
+    /// Invalid TOML, unknown or missing keys, invalid values, or an address that cannot be written.
+    /// The error contains the number of the line, if it is known.
     pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
         let file: AllowListFile = toml::from_str(text)
             .map_err(|error| AllowFileError { file: None, why: toml_error(&error) })?;

@@ -4,14 +4,14 @@
 //! [`Wire::send`](crate::net::Wire::send) sends a frame only with the [`Permit`] that
 //! [`Gate::check`] returns for the bytes of the frame. By default, the gate allows the queries of
 //! the function table at their documented ports, and ReadDeviceInfo and ReadState at the ports of
-//! GEO, SDA and COM. A write needs a file that names the value, the target and an expiry: see
-//! [`Allowed`].
+//! GEO, SDA and COM. A write to a device needs a file of `--allow-write` that names the value, the
+//! target and an expiry: see [`Allowed`].
 //!
-//! The file contains names, but a write may contain a handle or an address instead, and only the
+//! The file may contain a name, while a write contains a handle or an address instead, and only the
 //! device knows the name that belongs to this handle or address. Therefore, the gate records the
-//! names in replies. It rejects a write by a handle if any reply contained the handle for a name
-//! that is not in the file, and a write to the address of an object if replies contained two names
-//! for the address: see [`Ambiguity`].
+//! names in replies. It rejects a write by a handle if a reply of the same channel contained the
+//! handle for a name that is not in the file, and a write to the address of an object if replies
+//! contained two names for the address: see [`Ambiguity`].
 //!
 //! ```
 //! use ads_cnc::Encode;
@@ -55,7 +55,7 @@ use observed::Observed;
 pub struct Gate {
     /// Whether the user allows malformed frames with `--malformed`; the file must permit them, too.
     malformed: bool,
-    /// The address of a simulated CNC in this process, to which every write is allowed.
+    /// The address of a simulated CNC in this process, to which writes need no file.
     simulated: Option<SocketAddr>,
     /// The IP address to which the frames are sent, if known.
     peer: Option<IpAddr>,
@@ -75,7 +75,8 @@ impl<'f> Permit<'f> {
         self.frame
     }
 
-    /// Whether sending the frame twice has the same effect as sending it once.
+    /// Whether sending the frame twice has the same effect as sending it once. The gate states this
+    /// only for well-formed queries, ReadDeviceInfo and ReadState.
     pub const fn is_repeatable(&self) -> bool {
         self.repeatable
     }
@@ -91,7 +92,7 @@ pub fn check(frame: &[u8]) -> Result<Permit<'_>, GateRejection> {
 
 impl Gate {
     /// Creates a gate that allows only ReadDeviceInfo, ReadState and well-formed queries of the
-    /// function table.
+    /// function table, at their documented ports.
     pub fn queries() -> Self {
         Self::default()
     }
@@ -110,7 +111,8 @@ impl Gate {
         self.simulated
     }
 
-    /// Whether the gate may allow at least one write.
+    /// Whether the gate is for a simulated CNC, to which writes need no file, or has a file of
+    /// `--allow-write`.
     pub const fn may_let_writes_pass(&self) -> bool {
         self.simulated.is_some() || self.allowed.is_some()
     }
@@ -126,8 +128,9 @@ impl Gate {
         Self { allowed, ..self }
     }
 
-    /// Also allows malformed requests to the target for which the file permits them.
-    /// [`Client`](crate::client::Client) accepts such a gate only for a CNC on this machine.
+    /// Also allows malformed requests to the target for which the file permits them. If the file
+    /// permits malformed requests, [`Client`](crate::client::Client) accepts such a gate only for a
+    /// CNC on this machine.
     #[must_use]
     pub fn and_malformed(self) -> Self {
         Self { malformed: true, ..self }
@@ -177,7 +180,7 @@ impl Gate {
         let permit = |repeatable| Ok(Permit { frame, repeatable });
         let whole = match whole(frame) {
             Ok(whole) => whole,
-            // The target of bytes without a valid header is unknown, so no file can permit them.
+            // The target is read only from one whole frame, so no file can permit other bytes.
             Err(_) if self.simulated.is_some() => return permit(false),
             Err(reason) => return Err(reason.into()),
         };
@@ -226,8 +229,9 @@ impl Gate {
         }
     }
 
-    /// Whether a recorded reply of the channel interface contained this handle. Also true if the
-    /// gate has received more names than it can store.
+    /// Whether the gate has recorded a name of the channel interface for this handle, or two names
+    /// or axes of the axis interface. Also true if the gate has received more names than it can
+    /// store. [`forget`](Self::forget) discards names that are in the file.
     pub fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         self.observed.knows_handle(channel, handle)
     }

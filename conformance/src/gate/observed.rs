@@ -16,9 +16,10 @@ pub(super) struct Observed {
     /// The names of each handle, by channel and handle. A channel by rank and the same channel by
     /// number are different keys.
     handles: BTreeMap<(Channel, u32), HandleNames>,
-    /// The handle of each variable in the file; `None` if replies contained several handles.
+    /// The handle that replies contained for each variable in the file; `None` for several handles.
     variables: BTreeMap<(Channel, CncString), Option<u32>>,
-    /// The lists of objects from which the file allows an object by its name.
+    /// The part that replies contained of the lists from which the file allows an object by its
+    /// name.
     lists: BTreeMap<IndexGroup, ObservedObjects>,
     /// For each object address: the first name that a list contained, and the first different name,
     /// if any.
@@ -34,7 +35,8 @@ struct HandleNames {
     allowed: BTreeMap<CncString, Sources>,
     /// The first axis and name for which a reply of the axis interface contained the handle.
     of_axis: Option<(ChannelAxis, CncString)>,
-    /// The first name that is not in the file, or the second name or axis of the axis interface.
+    /// The first name that is not in the file, or the name in the first reply of the axis interface
+    /// for another axis or name than `of_axis`.
     foreign: Option<CncString>,
 }
 
@@ -59,7 +61,8 @@ struct ObservedObjects {
 }
 
 impl Observed {
-    /// Discards the records that allow writes; keeps the names that are not in the file.
+    /// Discards the records that allow writes; keeps those that forbid writes, such as the names
+    /// that are not in the file.
     pub(super) fn forget(&mut self) {
         // `None` means that the variable has several handles: writes by them remain forbidden.
         self.variables.retain(|_, handle| handle.is_none());
@@ -70,7 +73,8 @@ impl Observed {
         self.kept = kept.into_iter().fold(0, usize::saturating_add);
     }
 
-    /// Whether a reply contained this handle; true for every handle after the limit was exceeded.
+    /// Whether a name of this handle is recorded, not counting the first one of the axis interface;
+    /// true for every handle after the limit was exceeded.
     pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         let has_names = |named: &HandleNames| !named.allowed.is_empty() || named.foreign.is_some();
         self.full || self.handles.get(&(channel, handle.0)).is_some_and(has_names)
@@ -153,7 +157,7 @@ impl Observed {
     /// Checks that replies contained at most one name for an address in the file.
     ///
     /// # Errors
-    /// The second name.
+    /// [`Ambiguity::Shared`] with the second name.
     pub(super) fn has_one_name(&self, address: (IndexGroup, IndexOffset)) -> Result<(), Ambiguity> {
         match self.contents.get(&address) {
             Some((_, Some(other))) => Err(Ambiguity::Shared(other.clone())),
@@ -255,8 +259,8 @@ impl Observed {
         let asked = (axis, CncString::from(name));
         let Some(named) = self.named(key) else { return };
         let known = named.of_axis.get_or_insert_with(|| asked.clone());
-        // Writes by a handle that belongs to two axes, or to two names of the axis interface, are
-        // not allowed.
+        // Record that the handle belongs to two axes, or to two names of the axis interface: writes
+        // by this handle are not allowed.
         if *known != asked {
             named.foreign.get_or_insert(asked.1);
         }

@@ -20,7 +20,8 @@ pub(super) const OBSERVATIONS_MAX: usize = 65_536;
 #[derive(Clone, Debug)]
 pub struct GateRejection {
     pub reason: Reason,
-    /// The entry that would allow the frame; `None` if no entry would, or for a write by a handle.
+    /// The entry that would allow the frame, if a file lacks it; `None` in any other case, and for
+    /// a write by a handle.
     pub needed: Option<Entry>,
 }
 
@@ -29,15 +30,16 @@ pub struct GateRejection {
 pub enum Reason {
     /// The bytes are not one complete frame.
     NoFrame,
-    /// The lengths of the frame or of the service's data are inconsistent.
+    /// The headers of the frame, or the data of the service, are invalid: for example, their
+    /// lengths are inconsistent.
     Malformed(Error),
-    /// The state flags are not those of a request.
+    /// The state flags are not those of a request, or the error in the AMS header is not 0.
     NoRequest(StateFlags),
     /// ReadDeviceInfo or ReadState is for a port other than those of GEO, SDA and COM.
     NoTask(AmsPort),
     /// The command must not have data, but the frame contains data.
     Data(Command),
-    /// This program never sends the command.
+    /// This program never sends the command, or sends it only as a malformed request.
     Never(Command),
     /// The request is an ADS sum command, which may contain writes.
     Sum(IndexGroup),
@@ -73,7 +75,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// Whether another file of --allow-write could allow the request.
+    /// Whether another file of `--allow-write` might allow the request.
     pub(crate) const fn is_of_file(&self) -> bool {
         matches!(
             self,
@@ -92,7 +94,7 @@ impl Reason {
 /// The reason why a write by a handle or an address may affect a value other than the allowed one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ambiguity {
-    /// The device also uses the handle or the address for this name.
+    /// The device also uses the handle or the address for this other name.
     Shared(CncString),
     /// The device has several handles or addresses for this name.
     Several(CncString),

@@ -12,7 +12,8 @@ use crate::text::{Pattern, named};
 pub struct Case {
     /// The ID of the case, whose meaning never changes.
     pub id: String,
-    /// The verified behaviour, as a sentence.
+    /// The verified behaviour, as a sentence; for a case of a vector or sequence, the title of the
+    /// vector or sequence.
     pub title: String,
     pub subject: CaseSubject,
     /// The requirements that the case can judge.
@@ -102,11 +103,12 @@ pub enum Body {
     Probe,
     /// By sending a printed request and comparing the reply with the printed reply.
     Printed(&'static Vector),
-    /// By decoding and encoding a vector.
+    /// By decoding the bytes of a vector and, if they are accepted, encoding the value.
     Vector(&'static Vector),
     /// By splitting an NC text into packets, or checking its packets.
     Sequence(&'static Sequence),
-    /// By checking the protocol in a testee's answers in all other cases.
+    /// By checking whether a testee follows the testee protocol, for example with repeated
+    /// questions and unknown operations.
     Protocol,
     /// By checking a client's requests and actions.
     Client,

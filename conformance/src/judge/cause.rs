@@ -53,8 +53,9 @@ impl<'a> Causes<'a> {
 /// chains use each service.
 const CHAINS_OF_SERVICE: usize = 3;
 
-/// The clause of the service, if functions of at least `CHAINS_OF_SERVICE` chains fail, all failing
-/// functions use this service, and a check of the clause fails too. `None` for the service Write.
+/// The clause of the service, if the functions of the roots belong to at least `CHAINS_OF_SERVICE`
+/// chains, all these functions use this service, and a check of the clause fails too. `None` for
+/// the service Write.
 fn service_of(roots: &[Root<'_>], failed_checks: &[FailedCheck<'_>]) -> Option<&'static str> {
     let origins: HashSet<Function> = roots.iter().map(|root| origin(root.function)).collect();
     let service = roots.first()?.function.spec().service;
@@ -149,11 +150,12 @@ fn cause(
     found.map(|root| root.check.clause()).filter(|found| *found != clause)
 }
 
-/// Finds the violated clause if `check` judges several clauses at once: another of these clauses,
-/// if a check that judges only this clause fails too, for the same subject, and for the function of
-/// `check`, a function with which `check` compares, or an earlier function. `None` if a check that
-/// judges only the clause of `check` fails, or if that clause is in [`GENERAL`]. `alone` contains
-/// the failed checks that judge only one clause.
+/// Finds the violated clause if `check` judges several clauses at once: another of these clauses
+/// that can explain the failure (`can_explain`), if `alone` contains a check of this clause for the
+/// same subject, and for the function of `check`, a function with which `check` compares, or an
+/// earlier function. `None` if `alone` contains a check of the clause of `check`, or if that clause
+/// is in [`GENERAL`]. `alone` contains the failed checks without a cause that judge only one
+/// clause.
 fn single_out(check: FailedCheck<'_>, alone: &[FailedCheck<'_>]) -> Option<&'static str> {
     let clause = check.clause();
     if alone.iter().any(|one| one.clause() == clause) || is_one_of(clause, &GENERAL) {

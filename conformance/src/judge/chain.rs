@@ -59,7 +59,8 @@ pub(crate) fn clauses_of(stream: Stream) -> impl Iterator<Item = &'static str> {
     layout.fields.iter().map(|field| field.clause).chain([layout.clause])
 }
 
-/// Whether the clause defines the function, or a field of its request or reply.
+/// Whether the clause defines the function, the stream of its request or reply, or a field of such
+/// a stream.
 pub(super) fn defines(clause: &str, function: Function) -> bool {
     let spec = function.spec();
     let mut streams = [spec.request, spec.reply].into_iter().flatten();

@@ -39,8 +39,9 @@ impl Stop {
     }
 }
 
-/// An error that a case returns with `?` is an error of the suite, such as a request that cannot be
-/// encoded. A reply that cannot be decoded is a failed check or `None`, never such an error.
+/// An error that a case returns with `?` counts as an error of the suite, such as a request that
+/// cannot be encoded. Therefore a case must turn a reply that cannot be decoded into a failed check
+/// or `None`.
 impl<E: Error> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Harness(error.to_string())
@@ -166,15 +167,16 @@ impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
 #[derive(Clone, Debug)]
 pub struct Judgement {
     pub requirement: &'static str,
-    /// The level at which the requirement was judged; for an assumed part, lower than the level in
-    /// the catalogue.
+    /// The level at which the requirement was judged; for a part of the requirement, it can differ
+    /// from the level in the catalogue.
     pub level: Option<Level>,
     pub verdict: Verdict,
     /// The expected result; empty for a pass.
     pub expected: String,
     /// The actual result; empty for a pass.
     pub found: String,
-    /// The request and the reply; `None` for a pass.
+    /// The bytes on which the check is based, such as the request and the reply; `None` for a pass,
+    /// and for a check without such bytes.
     pub evidence: Option<Evidence>,
     /// The number of further checks of the requirement with the same verdict and the same
     /// `together`, which are not stored.

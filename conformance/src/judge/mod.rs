@@ -1,5 +1,5 @@
-//! The terms of a judgement: case, check, outcome, verdict, plan, waiver. These modules open no
-//! file and no socket.
+//! The terms of a judgement, such as case, check, outcome, verdict, plan and waiver. These modules
+//! open no file and no socket.
 
 mod areas;
 mod case;

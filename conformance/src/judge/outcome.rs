@@ -30,7 +30,7 @@ pub struct RequirementVerdict {
     pub judgements: Vec<Judgement>,
 }
 
-/// The note of a case that was interrupted.
+/// The note of a case that was interrupted after it had begun.
 const INTERRUPTED: &str = "interrupted before its end";
 
 impl CaseOutcome {

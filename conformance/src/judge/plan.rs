@@ -8,8 +8,8 @@ use ads_cnc_vectors::{Source, requirement, requirements};
 use super::case::matches;
 use super::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
+use crate::number::digest;
 use crate::number::to_u32;
-use crate::simulator::program::digest;
 use crate::text::did_you_mean;
 
 /// The selection of cases.
@@ -34,9 +34,10 @@ use crate::text::did_you_mean;
 pub struct Selection {
     /// The edition of the manual to judge by; `None` for both.
     pub edition: Option<Edition>,
-    /// The words that select cases: areas such as VAR, requirements such as VAR-11 or parts of them,
-    /// sections such as ads:4.3.2, streams such as variable-description, and IDs of cases, or
-    /// patterns of these with `*` and `?`. Case-insensitive; no word selects all cases.
+    /// The words that select cases: areas such as VAR, requirements such as VAR-11 or parts of
+    /// them, sections such as ads:4.3.2, streams such as variable-description, kinds of sequences,
+    /// and IDs of cases, vectors and sequences, or patterns of these with `*` and `?`.
+    /// Case-insensitive. Without words, all cases are selected.
     pub only: Vec<String>,
 }
 
@@ -59,7 +60,7 @@ pub struct Plan {
     /// The cases that were not selected.
     left_out: Vec<Case>,
     /// By case ID: the selected requirements of each case of which not all requirements are
-    /// selected.
+    /// selected. Empty for a case that only provides frames for the selected cases.
     judged: HashMap<String, Vec<&'static str>>,
 }
 
@@ -83,8 +84,8 @@ pub fn any_seed() -> u32 {
 }
 
 impl Selection {
-    /// Selects cases and orders them by the seed. With the same seed, two cases have the same order
-    /// in every selection. Cases that judge the frames of the other cases come last.
+    /// Selects cases and orders them by the seed. With the same seed, two selected cases have the
+    /// same order in every selection. Cases that judge the frames of the other cases come last.
     ///
     /// # Errors
     /// If a word of the selection matches no case and no requirement of the cases.
@@ -142,7 +143,8 @@ impl Selection {
         };
         match all.iter().copied().filter(has).collect::<Vec<_>>() {
             // The edition has no selected requirement of the case. All selected requirements are
-            // returned, so that `plan` adds the case to `foreign` with the reason.
+            // returned, so that `plan` does not count the case as not selected. `plan` adds it to
+            // `foreign` if the edition has none of the requirements of the case.
             none if none.is_empty() => all,
             some => some,
         }
@@ -185,8 +187,8 @@ impl Plan {
                 Some(judged) if judged.is_empty() => continue,
                 Some(judged) => {
                     left_out.push(left(&outcome.case, judged));
-                    // A violation of the client protocol is always kept, because it makes the other
-                    // verdicts meaningless.
+                    // Harness errors are always kept. A violation of the client protocol is always
+                    // kept too, because it makes the other verdicts meaningless.
                     outcome.verdicts.retain(|one| {
                         judged.contains(&one.requirement)
                             || one.verdict == Verdict::HarnessError

@@ -108,15 +108,16 @@ impl<'a> Root<'a> {
         is_root.then_some(Self { function, check })
     }
 
-    /// Whether the check fails for several variables, of which at least one is outside the Service
-    /// Interface.
+    /// Whether the stored failure of the check is about a variable outside the Service Interface,
+    /// and the check has further failures, which are not stored.
     pub(super) fn is_not_of_services(&self) -> bool {
         let is_other = |name: &str| !name.contains(".SERVICE.");
         self.check.judgement.more > 0 && self.check.first_subject().is_some_and(is_other)
     }
 
-    /// Whether this root can explain the failed `check` of a later function. It cannot if the target
-    /// accepted a request that it must reject, or if the root compares more replies than `check`.
+    /// Whether this root can explain the failed `check` of a later function. It cannot if the
+    /// target accepted a request that it must reject, or if the root compares several replies, and
+    /// more than `check` compares.
     pub(super) fn explains_later(&self, check: FailedCheck<'_>) -> bool {
         let evidence = self.check.judgement.evidence.as_ref();
         !evidence.is_some_and(|evidence| evidence.is_rejection)

@@ -21,7 +21,7 @@ pub struct UnrestoredValue {
     pub rejected: Option<String>,
 }
 
-/// The text in every format of the report.
+/// The text on the console and in the formats HTML, JUnit and Markdown.
 impl fmt::Display for UnrestoredValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, was, is, rejected } = self;

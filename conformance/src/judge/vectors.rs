@@ -31,8 +31,8 @@ fn of_text(sequence: &'static Sequence) -> Case {
     }
 }
 
-/// The accepted siblings of the rejected vectors of these cases, except those that are among the
-/// cases.
+/// The accepted siblings of the rejected vectors and NC texts of these cases, except those that are
+/// among the cases.
 pub fn siblings_of(cases: &[Case]) -> Vec<Case> {
     let mut known: HashSet<&str> = HashSet::new();
     let mut wanted: Vec<&str> = Vec::new();

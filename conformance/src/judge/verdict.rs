@@ -13,11 +13,11 @@ use crate::text::named;
 pub enum Verdict {
     /// The requirement is met.
     Pass,
-    /// A requirement of level must is not met.
+    /// A requirement, or a part of a requirement, of level must is not met.
     Fail,
-    /// A requirement of level should is not met.
+    /// A requirement, or a part of a requirement, of level should is not met.
     Warning,
-    /// An assumed part of a requirement is not met.
+    /// A requirement, or a part of a requirement, of level info (assumed) is not met.
     Differs,
     /// The request or input was rejected as required, but the valid one was rejected too.
     Vacuous,

@@ -1,4 +1,4 @@
-//! Known failures that a run accepts: the file of `--waivers`.
+//! Known failures and other verdicts that a run accepts: the file of `--waivers`.
 //!
 //! ```
 //! use ads_cnc_conformance::judge::Waivers;
@@ -31,7 +31,7 @@ use toml::{Spanned, Value};
 use super::{CaseOutcome, SkippedCase, Verdict};
 use crate::text::{Moment, found, toml_error};
 
-/// Known failures.
+/// The waivers of a file.
 #[derive(Clone, Debug, Default)]
 pub struct Waivers(Vec<Waiver>);
 
@@ -51,7 +51,7 @@ pub struct WaiverReport {
     pub test: String,
     pub requirement: String,
     pub verdict: Verdict,
-    /// Why the failure is accepted.
+    /// Why the verdict is accepted.
     pub reason: String,
     /// The first day on which the waiver is no longer valid.
     pub expires: String,
@@ -129,9 +129,9 @@ impl Waivers {
     /// Parses the text of a file.
     ///
     /// # Errors
-    /// The line and its fault: an unknown or missing key, an empty ID or reason, a requirement that
-    /// does not exist, a verdict that cannot be waived, a date that is not a day, or a duplicate
-    /// waiver.
+    /// The line and its fault, such as invalid TOML, an unknown or missing key, an empty ID or
+    /// reason, a requirement that does not exist, a verdict that cannot be waived, a date that is
+    /// not a day, or a duplicate waiver.
     pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
         let failed = |why: String| WaiverError { file: None, why };
         let file: WaiverFile = toml::from_str(text).map_err(|error| failed(toml_error(&error)))?;

@@ -41,7 +41,7 @@ mod tests {
     use super::*;
     use ads_cnc_vectors::{sequences, vectors};
 
-    /// Every stream with a vector has a fuzz target.
+    /// Every stream with a vector, and every kind of sequence, has a fuzz target.
     #[test]
     fn every_stream_with_a_vector_has_a_fuzz_target() {
         let names = vectors().iter().map(|vector| vector.stream.as_str());

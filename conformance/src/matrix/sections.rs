@@ -15,7 +15,7 @@ const HEAD: &str = "| section | requirements | functions | types | vectors | cas
                     |---|---|---|---|---|---|---|\n";
 
 /// Formats a table of the areas, a table of the sections of each manual, and a table of the
-/// requirements that no document states.
+/// requirements that cite no document.
 ///
 /// Both editions of the manual on ADS access share one table, because their sections have the same
 /// numbers.
@@ -158,8 +158,8 @@ fn is_in(function: &Function, document: &str, section: &str) -> bool {
     }
 }
 
-/// The Rust types of the streams with fields of these requirements; if no stream has such a field,
-/// the modules of the requirements' areas.
+/// The Rust types of the streams that these requirements define or that have fields of these
+/// requirements; without such a stream, the modules of the requirements' areas.
 fn types_of(ids: &[&str]) -> String {
     let is_about = |stream: &Stream| {
         let layout = stream.layout();

@@ -1,4 +1,5 @@
-//! The tests of the simulated CNC in `tests/simulator/`, and the requirements of each.
+//! The tests of the simulated CNC in `tests/simulator/` that verify requirements, with the
+//! requirements of each.
 
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;

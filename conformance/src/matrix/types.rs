@@ -26,7 +26,7 @@ pub(super) struct Area {
     pub(super) area: &'static str,
     /// The main chapters of the area.
     pub(super) chapters: &'static str,
-    /// The codec's modules for the area.
+    /// The codec's modules and types for the area.
     pub(super) modules: &'static str,
 }
 

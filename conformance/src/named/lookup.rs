@@ -21,7 +21,7 @@ pub struct Lookup {
     /// A pattern of the names of the lists to search; `None` to search all lists of the channel, of
     /// the platform, its axes and spindles.
     pub lists: Option<Pattern>,
-    /// The index offset that the object must have; `None` for any.
+    /// The index offset that the object or element must have; `None` for any.
     pub offset: Option<u32>,
     /// The type to use instead of the type in the CNC's description. For a dynamic parameter, any
     /// type other than REAL64 is an error.

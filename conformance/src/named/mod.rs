@@ -35,8 +35,8 @@ use crate::session::{Session, ToolError};
 /// ```
 ///
 /// # Errors
-/// If no value, or more than one, has this name, or the CNC sends no valid reply; the error
-/// contains advice.
+/// If the name or another part of the lookup is invalid, no object or element or more than one has
+/// this name, or the CNC rejects a necessary request or does not reply to it.
 pub fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)
@@ -46,8 +46,8 @@ pub fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolE
 }
 
 /// Returns a variable or a parameter without sending a request, because its name determines its
-/// address; `None` for an object or an element. The type of a variable is that of `lookup`, the
-/// type of a parameter is REAL64.
+/// address; `None` for an object or an element. The type of a variable is that of `lookup`, if any;
+/// the type of a parameter is REAL64.
 ///
 /// # Errors
 /// If the name is not the name of a variable, or cannot be encoded, or the type of `lookup` is not

@@ -50,7 +50,7 @@ fn reason(name: &str, error: &ads_cnc::Error) -> String {
     }
 }
 
-/// The object with the address that its name determines; sends no request.
+/// The variable or parameter with the address that its name determines; sends no request.
 pub(super) fn unasked(lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let Lookup { name, channel, axis, ty, .. } = lookup;
     let text: CncString = name.parse().map_err(ToolError::Unsendable)?;
@@ -102,9 +102,9 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<ListedValue, ToolError> {
     }
 }
 
-/// The variable with its type, from the description by name, or from the descriptions by index for
-/// an axis or if the CNC returns no description by name. The type is unknown if no description is
-/// found.
+/// The variable with the type of `lookup` or, without such a type, with that of the description by
+/// name, or of the descriptions by index for an axis or if the CNC returns no description by name.
+/// The type is unknown if no description is found. A parameter has its fixed type.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let object = unasked(lookup)?;
     if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {
@@ -162,9 +162,9 @@ fn described(
     }
 }
 
-/// Searches the descriptions by index of the variable's kind; `None` for a kind without indices,
-/// and if no description has the name. The axis interface has the same variables as the channel
-/// interface, without the axis in their names (assumed).
+/// Searches the descriptions by index of the variable's kind; `None` for a kind without indices, if
+/// no description has the name, and if the CNC returns an error. The axis interface has the same
+/// variables as the channel interface, without the axis in their names (assumed).
 fn listed(
     session: &mut Session,
     channel: Channel,
@@ -187,13 +187,13 @@ fn listed(
                 return Ok(Some(DescribedVariable {
                     ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
                     access: ReportedAccess::of_variable(variable.access),
-                    // For an axis, the search ignores the axis in the name, so the handle may belong
-                    // to another axis.
+                    // For an axis, the search ignores the axis in the name, so the handle may
+                    // belong to another axis.
                     handle: Some(variable.handle).filter(|_| !of_axis),
                 }));
             }
             Ok(_) | Err(ToolError::Reply(_)) => {}
-            // The number of variables has decreased in the meantime.
+            // The number of variables may have decreased in the meantime.
             Err(ToolError::Ads { .. }) => return Ok(None),
             Err(error) => return Err(error),
         }

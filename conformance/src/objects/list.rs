@@ -6,8 +6,8 @@ use ads_cnc::address::{Class, ComTable};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::ObjectList;
 
-/// A list of objects, elements, variables or parameters. `Display` formats the list's name in the
-/// tools.
+/// A list of objects, elements, variables or parameters. `Display` formats the name of the list, as
+/// the tools show it.
 ///
 /// ```
 /// use ads_cnc::address::Class;
@@ -46,7 +46,8 @@ pub enum ValueList {
 }
 
 impl ValueList {
-    /// The number of the channel to which the list, or its axis, belongs.
+    /// The number of the channel to which the list, or its axis, belongs; `None` for a list of the
+    /// platform or of a spindle.
     pub(crate) fn channel(&self) -> Option<u8> {
         match *self {
             // For a spindle, the field `channel` is the index of the spindle.

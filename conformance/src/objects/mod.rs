@@ -8,18 +8,19 @@
 //! |---|---|---|
 //! | channels | by rank: number of objects, or of variables if only earlier ranks have objects; by number: number of objects, or the decoder if no rank has objects | when as many channel numbers as ranks are found; if no rank is found, after [`GAP`] consecutive rejected numbers |
 //! | channels named by the caller | number of objects; if the channel has no object, its decoder | after the last named channel |
-//! | objects | descriptors, [`RANGE`] in a request; one by one after such a request was rejected | at their number, or after [`GAP`] consecutive rejections |
+//! | objects | number, descriptors, at most [`RANGE`] in a request; one by one after a request for several was rejected | at their number, or after [`GAP`] consecutive rejections |
 //! | platform axes | number of objects | at the first axis without objects |
 //! | position controller, HLD of the platform | axes, starting at 1 | at the first missing axis |
 //! | HLD of the first channel | axes, starting at 1, if the HLD of the platform has no axes (E-30) | at the first missing axis |
 //! | interpolator, decoder, path preparation, HLD | each channel found | after the last channel |
 //! | axes of a channel in these classes, except the HLD | axes, starting at 1 | at the first missing axis |
 //! | spindles | spindles, starting at 0 | at the first missing spindle |
-//! | elements | name, type, length, unit, write flag | at their number, or after [`GAP`] consecutive rejections |
-//! | variables, parameters | description or name, by index | at their number, or after [`GAP`] consecutive rejections |
+//! | elements | number, name, type, length, unit, write flag | at their number, or after [`GAP`] consecutive rejections |
+//! | variables, parameters | number, description or name, by index | at their number, or after [`GAP`] consecutive rejections |
 //!
-//! The suite uses the same rules (`Walker`), but requests the channels and axes that the profile
-//! claims, and reads one descriptor in a request.
+//! The suite uses similar rules (`Walker`), but requests the channels, and the lists of the
+//! platform axes, that the profile claims, reads one descriptor in a request, and also requests the
+//! axes of the platform in the HLD of every channel.
 //!
 //! The manuals do not specify whether SDA or GEO serves a class: requests go to SDA, and to GEO for
 //! a class of which SDA has no instance. At most [`OBJECTS_MAX`] objects are listed, with at most
@@ -28,8 +29,8 @@
 //! 0), belongs to no class, or is the address of another instance. The numbers of channels, axes
 //! and spindles that are requested end at 255. Type, length, unit and write flag of an element are
 //! read once for the channels of a class and once for its axes: an element with the same name and
-//! number in another instance is assumed to have the same attributes ([`Options::exact`] reads the
-//! attributes of every element).
+//! number in another instance is assumed to have the same attributes (for at most 64 names of a
+//! number; [`Options::exact`] reads the attributes of every element).
 
 mod list;
 mod object;

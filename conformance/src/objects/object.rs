@@ -55,7 +55,7 @@ impl ListedValue {
         }
     }
 
-    /// A dynamic parameter, which is a single number. No function writes a parameter, so a P
+    /// A dynamic parameter, which is a single number. No function for parameters writes one, so a P
     /// parameter is read-only. On some CNCs, V.L, V.P and V.S are also variables, so their access
     /// is unknown (VAR-18, VAR-19).
     pub(crate) fn of_parameter(channel: Channel, kind: DynamicKind, name: CncString) -> Self {

@@ -14,7 +14,7 @@ pub struct Column {
     pub cell: fn(&ListedValue) -> String,
 }
 
-/// The columns for variables, or for objects and elements.
+/// The columns for variables and parameters (`variables`), or for objects and elements.
 pub const fn columns(variables: bool) -> &'static [Column] {
     if variables { VARIABLE } else { OBJECT }
 }
@@ -95,10 +95,10 @@ fn total(columns: &[Shown<'_>], width: impl Fn(&Shown<'_>) -> usize) -> usize {
     columns.iter().map(width).fold(gaps, usize::saturating_add)
 }
 
-/// Writes rows with headings. Each column is as wide as its longest cell or, without a terminal, at
-/// most as wide as `WIDTH_MAX` and its heading. On a terminal of this width, values are truncated
-/// so that a row fits on a line. If that is not enough, the last columns are omitted, except names
-/// and values. Returns the headings of the omitted columns.
+/// Writes rows with headings. Each column is as wide as its heading or its longest cell; without a
+/// terminal, a cell widens its column to at most `WIDTH_MAX`. On a terminal (`terminal` is its
+/// width), values are truncated so that a row fits on a line. If that is not enough, the last
+/// columns are omitted, except names and values. Returns the headings of the omitted columns.
 pub fn table<'h>(
     heads: &[&'h str],
     rows: impl Iterator<Item = Vec<String>> + Clone,

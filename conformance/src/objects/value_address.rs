@@ -79,7 +79,7 @@ impl ValueAddress {
             Self::Handle { channel, handle, indices } => {
                 WriteByHandle::new(*channel, *handle, indices, value).into()
             }
-            // No function writes a parameter, but V.L, V.P and V.S may also be variables.
+            // No function for parameters writes one, but V.L, V.P and V.S may also be variables.
             Self::Name { channel, name } | Self::Parameter { channel, name, .. } => {
                 WriteByName { channel: *channel, name: name.as_cnc_str(), value: value.into() }
                     .into()

@@ -18,7 +18,7 @@ const INTERRUPTED: i32 = 130;
 /// A second signal within this time counts as a repetition of the first signal, and is ignored.
 const REPEATED: Duration = Duration::from_millis(200);
 
-/// The interval at which interruptible waits check for a signal.
+/// The interval at which a wait for a line of a command checks for a signal.
 pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Whether a signal has been received.
@@ -42,8 +42,8 @@ fn numbered() -> impl Iterator<Item = i32> {
     [16, 30].into_iter().chain(34..=64).filter(move |_| is_linux)
 }
 
-/// Registers a handler for the signals that end a process, except SIGPIPE and the signals of faults
-/// in the program, such as SIGSEGV.
+/// Registers a handler for most signals that end a process, but not for SIGKILL, SIGPIPE and the
+/// signals of faults in the program, such as SIGSEGV.
 #[cfg(unix)]
 fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::signal::{

@@ -1,5 +1,5 @@
 //! Runs the user's commands, each in its own process group, and ends them together with the
-//! processes that they started.
+//! processes that they started, see [`RunningCommand`].
 
 pub(crate) mod interrupt;
 mod lines;
@@ -102,7 +102,7 @@ impl Drop for RunningCommand {
     fn drop(&mut self) {
         let mut child = lock(&self.0);
         // Even if the command has ended, processes that it started may still run, so the group is
-        // killed. The system does not reuse the ID of an empty group so quickly.
+        // killed. It is assumed that the system does not reuse the ID of an empty group so quickly.
         let _ended = child.start_kill();
         let _waited = child.inner_mut().wait();
     }

@@ -6,7 +6,8 @@ use std::time::Duration;
 use super::{LineProcess, RecvError, Stderr, cut, interrupt, shell};
 use crate::deadline::Deadline;
 
-/// Time limit for a program to end after its stdin is closed.
+/// Time limit for a program to end after its stdin is closed; after `bye`, the time limit for an
+/// answer applies if it is longer.
 pub const GRACE: Duration = Duration::from_secs(2);
 
 /// The reaction of a program to a line that was sent to it.
@@ -31,7 +32,7 @@ pub struct Subprocess {
     pub timeout: Duration,
     stderr: Stderr,
     deadline: Option<Deadline>,
-    /// The process, while it runs.
+    /// The process; `None` if it is not started, or was found to have ended, or was ended.
     pub(crate) running: Option<LineProcess>,
 }
 

@@ -42,7 +42,7 @@ pub struct Profile {
     pub kinds: Cow<'static, [Cow<'static, str>]>,
     /// Variables of the first channel that are accessible by name only.
     pub by_name_only: Cow<'static, [Cow<'static, str>]>,
-    /// Names of objects, elements and variables that are never written, even if the file of
+    /// Names of objects, elements and variables that the suite never writes, even if the file of
     /// `--allow-write` allows it.
     pub unwritten: Cow<'static, [Cow<'static, str>]>,
     /// The sections of the manuals that the target claims.
@@ -52,8 +52,8 @@ pub struct Profile {
     pub functions: Option<Cow<'static, [Cow<'static, str>]>>,
     /// Whether the target answers the printed examples with the printed values.
     pub printed_examples: bool,
-    /// The maximum time to wait for a reply; `None` if the profile does not set it. A report states
-    /// it in milliseconds.
+    /// The maximum time to wait for a connection and for a reply; `None` if the profile does not
+    /// set it. A report states it in milliseconds.
     #[serde(serialize_with = "milliseconds", skip_serializing_if = "Option::is_none")]
     pub timeout: Option<Duration>,
 }
@@ -119,8 +119,8 @@ const LISTED: &[Cow<'static, str>] =
 const PORTS: &[u16] = &[AmsPort::GEO.0, AmsPort::SDA.0, AmsPort::COM.0];
 
 impl Profile {
-    /// The profile of an unknown device before the run queries the device. It claims only channel
-    /// 1.
+    /// The profile of an unknown device before the run queries the device. It claims channel 1, all
+    /// ports and all sections.
     pub const DEVICE: Self = Self {
         name: Cow::Borrowed("device"),
         edition: Edition::English,
@@ -199,7 +199,7 @@ impl Profile {
         self.kinds.iter().any(|name| kind.text() == **name)
     }
 
-    /// Whether a value with this name must never be written.
+    /// Whether the suite must not write a value with this name.
     pub fn leaves(&self, name: &str) -> bool {
         self.unwritten.iter().any(|one| one == name)
     }

@@ -21,8 +21,9 @@ struct Badge {
 }
 
 /// Writes a badge for shields.io: the version of the suite, the result, the editions and, if
-/// greater than 0, the numbers of failed requirements, of warnings and of waived requirements. Of
-/// the values that were not restored, the badge names the first and counts the others.
+/// greater than 0, the numbers of requirements with the verdict fail (waived or not), with the
+/// verdict warning, and with a waived verdict. Of the values that were not restored, the badge
+/// names the first and counts the others.
 pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let (word, color) = match report.exit() {
         Exit::Success if report.only.is_empty() => ("passed", "brightgreen"),

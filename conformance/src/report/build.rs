@@ -43,11 +43,11 @@ pub struct RunInfo {
     pub profile: Option<Profile>,
     /// The result of the queries before the cases.
     pub found: Option<FoundReport>,
-    /// Known failures.
+    /// The waivers for the run.
     pub waivers: Waivers,
     pub frames: usize,
-    /// The command that repeats the run, without a selection and without reports; `None` for a
-    /// capture.
+    /// The command that repeats the run, without `--only`, `--seed`, `--waivers` and the options
+    /// that write files or affect only the output; `None` for a capture.
     pub again: Option<String>,
     /// The duration of the cases of each subject.
     pub times: Vec<(CaseSubject, Duration)>,
@@ -225,14 +225,15 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The verdict of a group, and whether this verdict is waived: the gravest verdict that is not
-/// waived and fails the run; without such a verdict, the gravest waived verdict; without a waived
+/// The verdict of a group, and whether this verdict is waived: the gravest of the verdicts that fail
+/// the run and are not waived; without such a verdict, the gravest waived verdict; without a waived
 /// verdict, the gravest verdict.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
-    let open = verdicts.clone().filter(|(_, waived)| !waived).map(|(verdict, _)| verdict);
-    let open = gravest(open).filter(|verdict| verdict.fails_run());
-    let known = verdicts.clone().filter(|(_, waived)| *waived).map(|(verdict, _)| verdict);
-    match (open, gravest(known)) {
+    let open = verdicts.clone().filter(|(verdict, waived)| !waived && verdict.fails_run());
+    let known = verdicts.clone().filter(|(_, waived)| *waived);
+    let open = gravest(open.map(|(verdict, _)| verdict));
+    let known = gravest(known.map(|(verdict, _)| verdict));
+    match (open, known) {
         (Some(open), _) => Some((open, false)),
         (None, Some(known)) => Some((known, true)),
         (None, None) => gravest(verdicts.map(|(verdict, _)| verdict)).map(|one| (one, false)),
@@ -365,6 +366,16 @@ fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::judge::RequirementVerdict;
+
+    /// A warning that is graver than an inconclusive verdict does not hide it behind a waived verdict.
+    #[test]
+    fn a_verdict_that_fails_the_run_is_shown() {
+        let verdicts =
+            [(Verdict::Warning, false), (Verdict::Inconclusive, false), (Verdict::Fail, true)];
+        assert_eq!(together(verdicts.into_iter()), Some((Verdict::Inconclusive, false)));
+        let known = [(Verdict::Warning, false), (Verdict::Fail, true)];
+        assert_eq!(together(known.into_iter()), Some((Verdict::Fail, true)));
+    }
 
     /// A testee that follows the protocol, but claims no requirement, has not passed.
     #[test]

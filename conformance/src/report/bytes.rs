@@ -14,7 +14,7 @@ use crate::value_format::ValueFormat;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BytesReport {
-    /// Name of the stream; `None` if no table describes the bytes.
+    /// Name of the stream; `None` if no stream is known for the bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
     pub length: usize,
@@ -341,7 +341,7 @@ mod tests {
         );
     }
 
-    /// An invalid stream is shown up to the error, which names the field.
+    /// An invalid stream is split into fields up to the error, which names the field.
     #[test]
     fn an_error_names_its_field() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];

@@ -51,8 +51,8 @@ pub fn print(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> i
     tail(report, display, out)
 }
 
-/// The failure of a testee or client that did not answer `hello` correctly. This is the first line
-/// of the protocol, so nothing was judged.
+/// The failure of a testee or client that did not answer `hello` correctly. The answer to `hello`
+/// is the first step of both protocols, so nothing else was judged.
 fn unanswered(report: &Report) -> Option<&FailureReport> {
     let mut all = report.cases.iter().flat_map(|case| &case.failures);
     all.find(|one| [TESTEE, CLIENT].contains(&one.requirement.as_str()) && one.expected == HELLO)
@@ -332,12 +332,12 @@ fn waivable(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// The same day of the next year; `time` is in the format of a report.
+/// The same day of the next year, or 28 February instead of 29 February; `time` is in the format of
+/// a report.
 fn next_year(time: &str) -> String {
     let day = time.split('T').next().unwrap_or_default();
     let (year, rest) = day.split_once('-').unwrap_or((day, "01-01"));
     let year = year.parse::<u32>().unwrap_or_default().saturating_add(1);
-    // Not every year has 29 February.
     let rest = if rest == "02-29" { "02-28" } else { rest };
     format!("{year}-{rest}")
 }
@@ -363,8 +363,8 @@ fn tail(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Re
     last_line(report, display, out)
 }
 
-/// Writes the last line, after the stale waivers, the requirements without their cause and the
-/// rejected requests, which can be reasons for the exit code.
+/// Writes the last line, after the stale waivers, the requirements whose cause this run does not
+/// judge, and the rejected requests.
 fn last_line(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
     for waiver in report.waivers.iter().filter(|waiver| waiver.state.is_stale()) {
         let WaiverReport { test, requirement, state, .. } = waiver;

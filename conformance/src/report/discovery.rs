@@ -12,7 +12,8 @@ pub struct FoundReport {
     pub requests: usize,
     /// Approximate number of requests that the cases will send, without those of `--allow-write`.
     pub expected: u64,
-    /// The AMS ports that reply; empty with `--profile`, which claims the ports.
+    /// The AMS ports that reply; empty if a profile states the claims, because the ports are then
+    /// not queried.
     pub ports: Vec<u16>,
     /// The channels that are judged.
     pub channels: Vec<FoundChannel>,
@@ -63,7 +64,8 @@ fn joined(texts: impl Iterator<Item = String>) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
-/// The found number, after the claimed number if the two numbers differ.
+/// The found number, after the claimed number if the two numbers differ; only the claimed number if
+/// none was found.
 fn claimed(found: u32, claimed: Option<u32>, noun: &str) -> Option<String> {
     Some(match claimed.filter(|claimed| *claimed != found) {
         // 0 may also mean that the number was not queried.
@@ -74,7 +76,8 @@ fn claimed(found: u32, claimed: Option<u32>, noun: &str) -> Option<String> {
 }
 
 impl FoundReport {
-    /// Whether the claims come from queries instead of a file for `--profile`.
+    /// Whether queries found ports. The ports are queried only if the claims come from queries
+    /// instead of a profile.
     pub fn is_by_queries(&self) -> bool {
         !self.ports.is_empty()
     }

@@ -7,12 +7,13 @@ use crate::judge::Verdict;
 /// The parts of a report that are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Detail {
-    /// Only the last line and, above it, the reasons for the exit code that are not verdicts.
+    /// Only the last line and, above it, the stale waivers, the requirements whose cause the run
+    /// does not judge, and the rejected requests.
     Quiet,
     /// A line for each subject, and each failed clause once.
     #[default]
     Normal,
-    /// Also every case and every requirement.
+    /// Also every case, and the verdicts on the requirements by area.
     Verbose,
 }
 
@@ -27,13 +28,13 @@ pub struct DisplayOptions {
 
 /// Width of wrapped text in characters.
 pub(super) const WIDTH: usize = 98;
-/// Maximum number of characters of an expected and of an actual result in normal detail.
+/// Maximum number of characters of most shortened texts, such as results and notes.
 pub(super) const RESULT_MAX: usize = 160;
-/// Maximum number of names in a list.
+/// Maximum number of names in a shortened list.
 pub(super) const NAMES_MAX: usize = 5;
 
 impl DisplayOptions {
-    /// The verdict in capitals, coloured by its gravity.
+    /// The verdict in capitals, coloured by its effect on the run.
     pub(super) fn verdict(self, verdict: Verdict, waived: bool) -> String {
         let color = match verdict {
             _ if waived => AnsiColor::Yellow,

@@ -1,5 +1,5 @@
-//! The data of a report, which can be written to JSON and read back. It is the only input of all
-//! other formats.
+//! The data of a report, which can be written to JSON and read back. The other formats use no other
+//! data of the run.
 
 use std::collections::BTreeMap;
 
@@ -61,8 +61,8 @@ pub struct Report {
     pub found: Option<FoundReport>,
     /// Waivers and their states.
     pub waivers: Vec<WaiverReport>,
-    /// The command that repeats the run, without a selection and without reports; `None` for a
-    /// capture.
+    /// The command that repeats the run, without `--only`, `--seed`, `--waivers` and the options
+    /// that write files or affect only the output; `None` for a capture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub again: Option<String>,
     /// The exit code of the run.
@@ -152,8 +152,8 @@ pub struct AreaReport {
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     pub requirement: String,
-    /// The gravest verdict on the requirement. A verdict that is not waived and fails the run takes
-    /// precedence, then a waived verdict.
+    /// The gravest verdict that is not waived, if this verdict fails the run; otherwise the gravest
+    /// waived verdict; without a waived verdict, the gravest verdict.
     pub verdict: Verdict,
     /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -171,7 +171,7 @@ pub struct CaseReport {
     /// `None` for other cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
-    /// The gravest verdict of the case, with the precedence of [`RequirementReport::verdict`].
+    /// The verdict of the case, chosen as for [`RequirementReport::verdict`].
     pub verdict: Verdict,
     /// Whether that verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -195,12 +195,14 @@ pub struct CaseReport {
 #[serde(deny_unknown_fields)]
 pub struct FailureReport {
     pub requirement: String,
-    /// The level of the check; for an assumed part, lower than the level of the requirement. `None`
-    /// for an ID that is not in the catalogue.
+    /// The level of the check: for a part of the requirement, it can differ from the level of the
+    /// requirement, and for a rule of a protocol it is must.
     pub level: Option<Level>,
-    /// The text of the requirement, or of its parts of this level.
+    /// The text of the requirement, or of its parts of this level; for a protocol, a fixed
+    /// sentence.
     pub clause: String,
-    /// The sources of the clause: document, edition, section.
+    /// The sources of the clause: document, edition, section; for a protocol, the file that
+    /// specifies the protocol.
     pub sources: Vec<String>,
     pub verdict: Verdict,
     /// Whether the verdict is waived.
@@ -208,8 +210,8 @@ pub struct FailureReport {
     pub waived: bool,
     pub expected: String,
     pub found: String,
-    /// Number of other checks of the requirement in the same case with the same verdict, which are
-    /// not stored.
+    /// Number of other checks of the requirement in the same case with the same verdict and the
+    /// same other clauses, which are not stored.
     pub more: usize,
     /// The clause whose failure explains this check, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -239,10 +241,10 @@ pub struct EvidenceReport {
     /// Expected data of the reply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<BytesReport>,
-    /// The whole sent frame, in hex.
+    /// The sent frame, in hex; at most its first 4096 bytes.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub frame_sent: String,
-    /// The received frame, or the part of it that arrived, in hex.
+    /// The received frame, or the part of it that arrived, in hex; at most the first 4096 bytes.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub frame_received: String,
 }
@@ -256,7 +258,7 @@ impl Report {
     /// Parses a report.
     ///
     /// # Errors
-    /// Invalid JSON, or a report of another format version.
+    /// A text that is not a report in JSON, or a report of another format version.
     pub fn from_json(text: &str) -> Result<Self, String> {
         #[derive(Deserialize)]
         struct FormatNumber {

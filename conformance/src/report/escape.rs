@@ -1,5 +1,5 @@
-//! Escapes the texts of a report, because control characters or line ends from a target must not
-//! reach a terminal.
+//! Escapes the texts of a report, because control characters from a target must not reach a
+//! terminal. Line ends are escaped too, except in the output on stderr and in the call of a check.
 
 use serde_json::Value;
 

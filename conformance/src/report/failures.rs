@@ -1,4 +1,5 @@
-//! Shows the checks that did not pass on the console, each failed clause once.
+//! Shows the checks that did not pass as text: on the console, each failed clause once, and in
+//! parts of the formats HTML, JUnit and Markdown.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
@@ -59,7 +60,8 @@ pub(super) fn blocks(
         failed.into_iter().partition(|group| group.is_of_protocol());
     failed.sort_by_key(|group| Reverse(group.followers.len()));
     let more = failed.split_off(failed.len().min(most.saturating_sub(protocol.len())));
-    // Print the cause of most other failures last, near the prompt.
+    // Print the cause of most other failures after the other causes, near the prompt. Only failures
+    // of a protocol follow.
     failed.sort_by_key(|group| group.followers.len());
     if !more.is_empty() {
         let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
@@ -120,7 +122,7 @@ pub(super) fn differing_field(text: &str) -> Option<&str> {
 }
 
 /// Describes the first field whose value differs from the expected value, if the received and the
-/// expected bytes have the same fields.
+/// expected bytes have the same number of fields.
 fn differing(evidence: &EvidenceReport) -> Option<String> {
     let (received, expected) = evidence.received.as_ref().zip(evidence.expected.as_ref())?;
     if !received.faults.is_empty() || received.fields.len() != expected.fields.len() {

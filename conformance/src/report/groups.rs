@@ -8,8 +8,8 @@ use ads_cnc_vectors::{sequence, vector};
 use super::document::{CaseReport, FailureReport, Report};
 use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict, clauses_of};
 
-/// Checks with the same verdict that did not pass for the same clause, or in the same field of
-/// vectors of one stream.
+/// Checks with the same verdict that did not pass for the same clause, in the same field of vectors
+/// of one stream, or because the testee ended or did not answer.
 #[derive(Debug)]
 pub(super) struct Group<'r> {
     pub(super) verdict: Verdict,
@@ -232,7 +232,8 @@ impl<'r> Group<'r> {
             // Prefer other cases to the cases about all replies: to run such a case again, the
             // suite must also run all query cases.
             let is_of_replies = case.id.starts_with("replies-");
-            // Without a size, the first check is chosen, because it is the closest to the cause.
+            // For other cases than vectors and sequences, the size is 0, so that the first check is
+            // chosen, because it is the closest to the cause.
             let size = if is_vector { size(failure) } else { 0 };
             (!of_clause(failure), !is_of_own_stream(failure), is_of_replies, size)
         });

@@ -25,7 +25,7 @@ const STYLE: &str = include_str!("report.css");
 const SCRIPT: &str = include_str!("report.js");
 
 /// Writes the report as one HTML file without external resources. Only the filter, links to hidden
-/// cases and the preparation for printing use JavaScript.
+/// or collapsed parts and the preparation for printing use JavaScript.
 ///
 /// # Errors
 /// An error of `out` or of the template.

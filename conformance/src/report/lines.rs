@@ -76,7 +76,7 @@ fn fill(lines: &mut Vec<String>, zeros: &mut usize) {
 mod tests {
     use super::*;
 
-    /// An invalid stream is shown up to the error, which names the field.
+    /// An invalid stream is split into fields up to the error, which names the field.
     #[test]
     fn an_error_names_its_field() {
         let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];

@@ -64,7 +64,7 @@ impl Statement {
             ("Selection", Some(report.only.join(", ")).filter(|only| !only.is_empty())),
         ];
         facts.extend(more.into_iter().filter_map(|(name, fact)| Some((name.to_owned(), fact?))));
-        // Without a profile file, queries determined what was judged, so the device claims nothing.
+        // If queries of the device determined what was judged, the device claims nothing.
         let word = if is_found(report) { "Judged" } else { "Claims" };
         for (name, claim) in report.profile.iter().flat_map(claims) {
             if !claim.is_empty() {

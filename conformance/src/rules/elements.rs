@@ -40,7 +40,7 @@ fn name_rule(name: &str) -> Rule {
 /// attribute and of the size of the type. A failure does not show which of them is violated.
 const LENGTH_RULES: [ClauseId; 3] = [SDA_7, SDA_8, GEN_5];
 
-/// Checks the name of an element's type. Returns the type if the manual has this type.
+/// Checks the name of an element's type. Returns the type if `element_type` knows the name.
 pub(crate) fn check_type(
     record: &mut impl Checks,
     name: &str,
@@ -155,7 +155,7 @@ impl ExchangeJudge<'_> {
             return;
         };
         let record = &mut self.records.on(Topic::CncSda, observation);
-        // If the request contains the rank of a channel, the rank in the reply may differ.
+        // If the request contains the rank of a channel, the instance in the reply is not checked.
         let is_by_number = find.class_group().addressing == Addressing::Logical;
         let instance = (is_by_number || class == Class::Spindle).then_some(query.channel);
         check_group(record, (class, instance), group);

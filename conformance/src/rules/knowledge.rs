@@ -106,7 +106,7 @@ pub(super) struct ObservedList {
 pub(super) struct ObservedContent {
     pub(super) name: String,
     pub(super) size: u32,
-    /// Size of the type in bytes; `None` for a type without a fixed size.
+    /// Size of the type in bytes; `None` for an unknown type and for a type without a fixed size.
     pub(super) type_size: Option<u32>,
     pub(super) writable: bool,
 }
@@ -175,7 +175,8 @@ impl ObservedProgramStreams {
 
 #[derive(Default)]
 pub(super) struct ObservedProgramStream {
-    /// The packet of the previous write, if it was rejected, and the time of that write, if known.
+    /// The packet of the previous write, if the write was rejected and the packet has whole lines
+    /// and at most 992 bytes, and the time of that write, if known.
     pub(super) rejected: Option<(Vec<u8>, Option<Duration>)>,
     /// Checks the current program; `None` before the first accepted packet of a program, and while
     /// packets may be missing.
@@ -212,8 +213,8 @@ pub(super) struct ObservedInterface {
     /// Whether the service has read REQUEST_STATE != 0, and the UUID.
     pub(super) read_state: bool,
     pub(super) read_id: bool,
-    /// Whether the service has written RESPONSE, REQUEST_STATE = 0 and RESPONSE_STATE for the current
-    /// request.
+    /// Whether the service has written RESPONSE, REQUEST_STATE = 0 and RESPONSE_STATE != 0 for the
+    /// current request.
     pub(super) response: bool,
     pub(super) reset: bool,
     pub(super) answered: bool,

@@ -2,9 +2,9 @@
 //! clauses.
 //!
 //! `ads-cnc check` applies these checks to captured traffic. `ads-cnc run` applies the checks of
-//! replies to every reply that a case receives from a target, if the frame of the reply violates no
-//! rule of AMS/TCP. With `--client` or `--client-listen`, it applies the checks of requests to
-//! every request of a client. A `RuleBook` records the checks by `Topic`.
+//! replies to every reply that a case receives from a target with `Probe::call`, if the frame of
+//! the reply violates no rule of AMS/TCP. With `--client` or `--client-listen`, it applies the
+//! checks of requests to the requests of a client. A `RuleBook` records the checks by `Topic`.
 
 mod book;
 mod elements;
@@ -36,7 +36,7 @@ pub(crate) use self::topic::{Topic, captured_cases, reply_cases};
 pub(crate) use self::variables::{check_description, check_extended, element_count};
 use crate::ads_service;
 
-/// The requirement of the service with this command.
+/// The requirement of the service with this command; ADS-5 for a command of another service.
 pub(crate) fn service_clause(command: Command) -> ClauseId {
     ads_service::service_of(command).map_or(ADS_5, ads_service::clause)
 }

@@ -14,7 +14,7 @@ use super::topic::Topic;
 use crate::judge::{Checks, assumed};
 use crate::text::plural;
 
-/// Maximum number of channels of a CNC whose variables are stored.
+/// Maximum number of index groups of channels of a CNC whose variables are stored.
 const CHANNELS_MAX: usize = 512;
 
 impl ChannelVariables {

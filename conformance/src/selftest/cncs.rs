@@ -30,7 +30,8 @@ fn of_defect(defect: &'static SeededDefect) -> Candidate {
     }
 }
 
-/// Runs the cases of a target against a simulated CNC with the defect and the default model.
+/// Runs the cases of a target against a simulated CNC with the defect. The CNC has the default
+/// model, unless the defect is a variant with its own model.
 ///
 /// The cases with a requirement that the defect breaks run first. If they do not catch the defect,
 /// all cases run. If these do not catch the defect either, and the defect is for both editions, all

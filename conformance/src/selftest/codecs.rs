@@ -1,5 +1,5 @@
 //! Tests the suite with codecs that have a defect, and with miniatures: small testees, most of
-//! which have one kind of wrong behaviour, such as a crash in every tenth case.
+//! which have one kind of wrong behaviour, such as a crash at every tenth question.
 
 use std::time::Duration;
 
@@ -12,11 +12,11 @@ use crate::session::ToolError;
 use crate::suite;
 use crate::testee::{CodecTestee, JudgementOptions, Miniature, TesteeProcess, judge};
 
-/// Time limit for an answer of a miniature. A case in which a miniature hangs lasts this long.
+/// Time limit for an answer of a miniature. A question at which a miniature hangs lasts this long.
 const TIMEOUT: Duration = Duration::from_millis(1000);
 
-/// Only every `SHARE`-th case is run, because the wrong behaviour of a miniature occurs in many
-/// cases.
+/// With a miniature, only every `SHARE`-th case is run, because the wrong behaviour of a miniature
+/// occurs in many cases.
 const SHARE: usize = 25;
 
 const TERMS: JudgementOptions<'static> =

@@ -3,8 +3,9 @@
 //!
 //! A defect is caught if a requirement that it breaks fails. For a requirement below the level
 //! *must*, and for every codec, a warning or a difference suffices. If neither happens, the defect
-//! needs a written reason, otherwise the self-test fails. The detection table lists the defects
-//! that a run against a device misses; these need no reason.
+//! needs a written reason, otherwise the self-test fails. A field defect that changes no byte is
+//! not counted. The detection table lists the defects that a run against a device misses; these
+//! need no reason.
 
 mod clients;
 mod cncs;
@@ -34,7 +35,8 @@ pub use undetectable::UNSEEN;
 
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
-    /// All trials, in the order of groups and IDs.
+    /// All trials: those of codecs, of miniatures, of CNCs and of clients, each in the order of its
+    /// list.
     pub tried: Vec<Trial>,
     /// The groups and ID prefixes of the written reasons why a defect survives, for which no
     /// surviving defect was found.
@@ -81,7 +83,8 @@ impl SelfTest {
 /// Runs the trials that a word in `only` selects by the start of their ID, by the name of their
 /// group, or by a requirement, an area or a section; all trials if `only` is empty. `scope` selects
 /// the defects that are measured again for the detection table; with words in `only`, all defects
-/// that they select are measured. Calls `report_progress` after each trial, measurement and pair.
+/// that they select are measured. Calls `report_progress` after each trial, comparison with the
+/// table, measurement and pair.
 pub fn run(
     only: &[String],
     scope: Scope,

@@ -1,4 +1,4 @@
-//! The reasons why some defects may survive.
+//! The reasons why some defects may survive, and why a run against a device misses some defects.
 
 use super::trial::{SelfTestGroup, Trial, TrialResult};
 use super::undetectable::UNSEEN;
@@ -31,7 +31,7 @@ const REASONS: &[(SelfTestGroup, &str, &str)] = &[
     (SelfTestGroup::Cnc, "write-object.unknown-axis-is-first", NOT_WRITTEN),
 ];
 
-/// Reasons in `REASONS` and `MISSED`.
+/// Reasons in `REASONS`; some are also in `MISSED`.
 const NOT_WRITTEN: &str = "No case writes to a channel or an axis that is not configured.";
 const ANY_TEXT: &str = "An element may have any name, unit and write flag.";
 const CONTENT: &str =

@@ -1,4 +1,5 @@
-//! Tests which results count as caught, and how they are printed.
+//! Tests which results count as caught, how they are printed, and that the committed detection
+//! table is complete.
 
 use super::detection::{DetectionResult, DetectionTable, Mode};
 use super::*;

@@ -11,7 +11,7 @@ use crate::text::named;
 pub enum SelfTestGroup {
     /// Codecs with a defect, judged by the vectors and sequences.
     Codec,
-    /// CNCs with a defect, judged by the cases over the wire.
+    /// CNCs with a defect, judged by the cases for a target.
     Cnc,
     /// Clients with a defect, judged by the scenarios.
     Client,
@@ -89,7 +89,7 @@ pub(super) struct Candidate {
     pub(super) group: SelfTestGroup,
     pub(super) what: String,
     pub(super) targets: Vec<&'static str>,
-    /// Runs the cases; the outcomes are `None` if the defect changed nothing.
+    /// Runs the cases; the outcomes are `None` if a field defect changed no byte.
     pub(super) run: Box<dyn Fn() -> Result<Option<Vec<CaseOutcome>>, ToolError> + Send + Sync>,
 }
 

@@ -1,7 +1,7 @@
 //! Defects of a CNC that no case detects.
 
-/// The IDs of the defects of a CNC with which no case fails for a requirement that the defect
-/// breaks: for example, no reply contains the lines of an NC program that were executed.
+/// IDs of defects of a CNC with which no case fails for a requirement that the defect breaks: for
+/// example, no reply contains the lines of an NC program that were executed.
 /// `tests/simulator/defects.rs` detects each of these defects with a test of the simulated CNC.
 #[rustfmt::skip]
 pub const UNSEEN: &[&str] = &[

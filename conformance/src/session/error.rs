@@ -16,17 +16,19 @@ use crate::gate::GateRejection;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum ToolError {
-    /// An invalid argument or file.
+    /// Wrong usage, for example an invalid argument or file, or an ambiguous name.
     Usage(String),
-    /// The CNC does not have the requested value or function.
+    /// The command cannot read or write this value, for example because the CNC describes it as
+    /// read-only.
     Unable(String),
-    /// No list of the CNC has an object or element of this name.
+    /// None of the searched lists has an object or element of this name.
     Absent(String),
     /// An unexpected error of the system.
     Internal(String),
     /// The gate rejected the request.
     NotPermitted(Box<GateRejection>),
-    /// The gate allows requests that must not be sent to this target.
+    /// The gate allows requests that must not be sent to this target, or the system denied the
+    /// connection.
     Unsafe(String),
     /// A dry run cannot continue without a reply.
     NotSent,
@@ -36,7 +38,7 @@ pub enum ToolError {
     Unsendable(Error),
     /// No connection, or no reply over AMS/TCP.
     NoReply(String),
-    /// An AMS error: the request did not reach a CNC.
+    /// An error in the AMS header, for example because the request did not reach a CNC.
     Ams {
         error: AdsError,
         /// The likely cause, with advice if possible.
@@ -95,7 +97,7 @@ impl ToolError {
         let addr = target.addr;
         Self::NoReply(match error.kind() {
             io::ErrorKind::ConnectionRefused => format!(
-                "{addr} rejects the connection: no program is listening. Check that the ADS router \
+                "{addr} refuses the connection: no program is listening. Check that the ADS router \
                  of the device is running, that the TCP port is right (usually 48898), and that the \
                  firewall allows it"
             ),

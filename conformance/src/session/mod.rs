@@ -23,7 +23,8 @@ use crate::simulator::{LocalCnc, NET_ID, Responder, Server};
 
 pub use error::ToolError;
 
-/// A connection to a CNC: a device, or the simulated CNC in this process.
+/// A connection to a CNC (a device, or the simulated CNC in this process), or a dry run without a
+/// connection.
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -58,8 +59,7 @@ impl Session {
     /// Connects to a target.
     ///
     /// # Errors
-    /// If the connection fails, or the gate must not be used for this target; the error contains
-    /// advice.
+    /// If the connection fails, or the gate must not be used for this target.
     pub fn connect(target: Target, gate: Gate) -> Result<Self, ToolError> {
         match Client::connect(target, gate) {
             Ok(client) => Ok(Self::over(client, None)),
@@ -67,12 +67,13 @@ impl Session {
         }
     }
 
-    /// Creates a session that prints requests instead of sending them. Writes seem to succeed;
-    /// calls of functions whose reply has data fail with [`ToolError::NotSent`].
+    /// Creates a session that prints requests instead of sending them. Writes that the gate allows
+    /// seem to succeed; allowed calls of functions whose reply has data fail with
+    /// [`ToolError::NotSent`].
     ///
     /// # Errors
-    /// If the gate allows malformed requests and the target is another machine, or the gate is for
-    /// another address.
+    /// If the gate allows malformed requests and the target is not at a loopback address, or the
+    /// gate is for the address of a simulated CNC other than the target.
     pub fn dry(target: Target, gate: Gate, print: fn(&Exchange)) -> Result<Self, ToolError> {
         let client = Client::dry(target, gate);
         let client = client.map_err(|error| ToolError::Usage(error.to_string()))?;
@@ -89,8 +90,8 @@ impl Session {
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, cnc).map_err(failed)?;
-        // The timeout is longer than for a device: only a busy machine delays a reply of the
-        // simulated CNC, and this delay is not a fault of the CNC.
+        // The timeout is longer than for a device: a busy machine may delay a reply of the
+        // simulated CNC, and such a delay is not a fault of the CNC.
         let target =
             Target { timeout: SIMULATED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
@@ -139,9 +140,9 @@ impl Session {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate, print)
     }
 
-    /// Closes the connection, and connects to the same simulated CNC with another gate. The session
-    /// must have started the simulated CNC: for a device, only the file of `--allow-write` can
-    /// allow more.
+    /// Closes the connection, and connects to the same simulated CNC with another gate; a deadline
+    /// of the session is dropped. The session must have started the simulated CNC: for a device,
+    /// only the file of `--allow-write` can allow more.
     ///
     /// # Errors
     /// [`ToolError::Usage`] for any other session, and those of [`connect`](Self::connect).
@@ -173,13 +174,14 @@ impl Session {
         }
     }
 
-    /// Captures all frames sent and received from now on.
+    /// From now on, captures the frames sent and the bytes received.
     #[must_use]
     pub fn with_capture(self, capture: impl Into<Box<dyn Tap>>) -> Self {
         Self { client: self.client.with_capture(capture), ..self }
     }
 
-    /// Sets a deadline after which calls fail with [`ToolError::Enough`].
+    /// Sets a deadline after which [`call`](Self::call) and [`request`](Self::request) fail with
+    /// [`ToolError::Enough`].
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
         Self { deadline: Some(deadline), ..self }
@@ -361,7 +363,7 @@ impl Session {
         checked.map_err(|fault| ToolError::fault(&self.client, fault, self.answered))
     }
 
-    /// Whether this session has started a simulated CNC.
+    /// Whether this session has started a simulated CNC with a socket.
     pub const fn is_simulated(&self) -> bool {
         self.simulated.is_some()
     }
@@ -394,8 +396,9 @@ fn encode<'d>(
 /// The placeholder address of a simulated CNC that has no socket.
 const IN_PROCESS: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
 
-/// Timeout for a reply of a simulated CNC that the session has started.
+/// Timeout for a connection to, and a reply of, a simulated CNC that the session has started.
 const SIMULATED_TIMEOUT: Duration = Duration::from_secs(6);
 
-/// Default timeout for a reply of a device.
+/// Default timeout for a connection to a device and for its replies; in a run, also for the answers
+/// of a testee.
 pub const TIMEOUT: Duration = Duration::from_secs(2);

@@ -76,7 +76,7 @@ pub(super) fn write(
         }
         (ContentSource::AxisNumber, _) => Err(AdsError::INVALID_ACCESS),
         (ContentSource::Value, _) => {
-            // A place without an axis is not writable.
+            // At a place without an axis, only an axis number can be written.
             let changed = state.change(owner, index, |content| copy_padded(content, bytes));
             changed.ok_or(AdsError::INVALID_DATA)
         }

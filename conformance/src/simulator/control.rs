@@ -1,4 +1,5 @@
-//! Changes a simulated CNC without ADS, as an operator or an NC program does.
+//! Changes the state of a simulated CNC without ADS, as an operator or an NC program does, and
+//! gives access to its programs.
 
 use ads_cnc::CncString;
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
@@ -9,15 +10,15 @@ use super::program::service::ServiceInterface;
 use super::program::{ProgramConfig, Script, StreamingProgram};
 use super::state::ChannelState;
 
-/// The reason why a change of the CNC is not possible.
+/// The reason why a change of the CNC, or an access to one of its channels, is not possible.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ControlError {
     /// No channel has this number.
     #[error("no such channel: {0}")]
     Channel(u8),
-    /// The channel does not have the place, the axis does not exist, or another axis of the channel
-    /// has the same name.
+    /// The channel does not have the place, the axis does not exist, or another axis with the same
+    /// name is at another place of the channel.
     #[error("cannot assign axis {axis} to place {place} of channel {channel}")]
     Exchange {
         /// Logical number of the channel.
@@ -27,7 +28,8 @@ pub enum ControlError {
         /// Logical number of the axis.
         axis: u32,
     },
-    /// The name is too long, cannot be encoded in CP1252, belongs to another kind, or occurs twice.
+    /// The name is not a name of the kind, is too long, cannot be encoded in CP1252, or occurs
+    /// twice.
     #[error("invalid name of a parameter: {0:?}")]
     Name(String),
 }
@@ -37,8 +39,8 @@ impl Cnc {
     /// which counts from 1 (ADR-13). The axis leaves its previous place, and the previous axis of
     /// this place then has no place. The number 0 removes the axis from the place.
     ///
-    /// Over ADS, a write to an object or element of a channel axis whose content is the axis number
-    /// (`is = "axis-number"` in the model) does the same.
+    /// Over ADS, a write to a writable object or element of a channel axis whose content is the
+    /// axis number (`is = "axis-number"` in the model) does the same.
     ///
     /// # Errors
     /// [`ControlError::Channel`] or [`ControlError::Exchange`]; then nothing is changed.
@@ -49,7 +51,8 @@ impl Cnc {
         done.and_then(Result::ok).ok_or(ControlError::Exchange { channel, place, axis })
     }
 
-    /// The logical number of the axis at a place (from 1) of a channel; 0 without an axis.
+    /// The logical number of the axis at a place (from 1) of a channel; 0 if the place has no axis,
+    /// or if the channel or the place does not exist.
     ///
     /// ```
     /// use ads_cnc_conformance::simulator::Cnc;
@@ -67,8 +70,8 @@ impl Cnc {
         axis().unwrap_or_default()
     }
 
-    /// Activates or deactivates a channel, which changes the ranks of the channels after it
-    /// (ADR-11).
+    /// Activates or deactivates a channel. An inactive channel has no rank, so the active channels
+    /// after it have lower ranks (ADR-11).
     ///
     /// # Errors
     /// [`ControlError::Channel`]
@@ -170,7 +173,7 @@ impl Cnc {
         self.of_channel(channel, |channel| then(channel.script.as_mut()))
     }
 
-    /// Returns the script with the policy of this CNC.
+    /// Returns the script with the policy of this CNC, which a seeded defect may have changed.
     #[must_use]
     pub fn as_run(&self, script: Script) -> Script {
         script.with_policy(self.policy())
@@ -270,7 +273,8 @@ mod tests {
         }
     }
 
-    /// The program writes its request without ADS, and the service reads it over ADS.
+    /// The program writes its request without ADS, and the service reads the request state over
+    /// ADS.
     #[test]
     fn a_program_uses_the_service_interface() {
         let cnc = cnc();

@@ -36,8 +36,8 @@ impl LocalPeers for LocalCnc {
 
 /// The CNC's end of a connection.
 ///
-/// A socket waits for bytes; this end advances the CNC's clock by the timeout instead. So a test
-/// with a missing reply takes no time, and the replies are the same in every run.
+/// If there are no bytes for the client, a socket waits; this end advances the CNC's clock by the
+/// timeout instead. So the wait for a missing reply takes almost no time.
 #[derive(Debug)]
 struct InProcess {
     cnc: Arc<dyn Responder>,

@@ -31,7 +31,7 @@ pub enum ContentOwner {
     Spindle(u8),
 }
 
-/// The current content of an object or an element.
+/// The content of an object or an element at the time of the call of [`Cnc::stored_contents`].
 #[derive(Clone, Debug)]
 pub struct StoredContent {
     pub holder: ContentOwner,
@@ -46,7 +46,8 @@ pub struct StoredContent {
     index: usize,
 }
 
-/// A variable of a channel, with its name on the channel interface and its current value.
+/// A variable of a channel, with its name on the channel interface and its value at the time of the
+/// call of [`Cnc::current_variables`].
 #[derive(Clone, Debug)]
 pub struct CurrentVariable {
     pub channel: u8,
@@ -55,7 +56,7 @@ pub struct CurrentVariable {
     pub value: Vec<u8>,
 }
 
-/// A dynamic parameter that currently exists.
+/// A dynamic parameter that existed at the time of the call of [`Cnc::current_parameters`].
 #[derive(Clone, Debug)]
 pub struct CurrentParameter {
     pub channel: u8,
@@ -65,8 +66,8 @@ pub struct CurrentParameter {
 }
 
 impl Cnc {
-    /// All contents that store the last written value. Contents that are derived from the
-    /// configuration, such as axis numbers, and contents of places without an axis are excluded.
+    /// The contents of all objects and elements, except axis numbers, and except the contents of
+    /// places without an axis. A write to the program stream does not change its content here.
     pub fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {
@@ -103,7 +104,8 @@ impl Cnc {
         });
     }
 
-    /// All variables that the CNC lists, except those of the Service Interface.
+    /// The V.E, V.G and V.A variables of all channels, except those of the Service Interface and
+    /// those of places without an axis.
     pub fn current_variables(&self) -> Vec<CurrentVariable> {
         let (model, state) = (self.model(), self.state());
         let mut all = Vec::new();
@@ -140,7 +142,8 @@ impl Cnc {
         all
     }
 
-    /// The writable variables without a handle of the channel with this logical number.
+    /// The names of the writable variables without a handle of the channel with this logical
+    /// number.
     pub fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
         let channels = self.model().channels.iter().filter(|channel| channel.number == number);
         let all = channels.flat_map(|channel| channel.variables.list.iter());
@@ -200,7 +203,8 @@ impl Cnc {
     }
 }
 
-/// The element number of each item of an owner.
+/// The element number of each item of an owner; for a COM object, its index offset without the
+/// axis.
 fn elements(model: &Model, owner: Owner) -> Vec<u32> {
     let objects = match owner {
         Owner::Platform => Some(&model.platform),

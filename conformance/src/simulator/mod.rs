@@ -1,9 +1,10 @@
 //! The simulated CNC: data model, replies, and AMS/TCP server.
 //!
 //! [`Cnc::answer`] answers an ADS request with data or an error number. [`Cnc::respond`] answers a
-//! frame. [`Server`] answers TCP connections, for a [`Cnc`] or any other [`Responder`]. Unknown and
-//! invalid requests are answered with an error number, and never cause a panic. A malformed frame
-//! ends its connection, and a frame that is a response is ignored.
+//! frame. [`Server`] answers the frames of TCP connections, for a [`Cnc`] or any other
+//! [`Responder`]. A request for an unknown function, or with invalid data, is answered with an
+//! error number; no request causes a panic. A malformed frame ends its connection, and a frame that
+//! is a response is ignored.
 //!
 //! ```
 //! use ads_cnc::address::{IndexGroup, IndexOffset};

@@ -2,8 +2,8 @@
 
 use ads_cnc::address::Class;
 
-/// The owner of an object or an element. All numbers are indices, counted from 0; a place is an
-/// axis index of a channel.
+/// The owner of an object or an element. All numbers are indices that count from 0; that of a place
+/// is the axis index in the channel, which counts from 1, less 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Owner {
     /// The platform, as the owner of COM objects.

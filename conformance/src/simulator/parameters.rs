@@ -1,4 +1,4 @@
-//! The current dynamic parameters of a channel.
+//! The state of the dynamic parameters of a channel.
 
 use std::time::Duration;
 
@@ -20,7 +20,7 @@ pub(super) struct ParameterState {
 #[derive(Clone, Debug)]
 pub(super) struct ParameterStates {
     all: Vec<ParameterState>,
-    /// Whether all parameters always exist, which is the usual case.
+    /// Whether no parameter has times at which it is created or deleted, which is the usual case.
     are_always: bool,
 }
 
@@ -49,7 +49,7 @@ impl ParameterStates {
     /// has its initial value, even if it was written before (assumed). [`reset`](Self::reset) does
     /// the same for parameters that an object creates.
     pub(super) fn advance(&mut self, now: Duration) {
-        // Return early, because this function is called for every request.
+        // Return early, because this function is called at every access to the CNC.
         if self.are_always {
             return;
         }

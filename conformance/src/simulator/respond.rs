@@ -79,8 +79,8 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
     let (command, data) = (frame.header().command, frame.data());
     if let Some(service) = service_of(command) {
         let reply = ask(cnc, frame);
-        // Include the length 0 in an error reply, because not all clients accept a reply that ends
-        // before the length.
+        // Include the length 0 in an error reply to a Read or ReadWrite, because not all clients
+        // accept a reply that ends before the length.
         let (result, data) = match &reply {
             Ok(data) => (AdsError::NO_ERROR, Some(data.as_slice())),
             Err(result) => (*result, Some(&[][..])),
@@ -103,7 +103,8 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
             tracing::debug!("rejected: command {}", command.0);
             let result = AdsError::SERVICE_NOT_SUPPORTED;
             match command {
-                // Include the notification handle 0, like the length 0 of a Read.
+                // Include the notification handle 0, like the length 0 of a Read: both are four
+                // bytes.
                 Command::ADD_NOTIFICATION => {
                     append(&ReadReplyRef { result, data: Some(&[]) }, answers)
                 }
@@ -113,7 +114,8 @@ fn serve(cnc: Answering<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Res
     }
 }
 
-/// Calls the CNC; a reply that does not fit into a frame becomes an error.
+/// Calls the CNC. A request with an invalid header of its service, and a reply that does not fit
+/// into a frame, become errors.
 fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
     let call = Call::from_frame(frame).map_err(|error| {
         // Answer an invalid header of a service like a request of the wrong size.
@@ -125,7 +127,7 @@ fn ask(cnc: Answering<'_>, frame: &FrameRef<'_>) -> ReplyData {
     if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
 }
 
-/// Number of bytes before the data of a reply: result and length.
+/// Number of bytes before the data of a reply to a Read or ReadWrite: result and length.
 const SERVICE_LEN: usize = 8;
 
 /// The device information of the simulated CNC: a name, and the version of this program.

@@ -40,7 +40,7 @@ pub trait Responder: fmt::Debug + Send + Sync {
         usize::MAX
     }
 
-    /// Advances a stopped clock by `time`.
+    /// Advances the clock of the CNC by `time`.
     fn pass(&self, time: Duration);
 }
 

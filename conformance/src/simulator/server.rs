@@ -24,16 +24,18 @@ pub use options::ServerOptions;
 pub const CONNECTIONS_MAX: usize = 64;
 
 /// Maximum number of bytes of received requests and unsent replies that a connection buffers, in
-/// addition to the reply being built, which is at most one frame. Memory is allocated as needed.
+/// addition to the data of the reply being built.
 pub const CONNECTION_BYTES_MAX: usize = connection::BUFFERED_MAX;
 
 /// Stack size of a connection's thread in bytes.
 const STACK: usize = 1024 * 1024;
 
-/// Time after which a connection is closed if the client does not read a reply.
+/// Time after which a connection is closed if no more bytes of the replies can be sent, because the
+/// client does not read.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// A running server; dropping it closes every connection and waits for their threads.
+/// A running server; dropping it closes every connection and waits for the threads of the
+/// connections.
 #[derive(Debug)]
 pub struct Server {
     acceptor: net::Acceptor,
@@ -105,7 +107,7 @@ impl Drop for Server {
     fn drop(&mut self) {
         self.acceptor.stop();
         for stream in lock(&self.shared.connections).values() {
-            // This fails if the client has already closed the connection.
+            // This may fail if the client has already closed the connection.
             let _closed = stream.shutdown(Shutdown::Both);
         }
         for thread in lock(&self.shared.threads).drain(..) {

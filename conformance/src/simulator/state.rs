@@ -12,7 +12,8 @@ use super::parameters::{ParameterState, ParameterStates};
 use super::program::service::ServiceInterface;
 use super::program::{Policy, Script, StreamingProgram};
 
-/// Contents of an owner, in the order of its objects or elements.
+/// The contents of the objects or elements of an owner, or the values of variables, in the order of
+/// the model.
 pub(super) type Contents = Vec<Vec<u8>>;
 
 #[derive(Debug)]
@@ -32,11 +33,12 @@ pub(super) struct ChannelState {
     /// without an axis.
     pub(super) places: Vec<Option<usize>>,
     objects: Contents,
+    /// The values of the variables, except those of the Service Interface, which `service` stores.
     variables: Contents,
     elements: [Contents; 6],
     pub(super) parameters: ParameterStates,
     pub(super) service: ServiceInterface,
-    /// The streaming program, including the buffer.
+    /// The streaming program, including the buffer of the streaming interface.
     pub(super) program: StreamingProgram,
     /// The NC program that sends requests to services, if any.
     pub(super) script: Option<Script>,
@@ -45,8 +47,9 @@ pub(super) struct ChannelState {
 /// The state of an axis, which the axis keeps when it is assigned to another place.
 #[derive(Clone, Debug)]
 struct AxisState {
-    /// The contents of the COM objects of the platform axis; `of_place`, of the axis of a channel.
+    /// The contents of the COM objects that the axis has as a platform axis.
     objects: Contents,
+    /// The contents of the COM objects that the axis has at a place of a channel.
     of_place: Contents,
     variables: Contents,
     elements: [Contents; 6],
@@ -144,7 +147,8 @@ impl CncState {
         *self.channels.get(channel)?.places.get(place)?
     }
 
-    /// Contents of the objects or elements of an owner; `None` for a place without an axis.
+    /// Contents of the objects or elements of an owner; `None` for a place without an axis, and for
+    /// an owner that does not exist.
     pub(super) fn values(&self, owner: Owner) -> Option<&Contents> {
         match owner {
             Owner::Platform => Some(&self.platform),
@@ -165,8 +169,9 @@ impl CncState {
         }
     }
 
-    /// Changes the content of an object or element; `None` if it does not exist. An object of a
-    /// channel whose content is now 0 deletes its parameters.
+    /// Changes the content of an object or element; `None` if the content does not exist, for
+    /// example at a place without an axis. While the content of a channel's object is 0, the
+    /// parameters that need the object do not exist; they get their initial values.
     pub(super) fn change(
         &mut self,
         owner: Owner,
@@ -246,8 +251,9 @@ impl CncState {
     /// previous place, and the previous axis of this place then has no place. The number 0 removes
     /// the axis from the place.
     ///
-    /// Fails without a change if the axis or the place does not exist, or if the channel has
-    /// another axis with the same name, because the variables of both axes would have equal names.
+    /// Fails without a change if the axis or the place does not exist, or if another axis with the
+    /// same name is at another place of the channel, because the variables of both axes would have
+    /// equal names.
     pub(super) fn exchange(
         &mut self,
         model: &Model,
@@ -294,7 +300,8 @@ impl ChannelState {
     }
 }
 
-/// Whether the content of the object that the parameter needs is 0.
+/// Whether the content of the object that the parameter needs is 0; false if the parameter needs no
+/// object.
 fn is_deleted(parameter: &Parameter, objects: &[Vec<u8>]) -> bool {
     parameter.needs.is_some_and(|object| {
         let content = objects.get(object);

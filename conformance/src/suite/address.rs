@@ -1,4 +1,4 @@
-//! Cases of index groups and ports, and of the frames of all other cases.
+//! Cases of index groups and ports, and the cases that judge the frames of the other cases.
 
 use ads_cnc::address::{Addressing, Channel, ComGroup, Group};
 use ads_cnc::ads::AmsPort;
@@ -51,8 +51,8 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
         let none = ObjectCount::decode(&count) == Ok(ObjectCount(0));
         let first = ReadDescriptors::new(channel, 1, 1)?;
         let Some(first) = probe.try_ask(first)?.filter(|_| !none) else { continue };
-        // The reply must be the descriptor of the object, not the content of the element with the same
-        // number.
+        // The reply must be the descriptor of the object, not the content of the element with the
+        // same number.
         let described = DescriptorsRef::decode(&first).is_ok_and(|list| list.len() == 1);
         probe.check(ADR_4, described, "a description under 0x30000", || Hex(first));
     }
@@ -62,7 +62,7 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
 fn decoder_group(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         // The manual states the group, and that channels start at 1. Port 552 of SDA is only an
-        // assumption of a sample program, so this rule has the level *should*.
+        // assumption of a sample program, so the rule on ports (GEN-4) has the level *should* here.
         let rules = [ADR_1.into(), ADR_5.into(), GEN_6.into(), online(GEN_4)];
         probe.ask(rules, CountVariables::new(channel, Kind::V_E))?;
     }
@@ -210,18 +210,18 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The last error reply with data, if no reply of the run was a success.
+/// The last error reply with data, if no reply to a Read, Write or ReadWrite was a success.
 fn only_errors_with_data(probe: &mut Probe<'_>) -> Option<Evidence> {
     let last = probe.target.error_with_data.take();
     last.filter(|_| !probe.target.any_success)
 }
 
-/// Checks that the rejections that the cases of the run required were errors, not successes without
-/// data. The manuals do not require a particular error number.
+/// Takes over the checks that [`Probe::rejects`] has recorded of rejections that were successes
+/// without data instead of errors. The manuals do not require a particular error number.
 fn every_rejection(probe: &mut Probe<'_>) -> Step {
     let by_nothing = std::mem::take(&mut probe.target.rejections.by_nothing);
     if probe.target.rejections.by_number > 0 {
-        // At least one error reply was decoded, whether it contains data or not.
+        // At least one error reply was decoded, with or without data.
         probe.pass([ADS_6, ADS_7]);
     }
     probe.take_over(by_nothing);

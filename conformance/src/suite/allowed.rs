@@ -1,5 +1,5 @@
-//! Looks up the names in the file of `--allow-write` on the target after the cases have run: the
-//! cases skip a name that the target does not have, so a misspelt name would go unnoticed.
+//! Looks up the items in the file of `--allow-write` on the target after the cases have run: the
+//! cases skip an item that the target does not have, so a misspelt name would go unnoticed.
 
 use ads_cnc::address::{Addressing, Attribute, Channel, ClassGroup, ElementAddress, Group};
 use ads_cnc::operation::ReadElementWriteFlag;
@@ -11,18 +11,19 @@ use crate::gate::{AllowedList, Entry};
 use crate::judge::{IfPresent as _, Step};
 use crate::objects::{ReportedAccess, ValueAddress, ValueList};
 
-/// The entries of the file of `--allow-write` whose items cannot be written.
+/// The entries of the file of `--allow-write` whose items were found not to be writable.
 #[derive(Clone, Debug, Default)]
 pub struct Unwritable {
     /// Messages about entries whose item or channel the target does not have, one message for each
     /// entry.
     pub absent: Vec<String>,
-    /// Names and locations of read-only items. The cases check that writes to these items are
-    /// rejected.
+    /// The read-only items, each with its name or its address. A case that writes to such an item
+    /// checks that the write is rejected.
     pub read_only: Vec<String>,
 }
 
-/// Whether the target has the item of an entry, and whether the item is writable.
+/// Whether the target has the item of an entry, and whether the item is writable. An item whose
+/// access is unknown counts as writable.
 enum Named {
     Writable,
     ReadOnly,
@@ -30,8 +31,9 @@ enum Named {
     Absent(&'static str),
 }
 
-/// Looks up the entries of the file of `--allow-write`, in their order, until the target no longer
-/// answers, the deadline has passed or the run is interrupted.
+/// Looks up the entries of the file of `--allow-write`, in their order. The first look-up that ends
+/// with an error ends the search, for example because the target no longer answers, the deadline
+/// has passed or the run is interrupted.
 pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let allowed = target.client.gate().allowed();
     let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
@@ -39,8 +41,8 @@ pub fn unwritable(target: &mut TargetState) -> Unwritable {
     let deadline = target.deadline;
     let mut probe = Probe::new(target).with_deadline(deadline);
     for entry in entries {
-        // The loop ends if the target stops answering, because the target may have the remaining
-        // names.
+        // After an error, the remaining items are not looked up: the target may have them, although
+        // it does not return them.
         let named = match is_in_no_channel(&probe, &entry) {
             true => Ok(Named::Absent("channel")),
             false => look_up(&mut probe, &entry),
@@ -116,7 +118,7 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
         return Ok(Named::Writable);
     }
     // The name is that of an array element, of a variable that is accessible by name only, of a
-    // variable that the cases do not read, or of no variable.
+    // variable whose description the cases do not read, or of no variable.
     let value = probe.value_at(&ValueAddress::Name { channel, name: name.clone() });
     Ok(match value.if_applicable()? {
         Some(None) if listed.is_some() => Named::Absent("element"),
@@ -125,7 +127,8 @@ fn variable(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<N
     })
 }
 
-/// Whether an entry belongs to a channel that the target does not have according to the profile.
+/// Whether an entry belongs to a channel that the target does not have according to the profile;
+/// false if the profile has no channel.
 fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     let channel = match entry {
         Entry::Variable { channel, .. } | Entry::Stream(channel) | Entry::Service(channel) => {
@@ -142,8 +145,8 @@ fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     !channels.is_empty() && !known
 }
 
-/// The same channel, addressed by its number like the channels of the lists, even if the entry
-/// contains its rank.
+/// The channel of an entry, addressed by its number, like the channels of the lists, if the profile
+/// has a channel with the rank in the entry; otherwise the channel as in the entry.
 fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     let by_rank = channel.addressing() == Addressing::Index;
     let rank = usize::from(channel.number()).checked_sub(1).filter(|_| by_rank);
@@ -151,7 +154,8 @@ fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     number.and_then(|number| Channel::new(number).ok()).unwrap_or(channel)
 }
 
-/// The name or address in an entry, and its channel or axis, as text for a message.
+/// The location of the item of an entry, as text for a message: its name or address, and its
+/// channel or axis, as far as the entry contains them.
 fn place(entry: &Entry) -> String {
     let of = |channel: &Channel| match channel.addressing() {
         Addressing::Logical => format!("channel {}", channel.number()),

@@ -26,9 +26,9 @@ fn with(indices: &[u32], axis: usize, index: u32) -> Vec<u32> {
     indices
 }
 
-/// Checks that a variable with dimensions has elements. How elements are addressed in several
-/// dimensions is assumed, so the last element of each dimension is read only if the first element
-/// can be read.
+/// Checks that a variable with dimensions has elements. The last element of each dimension is read
+/// only if the first element of the array can be read, because it is only assumed how elements are
+/// addressed in several dimensions.
 fn array_has_elements(probe: &mut Probe<'_>) -> Step {
     each_array(probe, |probe, channel, variable, _| {
         let Description { handle, dimensions, name, .. } = variable;

@@ -11,8 +11,8 @@ use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::ids::*;
 
 use super::kit::{
-    AxisHandle, PLACES_MAX, Probe, RawCall, Steady, answering_places, axis_names, axis_variables,
-    name_of,
+    AxisHandle, GAP_MAX, PLACES_MAX, Probe, RawCall, Steady, answering_places, axis_names,
+    axis_variables, name_of,
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Step, applicable, assumed};
@@ -30,8 +30,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "The axis interface has no axis index 0: its offsets belong to other functions"),
 ];
 
-/// Calls a function for each axis index at which the name of an axis variable has the handle of a
-/// described variable, with the description of this variable.
+/// Calls a function for each axis index at which the name of an axis variable has the handle of an
+/// axis variable that the cases read, with the description of the variable with this handle.
 fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, AxisVariable<'_>, &Description) -> Step,
@@ -43,7 +43,8 @@ fn each(
             described.iter().map(|one| (one.1.handle.0, one)).collect();
         for name in axis_names(&described) {
             for AxisHandle { axis, handle } in answering_places(probe, channel, name)? {
-                // At an axis index without an axis, the handle belongs to no description.
+                // A handle that is in no description is skipped: it may be that of an axis index
+                // without an axis.
                 let Some((own, variable)) = by_handle.get(&handle.0) else { continue };
                 any = true;
                 let at = AxisVariable { channel, axis, name, own };
@@ -73,8 +74,7 @@ impl std::fmt::Display for AxisVariable<'_> {
 fn handles(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
-        let first = ChannelAxis::new(1)?;
-        // If the channel describes axis variables, at least one axis index must have a handle.
+        // If the channel describes axis variables, one of the first axis indices must have a handle.
         let mut any = described.is_empty();
         let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {
@@ -89,8 +89,8 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                     || format!("an error, or the 4-byte handle of {name} at place {place}");
                 probe.check(VAR_26, handle.is_ok(), expected, found);
                 let Ok(Handle(handle)) = handle else { continue };
-                // Each handle in a description belongs to one axis index. Other handles are not
-                // compared, because an axis index without an axis may return any handle.
+                // A handle in a description must belong to only one axis index. Other handles are
+                // not compared, because an axis index without an axis may return any handle.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
                 let other = at_places.insert(handle, place);
                 let other = other.filter(|other| known && *other != place);
@@ -105,7 +105,8 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                     found,
                 );
             }
-            if !any && axis != first {
+            // At an axis index without an axis, the CNC need not return a handle.
+            if !any && place > GAP_MAX {
                 break;
             }
         }

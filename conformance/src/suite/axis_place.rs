@@ -40,8 +40,8 @@ fn places(probe: &mut Probe<'_>) -> Step {
             let expected =
                 || format!("one place for each of the {} with {name}", plural(own.len(), "axis"));
             probe.check([VAR_26, GEN_6], places.len() >= own.len(), expected, found);
-            // An axis has only one axis index. A handle at an index without an axis belongs to no
-            // variable.
+            // An axis has only one axis index. A handle that is in no description is not compared,
+            // because an axis index without an axis may return any handle.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
                 let found = || format!("handle {} also at place {}", at.handle, at.axis.index());
@@ -90,8 +90,8 @@ fn at_a_place(
     Ok(())
 }
 
-/// A channel, the last axis index at which an axis variable has a handle from a description, and
-/// the name of this variable on the axis interface.
+/// The first channel and the first name of an axis variable that has a handle from a description on
+/// the axis interface, and the last axis index with such a handle of this name.
 fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
@@ -106,8 +106,8 @@ fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     Err(Stop::not_applicable("no axis variable is on the axis interface"))
 }
 
-/// Requests handles at axis indices above 255. The reply is not specified, but it must not be the
-/// handle at the valid index that has the same lower bits.
+/// Requests handles at axis indices above 255, which have the lower 8 bits of a valid index. The
+/// reply is not specified, but it must not be the handle at the valid index.
 fn too_far(probe: &mut Probe<'_>) -> Step {
     let (channel, AxisHandle { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {

@@ -19,8 +19,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "Numbers in descriptors, descriptions and addresses are little-endian"),
 ];
 
-/// Checks the numbers of items and the handles. A wrong number that is correct with reversed bytes
-/// violates GEN-1.
+/// Checks the numbers of items of lists, and the handles that are requested by name. A wrong number
+/// that is correct with reversed bytes violates GEN-1.
 fn number_order(probe: &mut Probe<'_>) -> Step {
     for (one, number) in Counted::all(probe)? {
         let from_behind = number.swap_bytes();

@@ -55,8 +55,10 @@ fn count(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that object `number`, the last one, exists and that no object follows it. A failure
-/// violates COM-1 and COM-2, because it does not show whether the number or the list is wrong.
+/// Checks that object `number`, the last one, exists and that no object follows it; in a list with
+/// more than [`OBJECTS_MAX`] objects, only that object [`OBJECTS_MAX`] exists. A failure violates
+/// the requirements on the number and on the list, because it does not show which of them is wrong.
+/// COM-1, COM-2
 fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let rules = [COM_1, COM_2];
     let asked = number.min(OBJECTS_MAX);
@@ -95,7 +97,8 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
                 format!("ID {id}")
             });
             check_descriptor(probe, object);
-            // Objects are static: a second read must return the same descriptor.
+            // Objects are static: a second read must return the same descriptor. The write access
+            // is not compared.
             let again = read_descriptors(probe, COM_2, list, first, 1)?;
             let what = |one: DescriptorRef<'_>| {
                 let at = (one.index_group(), one.index_offset());
@@ -136,10 +139,11 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         singles.insert(first, probe.ask(COM_3, request)?);
     }
     for (first, count) in reads {
-        // A request for more descriptors than fit into a frame cannot be encoded.
+        // `ReadDescriptors` rejects a count of descriptors that exceeds its maximum.
         let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
         let together = probe.ask(COM_3, request)?;
-        // A descriptor that was not read alone is not compared: the expected bytes are the received ones.
+        // A descriptor that was not read alone is not compared: the expected bytes are the received
+        // ones.
         let mut parts = together.chunks(DESCRIPTOR_LEN);
         let alone = (first..=number).take(to_usize(count)).map(|number| {
             let part = parts.next().unwrap_or_default();

@@ -80,7 +80,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Checks reads with a read length that exceeds the size of the object. Such a read may be
-/// rejected, but a success must return exactly the size of the object.
+/// rejected, but a success must return exactly as many bytes as the size of the object.
 fn room(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let Some((group, offset)) = object.address.content() else { continue };
@@ -153,8 +153,8 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Reads all lists like an object browser: the numbers of objects and the descriptors of COM, and
-/// the names of the elements of SDA and GEO.
+/// Reads the claimed lists like an object browser: the numbers of objects of COM, and, as far as
+/// the cases read a list, the descriptors of COM and the names of the elements of SDA and GEO.
 fn everything(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
         // No manual states that platform axes (`ComTable::Axis`) have object lists.

@@ -51,8 +51,8 @@ fn extended(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Requests the extended description of a variable of another kind than V.E. The reply must have no data;
-/// that the reply is a success is assumed.
+/// Requests the extended description of a variable of another kind than V.E. The reply must have no
+/// data; that the reply is a success is assumed.
 fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> Step {
     let exchange = probe.send(request)?;
     let data = exchange.reply().and_then(|reply| reply.data.clone());
@@ -92,7 +92,8 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Ends the case as not applicable if the target does not support the description by name. If the
-/// function is optional, a success in any channel shows that the target supports it.
+/// function is optional, a success for the first variable of any channel shows that the target
+/// supports it.
 fn is_there(probe: &mut Probe<'_>) -> Step {
     if probe.target.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
         return Ok(());

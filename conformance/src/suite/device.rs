@@ -1,5 +1,5 @@
-//! Cases of device information and state. Both are documented online only, so a missing or wrong
-//! reply is only a warning.
+//! Cases of device information and state. Both are documented online only, so the verdict of these
+//! cases on a missing or wrong reply is only a warning.
 
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;

@@ -1,4 +1,4 @@
-//! Finds the channels, axes, lists and ports of a target, before the cases run.
+//! Finds the channels, axes, spindles, lists and ports of a target, before the cases run.
 
 use std::time::{Duration, Instant};
 
@@ -43,9 +43,10 @@ impl Discovery {
     }
 }
 
-/// Finds the channels, axes, lists and ports of a target. With [`ClaimsBy::Queries`], the replies
-/// of the target determine the channels, axes, spindles and edition in `target.profile`; ports,
-/// sections and functions remain claimed, whether or not the target has them.
+/// Finds the channels, axes, spindles and lists of a target, and chooses the sizes of samples. With
+/// [`ClaimsBy::Queries`], also finds its ports, and the replies of the target determine the
+/// channels, axes, spindles and edition in `target.profile`; ports, sections and functions remain
+/// claimed, whether or not the target has them.
 pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let (begun, frames) = (Instant::now(), target.frames);
     let mut probe = Probe::new(target);
@@ -102,8 +103,8 @@ fn find(probe: &mut Probe<'_>, by: ClaimsBy, found: &mut FoundReport) -> Step {
     let profile = &probe.target.profile;
     found.platform_axes = match by {
         ClaimsBy::Queries => profile.platform_axes,
-        // `profile.platform_axes` is a claim here, so the axes of the position controller are
-        // counted instead.
+        // `profile.platform_axes` is a claim here, so the highest axis number in the position
+        // controller is reported instead.
         ClaimsBy::Profile => controlled_axes(&instances),
     };
     if by == ClaimsBy::Profile {
@@ -150,7 +151,7 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
         Some(ItemKind::Element) => (35, 35),
         None => (0, 30),
     };
-    // The descriptions of the other variables are read once, to learn their names.
+    // The descriptions of the variables outside the sample are read once, to learn their names.
     let names = match kind {
         Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
         _ => 0,
@@ -158,8 +159,8 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
     u64::from(read).saturating_mul(item).saturating_add(list).saturating_add(names.into())
 }
 
-/// The ports at which a task replies. Ports without a reply remain claimed, so that a case fails
-/// for a missing port.
+/// The ports at which a task replies without an error in the AMS header. Other ports remain
+/// claimed, so that a case fails for a missing port.
 fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     let channel = Channel::new(1)?;
     let mut found_ports = Vec::new();
@@ -171,7 +172,8 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
         };
         let request = RawCall::new(request)?.with(|call| call.port = task.port());
         let answered = probe.call(&request)?.reply().is_some_and(|reply| reply.ams_error.is_ok());
-        // A task may reject this query with an error in the AMS header, so ReadDeviceInfo is tried too.
+        // A task may reject this query with an error in the AMS header, so ReadDeviceInfo is tried
+        // too.
         let answered = answered || {
             let inquired = probe.inquire::<DeviceInfoReply>(task)?;
             matches!(inquired.outcome, Ok(InquiryReply::Reply(_) | InquiryReply::Rejected(_)))
@@ -183,8 +185,8 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
     Ok(found_ports)
 }
 
-/// Sends a request of a walk if the profile claims the function of the request. Other requests are not sent,
-/// and count as rejected.
+/// Sends a request of a walk if the profile claims the function of the request. Other requests are
+/// not sent, and count as rejected.
 struct IfClaimed<'p, 's>(&'p mut Probe<'s>);
 
 impl Walker for IfClaimed<'_, '_> {
@@ -222,8 +224,8 @@ fn claim_channels(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Whether a channel exists. If any channel has objects, a channel must have objects, or both a
-/// decoder and variables; otherwise a decoder or variables are sufficient.
+/// Whether a channel exists. If any channel has objects (`has_objects`), this channel must have
+/// objects, or both a decoder and variables; otherwise a decoder or variables are sufficient.
 fn is_channel(walker: &mut IfClaimed<'_, '_>, channel: Channel, has_objects: bool) -> Step<bool> {
     if has_objects && walker.count_objects(channel)?.is_some() {
         return Ok(true);
@@ -258,9 +260,9 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// The axis indices of all channels but the first, each as channel and axis index. Without a
-/// profile, a run does not write at these indices, because no list shows which of them have no
-/// axis, and a value that is written without an axis is lost.
+/// The axis indices up to [`PLACES_MAX`] of all channels but the first, each as channel number and
+/// axis index. Without a profile, a run treats these indices as possibly without an axis, because
+/// no list shows which of them have an axis, and a value that is written without an axis is lost.
 fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
     let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
     Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())

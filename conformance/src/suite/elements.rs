@@ -1,4 +1,4 @@
-//! Cases of the elements of SDA and GEO: attributes and contents.
+//! Cases of the elements of SDA and GEO: their number, attributes and contents.
 
 use std::collections::HashSet;
 
@@ -36,8 +36,9 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length shorter than the reply returns an error"),
 ];
 
-/// Reads an attribute of an element. A valid reply passes `rule` and ADR-6, the requirement of its
-/// index group.
+/// Reads an attribute of an element. A valid reply passes `rule` and the requirement on the index
+/// group of the attribute; any other reply fails `rule` and ends the case.
+/// ADR-6
 fn attribute<T>(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -92,8 +93,8 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let is_bare = count == 0 || probe.is_at_empty_place(&instance);
         let rule = if is_bare { assumed(SDA_4) } else { SDA_4.into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
-        // The HLDs of several channels have the same platform axes, so names are only compared within
-        // a channel.
+        // The HLDs of several channels have the same platform axes, so names are only compared
+        // within a channel.
         let is_new = names.insert((instance.channel, name.clone()));
         probe.check(assumed(SDA_4), is_new, "a name that no other instance has", found);
         ends(probe, &instance, count)?;
@@ -110,7 +111,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that the last element has a name, and that no element follows it.
+/// Checks that element `count`, the last one, has a name, and that no element follows it.
 fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     let (last, beyond) = (instance.first.nth(count), instance.first.nth(count.saturating_add(1)));
     let (Ok(last), Ok(beyond)) = (last, beyond) else { return Ok(()) };
@@ -128,8 +129,8 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
             probe.rejects(rule, &what, beyond, last)?;
         }
     }
-    // Contents of the decoder are not judged: some of its offsets are functions, and not all of these
-    // functions are documented.
+    // Contents of the decoder are not judged: some of its offsets are functions, and not all of
+    // these functions are documented.
     let Some(length) = probe.length_of(last)?.filter(|_| instance.class != Class::Decoder) else {
         return Ok(());
     };

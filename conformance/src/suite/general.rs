@@ -1,4 +1,5 @@
-//! Cases of rules for all streams: tasks and ports, numbering, sizes of types, code page of texts.
+//! Cases of general requirements (GEN): tasks and ports, numbering, sizes of types, and code page
+//! of texts.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
 use ads_cnc::ads::{AdsError, AmsPort};
@@ -99,7 +100,8 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
     let find = |probe: &mut Probe<'_>, class, channel| -> Step<Option<ObjectAddress>> {
         Ok(probe.address_of(class, channel, 0).if_applicable()?.flatten())
     };
-    // The check uses the decoder, because the manual states that it belongs to SDA.
+    // The check uses the decoder, because the manual states that the decoder's variables belong to
+    // SDA.
     let first = u32::from(probe.channel()?.number());
     if let Some(there) =
         find(probe, Class::Decoder, first)?.filter(|one| *one != ObjectAddress::NONE)
@@ -110,7 +112,8 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
         probe.check(GEN_6, none, "no decoder in channel 0", found);
     }
     if probe.target.profile.spindles.is_some_and(|spindles| spindles > 0) {
-        // If the profile does not claim the addresses of instances, this check is left out.
+        // If the profile does not claim the request for the address of an instance, this check is
+        // left out.
         if let Some(zero) = probe.address_of(Class::Spindle, 0, 0).if_applicable()? {
             let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
             let found = || format!("{zero:?}");
@@ -217,7 +220,7 @@ mod tests {
         }
     }
 
-    /// The size of each type of a variable is a part of GEN-5 at the level *must*.
+    /// The size of a variable of the type SGN32 is a part of GEN-5 at the level *must*.
     #[test]
     fn a_wrong_size_of_a_number_fails() {
         let cnc = Wrong(Cnc::with_default_model().unwrap().with_stopped_clock());

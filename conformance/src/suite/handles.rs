@@ -1,4 +1,5 @@
-//! Cases of handles: the variable to which a handle belongs, and how long the handle is valid.
+//! Cases of handles: the variable to which a handle belongs, how long the handle is valid, and
+//! unknown handles.
 
 use std::collections::HashSet;
 
@@ -15,7 +16,8 @@ use crate::text::plural;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[CaseRow] = &[
-    // This case reads each variable by the handle in its description before it requests a handle by name.
+    // This case reads each variable by the handle in its description before it requests a handle by
+    // name.
     case("var-described-handle", &[VAR_4, VAR_9, VAR_10], Needs::Queries, described,
         "The name and the handle in a description read the variable"),
     case("var-handle-by-name", &[VAR_9, VAR_10], Needs::Queries, by_name,
@@ -72,7 +74,8 @@ fn reads_by_own_handle(
     }
 }
 
-/// Requests the handle of a name, and checks that the reply is a handle; a failure ends the case.
+/// Requests the handle of a name, and checks that the reply is a handle; a failure ends the case,
+/// so the function never returns `None`.
 fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step<Option<Handle>> {
     let rules = [VAR_9, VAR_10];
     let data = probe.ask(rules, HandleByName { channel, name })?;
@@ -89,9 +92,9 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let name = name_of(variable);
             probe.set_subject(name.text());
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
-            // The manuals do not state that a variable has only one handle. Therefore, these checks
-            // are assumed, and another handle than that of the description must read a value of the
-            // described size.
+            // The manuals do not state that a variable has only one handle. Therefore, the next two
+            // checks are assumed, and another handle than that of the description must read a
+            // value, which must have the described size if the type has a fixed size.
             let expected =
                 || format!("the description's handle {} for {}", variable.handle, name.text());
             let rule = assumed(VAR_10);

@@ -1,9 +1,9 @@
-//! Malformed requests: the CNC must reply to each, and no reply may return data. A success without data
-//! counts as a rejection.
+//! Malformed requests: the CNC must reply to each, and no reply may return data. A success without
+//! data counts as a rejection.
 //!
-//! For most of these requests, no manual states that a CNC rejects them, so their checks are
-//! `assumed` and cannot fail a device. The other checks have the level of their clause, such as
-//! ADS-4: a result of 0 means success.
+//! For some of these requests, no manual states that a CNC rejects them, so their checks are
+//! `assumed`: returned data does not fail a device, but a missing reply does. The other checks have
+//! the level of their clause, such as ADS-4: a result of 0 means success.
 
 use ads_cnc::address::{Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -53,7 +53,7 @@ impl<'p, 's> MalformedRequest<'p, 's> {
         self.call(rules, what, |call| call.data = data.to_vec())
     }
 
-    /// Sends data whose length contradicts its count of indices.
+    /// Sends data whose length contradicts its count of indices or exceeds the maximum.
     fn of_other_length(&mut self, what: &str, data: &[u8]) -> Step {
         self.data([VAR_24, VAR_11], what, data)
     }

@@ -1,4 +1,4 @@
-//! The cases for this project's codec and for a target, and their execution.
+//! The cases for this project's codec and for a target (a CNC under test), and their execution.
 
 mod address;
 mod ads_services;
@@ -53,8 +53,8 @@ use crate::judge::{Body, Case, CaseSubject, codec_cases};
 use crate::rules::reply_cases;
 use row::CaseRow;
 
-/// The cases for a target that are functions of the submodules. [`cases`] makes the other cases
-/// from vectors, sequences and the rules for replies.
+/// The cases for a target, each of which has its own function in a submodule. [`cases`] makes the
+/// other cases from vectors, sequences and the rules for replies.
 const TABLES: &[&[CaseRow]] = &[
     address::CASES,
     ads_services::CASES,

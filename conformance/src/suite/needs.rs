@@ -1,11 +1,12 @@
-//! Decides which cases are not run on a target.
+//! Decides from the gate and the profile of a target whether the need of a case is met.
 
 use crate::gate::Gate;
 use crate::judge::{Needs, Verdict};
 use crate::profile::Profile;
 
 impl Needs {
-    /// The verdict and the reason if a case with this need cannot be run; `None` if it can.
+    /// The verdict and the reason if a case with this need is not run on the target; `None` if the
+    /// need does not prevent the case.
     pub fn unmet(self, gate: &Gate, profile: &Profile) -> Option<(Verdict, &'static str)> {
         let not_run = |why| Some((Verdict::NotRun, why));
         match self {

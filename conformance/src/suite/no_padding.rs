@@ -36,8 +36,8 @@ fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
     all
 }
 
-/// The numbers of bytes that are removed (negative) or inserted (positive) to find padding, smallest
-/// first.
+/// The numbers of bytes that are removed (negative) or inserted (positive) to find padding,
+/// smallest first.
 const SHIFTS: [isize; 10] = [-1, 1, -2, 2, -4, 4, -6, 6, -8, 8];
 
 fn packed(probe: &mut Probe<'_>) -> Step {
@@ -67,8 +67,8 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     let object = |bytes: &[u8], judge: fn(DescriptorRef<'_>) -> bool| {
         DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
     };
-    // Padding is searched for only if the name and the type are empty: an unknown type name does
-    // not show padding.
+    // Padding is searched for only if the name and the type name are empty: an unknown type name
+    // does not show padding.
     let is_unpacked = object(bytes, |one| one.name().is_empty() && one.type_name().is_empty());
     let makes_sense = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();
@@ -82,8 +82,8 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
     probe.check(GEN_2, shift.is_none(), "name at byte 20, type at byte 52", found);
 }
 
-/// Whether the size is that of the type times the number of elements. False for a STRING, which has
-/// no fixed size, so that a wrong number of dimensions would look like padding.
+/// Whether the size is that of the type times the number of elements. False for a type without a
+/// fixed size, such as STRING, because wrong dimensions of such a variable would look like padding.
 fn has_size(variable: &Description) -> bool {
     let element = variable.var_type.element_size();
     let count = element_count(&variable.dimensions);

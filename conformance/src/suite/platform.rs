@@ -30,8 +30,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "The contents are at the addresses printed in the manuals"),
 ];
 
-/// Channel 1, which the manuals name for the objects of the platform; `None` if the first channel has
-/// another number.
+/// Channel 1, which the manuals name for the objects of the platform; `None` if the first channel
+/// has another number.
 fn platform_channel(probe: &Probe<'_>) -> Step<Option<Channel>> {
     Ok(Some(probe.channel()?).filter(|channel| channel.number() == 1))
 }
@@ -148,8 +148,8 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
         let objects = probe.objects()?;
         let named = objects.iter().find(|one| one.address.content() == Some((group, offset)));
-        // If no descriptor has the printed address, the content must still be at this address. Its size
-        // is unknown then, so 8 bytes are read.
+        // If no descriptor has the printed address, the content must still be at this address. Its
+        // size is unknown then, so 8 bytes are read.
         let read = |size| ReadObject::new(group, offset, size);
         let described = named.and_then(|object| read(object.size()).ok());
         let read = described.map_or_else(|| read(8), Ok)?;

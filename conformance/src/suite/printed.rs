@@ -13,7 +13,7 @@ use crate::number::to_usize;
 use crate::text::hex::spaced;
 
 /// The vector of an example that contradicts another example of the same variable (E-27): no CNC
-/// can satisfy both.
+/// returns both values at the same time.
 const CONTRADICTED: &str = "value-printed-name-element";
 
 /// One case for each printed reply whose request is also a vector.
@@ -29,7 +29,8 @@ pub(super) fn cases() -> Vec<Case> {
         .collect()
 }
 
-/// Sends a printed request and compares the reply with the printed one.
+/// Sends a printed request and compares the reply with the printed one. The case of the vector
+/// [`CONTRADICTED`] is not applicable.
 pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     if reply.id == CONTRADICTED {
         return Err(Stop::not_applicable(

@@ -26,9 +26,11 @@ use crate::testee::{self, JudgementOptions};
 static TRIES: LazyLock<HashMap<&str, CaseFunction>> =
     LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
-/// Runs the cases: those of the codec on the codec, all others on a target.
+/// Runs the cases: those of the codec on this project's codec, all others on the target. Without a
+/// target, the other cases get the verdict *not run*.
 ///
-/// `defect` changes the codec's input and output, to show that its cases can fail.
+/// A `defect` of a codec changes the bytes that the codec receives, or its answers, to show that
+/// the cases of the codec can fail.
 pub fn run(
     cases: Vec<Case>,
     mut target: Option<&mut TargetState>,
@@ -70,11 +72,12 @@ pub fn run(
     outcomes
 }
 
-/// The case that judges the frames of all other cases.
+/// The case that judges the frames that the client has received so far.
 const EVERY_FRAME: &str = "ads-every-frame";
 
-/// The outcome of the case [`EVERY_FRAME`] if frames of this run violate a rule and the case was not
-/// selected; otherwise `None`. A selected case has its outcome, even if it was interrupted.
+/// The outcome of the case [`EVERY_FRAME`] if the client has found violations in received frames
+/// and the case is not among `outcomes`; otherwise `None`. A selected case is among the outcomes,
+/// even if it was interrupted.
 fn broken_frames(outcomes: &[CaseOutcome], target: &mut TargetState) -> Option<CaseOutcome> {
     let is_selected = outcomes.iter().any(|outcome| outcome.case.id == EVERY_FRAME);
     if is_selected || target.broken.checks == 0 {
@@ -198,8 +201,8 @@ mod tests {
         (server, TargetState::new(client, Profile::DEVICE))
     }
 
-    /// A value of 2048 bytes cannot be written by name, so the verdict is *not observed*. The
-    /// verdict is *not applicable* only if the target has no variable that may be written.
+    /// A value of 2048 bytes does not fit into a write by name, so the verdict is *not observed*.
+    /// The verdict is *not applicable* if the target has no variable that may be written.
     #[test]
     fn a_case_without_a_subject_is_not_applicable() {
         let padded = Some("cnc.var.value-2048");
@@ -215,8 +218,8 @@ mod tests {
         }
     }
 
-    /// A wrong frame adds the case that judges frames, unless the case was selected and has an
-    /// outcome, such as that of an interrupted run.
+    /// A violation in a frame adds the outcome of the case that judges frames, unless the case
+    /// already has an outcome, such as that of an interrupted run.
     #[test]
     fn the_case_of_frames_has_one_outcome() {
         let (_server, mut target) = target(None, NAME);

@@ -37,8 +37,8 @@ const OFFSET: u32 = 0x90;
 /// The name of the stream object.
 const NAME: &str = "mc_program_stream_w";
 
-/// Looks for the stream object in the object lists of the channels, by name and by address, and
-/// checks both. The object need not be listed.
+/// Looks for the stream object among the objects that the cases read of the channels, by name and
+/// by address, and checks both and the write access. The object need not be listed.
 fn object(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let ValueList::Channel(number) = object.list else { continue };
@@ -60,7 +60,7 @@ fn object(probe: &mut Probe<'_>) -> Step {
     probe.finish(&format!("no object list has {NAME}"))
 }
 
-/// How long a device may take to empty its buffer.
+/// How long a rejected packet is sent again, so that the device can empty its buffer.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(30);
 
 /// The first channel whose stream may be written.
@@ -95,8 +95,9 @@ fn repeat(
     }
 }
 
-/// Writes a packet that must be accepted. Returns how often it was rejected before it was accepted,
-/// or `None` if it is rejected although the buffer of the device has space.
+/// Writes a packet that must be accepted. Returns how often it was rejected in the round (until a
+/// timeout) in which it was accepted, or `None` if it is rejected although the buffer of the device
+/// has space.
 ///
 /// An error number does not show whether a rejection is temporary, nor whether the device empties
 /// its buffer at all. Therefore, after the timeout, two packets with at least the same total length
@@ -151,7 +152,7 @@ fn longest(probe: &mut Probe<'_>) -> Step {
     write_accepted(probe, &[STM_2], channel, &many)
 }
 
-/// Writes packets of 4 to 992 bytes, with lengths around 128 and around multiples of 256.
+/// Writes packets of 4 to 992 bytes, among them lengths around 128 and around multiples of 256.
 fn lengths(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     for len in [4_usize, 127, 128, 255, 256, 257, 511, 512, 513, 767, 768, 769, 991, 992] {
@@ -177,8 +178,8 @@ fn rejected_as_busy(probe: &mut Probe<'_>) -> Step {
 
 fn too_long(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
-    // A packet of the maximum length must be accepted first, because a target that rejects every packet
-    // would pass the following checks.
+    // A packet of the maximum length must be accepted first, because a target that rejects every
+    // packet would pass the following checks.
     write_accepted(probe, &[STM_2], channel, &comment(STREAM_PACKET_MAX))?;
     for len in [993, 993, 994, 1024, 1984, 2048, 4094, 4096] {
         let sent = send(probe, channel, &comment(len))?;
@@ -194,7 +195,7 @@ fn too_long(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// A comment of this number of bytes, including its line end.
+/// A comment of this number of bytes, which is at least 4, including its line end.
 fn comment(len: usize) -> Vec<u8> {
     let mut line = vec![b'('];
     line.resize(len.saturating_sub(3), b'-');

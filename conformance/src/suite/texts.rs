@@ -18,7 +18,8 @@ pub(super) const CASES: &[CaseRow] = &[
 /// Bytes without a character in CP1252.
 pub(super) const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 
-/// The writable texts that the cases read, with their names: objects and variables.
+/// The writable texts that the cases read, with their names: objects, and single variables except
+/// those of the Service Interface.
 fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
     let mut all = Vec::new();
     for object in probe.objects().if_applicable()?.unwrap_or_default() {
@@ -32,7 +33,8 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
             let is_text = variable.var_type == VariableType::STRING
                 && variable.dimensions.is_empty()
                 && variable.access == ads_cnc::VariableAccess::READ_WRITE;
-            // The texts of the Service Interface are not written here, because an NC program reads them.
+            // The texts of the Service Interface are not written here, because an NC program reads
+            // them.
             let own = !is_of_service(&variable);
             let name = variable.name.text;
             let what = name.to_string();

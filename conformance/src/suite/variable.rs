@@ -79,7 +79,8 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
             let chosen = probe.sample(ItemKind::Variable, 0..number);
             let mut names = HashSet::new();
             let mut all = Vec::new();
-            // Names must be unique among all variables, not only among those of the sample.
+            // Names must be unique among all variables, so the first `VARIABLES_MAX` variables are
+            // read, too, not only those of the sample.
             let last = chosen.iter().copied().filter(|index| *index >= VARIABLES_MAX);
             for index in (0..number.min(VARIABLES_MAX)).chain(last) {
                 let is_chosen = chosen.binary_search(&index).is_ok();

@@ -51,8 +51,8 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
 /// Maximum number of names of a channel that are tried, the longest first.
 const NAMES_MAX: usize = 64;
 
-/// Names similar to `name`: one character longer, one character shorter, with another last character, and
-/// with another character in the middle.
+/// Names similar to `name`: one character longer, one character shorter, with another last
+/// character, and with another character in the middle.
 fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     let other = |at: usize| {
         let mut other = name.to_vec();
@@ -63,15 +63,15 @@ fn similar_names(name: &[u8]) -> Vec<Vec<u8>> {
     };
     let Some((_, shorter)) = name.split_last() else { return Vec::new() };
     let longer = [name, &b"q"[..]].concat();
-    // The changed character is after the kind, because a name with a wrong kind would be rejected
-    // for its kind.
+    // The changed character in the middle is after the kind (`V.E.`), because a name with a wrong
+    // kind would be rejected for its kind.
     let middle =
         name.len().saturating_sub(4).checked_div(2).map_or(4, |half| half.saturating_add(4));
     vec![longer, shorter.to_vec(), other(name.len().saturating_sub(1)), other(middle)]
 }
 
-/// Names in which an index is far out of bounds; some of these indices have the lower bytes of the valid
-/// index.
+/// Names in which an index is far out of bounds; some of these indices have the lower bytes of the
+/// valid index.
 fn other_structures(name: &str) -> Vec<String> {
     let mut all = Vec::new();
     for (at, _) in name.match_indices('[') {

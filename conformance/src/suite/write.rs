@@ -1,4 +1,4 @@
-//! Cases that write whole variables and restore them.
+//! Cases that write whole variables and restore them, and that write to read-only axis variables.
 
 use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
@@ -69,8 +69,9 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Calls a function for every axis variable with this access that may be written on the axis
-/// interface. The address has the axis index that returns the handle in the description.
+/// Calls a function for every axis variable with this access for which the [gate](crate::gate) and
+/// the profile permit a write on the axis interface. The address has the axis index that returns
+/// the handle in the description.
 fn each_of_axes(
     probe: &mut Probe<'_>,
     access: VariableAccess,

@@ -35,8 +35,8 @@ fn after_rejection(probe: &mut Probe<'_>) -> Step {
             let other = changed_value(value, false);
             let (valid, back) = (address.write(&other), address.write(value));
             let (valid, back) = (valid?, back?);
-            // Sends a write and returns whether the target accepts it. An address is judged only if
-            // the target accepts two consecutive writes of the current value.
+            // `accepted` sends a write and returns whether the target accepts it. An address is
+            // judged only if the target accepts two consecutive writes of the current value.
             let accepted = |probe: &mut Probe<'_>, request| -> Step<bool> {
                 Ok(probe.try_ask(request)?.is_some())
             };
@@ -66,8 +66,9 @@ fn after_rejection(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Writes values of a wrong size to objects, and checks that a rejected write has no effect. The
-/// manuals do not state that a write of a wrong size must be rejected.
+/// Writes values of a wrong size to objects, and checks that after a rejected write the object does
+/// not begin with the data of the write. The manuals do not state that a write of a wrong size must
+/// be rejected.
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {

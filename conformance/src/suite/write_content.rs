@@ -30,9 +30,9 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write to the element count of an instance is rejected"),
 ];
 
-/// The objects that have, or do not have, write access according to their descriptors, and that the
-/// gate and the profile permit to write. Objects at axis indices that have no axis, or may have
-/// none, are left out.
+/// Those objects among the ones that the cases read that have, or do not have, write access
+/// according to their descriptors, and that the [gate](crate::gate) and the profile permit to
+/// write. Objects at axis indices that have no axis, or may have none, are left out.
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<ListedValue>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
@@ -85,8 +85,8 @@ fn of_other_instances(
     Ok(all)
 }
 
-/// Whether an object has the same offset in the group of another channel or platform axis. Objects in
-/// channel 0 are excluded, because channel 1 addresses the same objects of the platform.
+/// Whether an object has the same offset in the group of another channel or platform axis. Objects
+/// in channel 0 are excluded, because channel 1 addresses the same objects of the platform.
 fn is_elsewhere(object: &ListedValue, other: &ListedValue) -> bool {
     let parts = |object: &ListedValue| {
         let (group, offset) = object.address.content()?;
@@ -154,9 +154,9 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 /// Another value that a faulty write might change: rules, name, address, current value.
 type Sibling = (Vec<Rule>, String, ValueAddress, Vec<u8>);
 
-/// The elements with the same number in the other instances of the class, and the other elements of
-/// the instance, if they have the same length. The elements of one instance may depend on each
-/// other, so their rule is assumed.
+/// The elements with the same number in the other instances of the class, and the other elements
+/// that the cases read of the instance, if they have the same length. The elements of one instance
+/// may depend on each other, so their rule is assumed.
 fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
@@ -190,8 +190,8 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
     Ok(all)
 }
 
-/// Writes values that are one byte too long or too short, and checks that they are rejected
-/// (assumed), and that a rejected write has no effect.
+/// Writes values that are one byte too long or too short to elements that are not texts, and checks
+/// that these writes are rejected (assumed), and that a rejected write has no effect.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {
@@ -227,8 +227,8 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// Writes the current number of elements to element 0 of each instance, which must reject the
-/// write.
+/// Writes the number of elements after element 0 to element 0 of each instance, which must reject
+/// the write.
 fn number_of_elements(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
         let write = RawCall::new(CountElements::new(instance.first)?)?.with(|call| {

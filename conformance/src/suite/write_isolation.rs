@@ -1,5 +1,6 @@
-//! Cases that write all writable variables one after another, and check that no write changes
-//! another variable.
+//! Cases that write all writable variables one after another, except those of the Service
+//! Interface, and check that no write changes another variable. The case of the axis interface
+//! writes only axis variables.
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -54,7 +55,8 @@ impl WatchedVariable {
     }
 }
 
-/// The variables whose value does not change by itself, so that a change is the effect of a write.
+/// The variables that the cases read and whose value did not change between two reads, so that a
+/// later change is probably the effect of a write.
 fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
@@ -67,7 +69,8 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
             }
         }
     }
-    // Each value is read again after all others were read, to exclude values that change by themselves.
+    // Each value is read again after all others were read, to exclude values that change by
+    // themselves.
     let mut steady = Vec::new();
     for one in all {
         if probe.value_at(&one.by_handle())?.as_ref() == Some(&one.start) {
@@ -80,8 +83,9 @@ fn steady_variables(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     Ok(steady)
 }
 
-/// A value that differs from `value` in every byte, if the type permits such a value. Values with
-/// another `salt` usually differ.
+/// A valid value of the variable. For an integer or a BOOLEAN, it differs from `value` in every
+/// byte; for other types, it usually differs. Values with another `salt` usually differ, except
+/// those of a BOOLEAN.
 fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     let mixed = (0_usize..).zip(value).map(|(place, byte)| {
         let mixed = place.wrapping_mul(37).wrapping_add(salt.wrapping_mul(101)) & 0xFF;
@@ -90,7 +94,7 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     });
     match variable.var_type {
         VariableType::BOOLEAN => value.iter().map(|byte| byte ^ 1).collect(),
-        // The exponent bits are set so that every value is a finite number.
+        // The bits of the exponent are changed so that every value is a normal number.
         VariableType::REAL64 => {
             let exponent = |(place, byte): (usize, u8)| match place % 8 {
                 7 => 0x40 | byte & 0x80,
@@ -115,7 +119,8 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
 }
 
 /// Writes the writable variables in order, or in reverse order if `backwards`, and then reads all
-/// variables. `by` is the address of the writes, `look` that of the reads.
+/// variables. `by` returns the address of a write, or `None` to leave out the variable; `look`
+/// returns the address of a read. The variables of the Service Interface are not written.
 fn write_and_read_all(
     probe: &mut Probe<'_>,
     all: &mut [WatchedVariable],
@@ -166,8 +171,8 @@ fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
     all.iter().any(same)
 }
 
-/// Checks that each variable had its expected value after each pass: the value written last, or the
-/// initial value.
+/// Checks that each variable had its expected value after each pass: the value of the last accepted
+/// write, or the initial value. Variables that channels may share are not judged as wrong.
 fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     for one in all {
         let wrong = one.seen.iter().filter(|seen| seen.expected != seen.read);
@@ -185,7 +190,8 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     }
 }
 
-/// Restores all changed values, each at the first address that restores it.
+/// Restores the initial values of all variables that were written, each at the first address that
+/// restores the value.
 fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -> Step {
     for one in all.iter_mut().filter(|one| one.start != one.value) {
         let ways = [one.at.clone(), Some(one.by_handle()), Some(one.by_name())];
@@ -203,9 +209,9 @@ fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -
     Ok(())
 }
 
-/// Writes all variables in two passes, the second in reverse order, to detect effects of a write on
-/// variables that were written earlier in the pass. `by` is the address of the writes, `look` that
-/// of the reads, which is of another kind.
+/// Writes the variables in two passes, the second in reverse order, to detect effects of a write on
+/// variables that were written earlier in the pass. `by` returns the address of a write, `look`
+/// that of a read, which is of another kind.
 fn both_ways(
     probe: &mut Probe<'_>,
     rule: Rule,

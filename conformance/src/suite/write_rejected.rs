@@ -1,4 +1,5 @@
-//! Cases of invalid writes, each of which must be rejected and must have no effect.
+//! Cases of invalid writes, each of which must be rejected. Except for writes of the current value,
+//! the cases also check that the write has no effect.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
@@ -37,8 +38,9 @@ fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {
     first.or_not_applicable("no number may be written")
 }
 
-/// Calls a function for every READ_ONLY variable, for its address by name and for its address by
-/// handle, if the gate and the profile permit the write.
+/// Calls a function for every READ_ONLY variable that the cases read, except those of the Service
+/// Interface: for its address by name and for its address by handle, if the [gate](crate::gate) and
+/// the profile permit a write at the address.
 fn each_read_only(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, &WriteCheck<'_>, &ValueAddress) -> Step,
@@ -93,7 +95,8 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Sends the valid write, then the invalid write, which must be rejected without an effect on
-/// `watched`, and then the valid write again. Sends nothing if the invalid write cannot be encoded.
+/// `watched`, and then the valid write again. If the target rejects the first valid write, the case
+/// is inconclusive. Sends nothing if a write cannot be encoded.
 fn rejected(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -216,7 +219,7 @@ fn to_absent_channel(probe: &mut Probe<'_>) -> Step {
     applicable(!functions.is_empty(), NOTHING_WRITABLE)
 }
 
-/// Maximum number of arrays that are tried.
+/// Maximum number of arrays to which the case writes.
 const ARRAYS_MAX: usize = 16;
 
 fn out_of_bounds(probe: &mut Probe<'_>) -> Step {

@@ -51,8 +51,8 @@ fn write_addresses(
 }
 
 /// Writes values of wrong sizes to the first writable variable without dimensions, and to the first
-/// writable array with one dimension, of each type; axis variables and other variables are separate
-/// in this selection.
+/// writable array with one dimension, of each type; the first axis variable and the first other
+/// variable are both written.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut tried = Vec::new();
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
@@ -83,8 +83,8 @@ fn of_address(
         return Ok(());
     };
     let whole = ValueAddress::of_handle(channel, variable.handle);
-    // The written number differs from the current one in its first byte, so that a partial write is
-    // detected.
+    // The written number differs from the current one in its first byte, so that a write of a part
+    // of the data is detected.
     let other = if is_text { vec![b'x'; value.len()] } else { changed_value(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
     let one = size.unwrap_or(1);

@@ -55,8 +55,8 @@ fn texts(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Writes texts of several lengths. The maximum length of a text is documented online only; the manuals
-/// state that an accepted text is stored.
+/// Writes texts of several lengths. The maximum length of a text is documented online only; the
+/// manuals state that an accepted text is stored.
 fn of_lengths(
     probe: &mut Probe<'_>,
     id: ClauseId,

@@ -61,7 +61,7 @@ local function has_group(groups, group)
 end
 
 -- The tasks GEO (551) and SDA (552) count as the same task, because the classes, such as the decoder, are
--- available at both ports.
+-- assumed to be available at both ports (ADR-10).
 local function same_task(port, other) return (port == 553) == (other == 553) end
 
 -- Copies the row of a function for a call with a mistake. The title of the copy states the mistake.

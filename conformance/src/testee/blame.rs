@@ -27,8 +27,8 @@ impl WrongFields {
         Self { stream, is_wrong: vec![false; stream.layout().fields.len()], is_reversed: false }
     }
 
-    /// The wrong fields of a decoded value; `None` if the value has other fields than expected.
-    /// Unless `strict`, the testee may omit the bytes after a text.
+    /// The wrong fields of a decoded value; `None` if the value has other fields, or lists of
+    /// another length, than expected. Unless `strict`, the testee may omit the bytes after a text.
     pub(super) fn of_value(
         stream: Stream,
         expected: &Fields,
@@ -46,7 +46,7 @@ impl WrongFields {
     }
 
     /// The wrong fields of encoded bytes; `None` if the number of bytes differs from the expected
-    /// number.
+    /// number, or the expected bytes do not match the table of the stream.
     pub(super) fn of_bytes(stream: Stream, expected: &[u8], found: &[u8]) -> Option<Self> {
         let mut wrong = Self::none(stream);
         if expected.len() != found.len() {
@@ -117,8 +117,8 @@ impl WrongFields {
         self.wrong().next().is_some() && self.wrong().all(are)
     }
 
-    /// Whether all fields from the first wrong field on are wrong, as if bytes were missing or
-    /// inserted.
+    /// Whether all fields from the first wrong field on, at least two, are wrong, as if bytes were
+    /// missing or inserted.
     fn is_shifted(&self) -> bool {
         let first = self.is_wrong.iter().position(|is_wrong| *is_wrong).unwrap_or_default();
         let from_first = self.is_wrong.get(first..).unwrap_or_default();

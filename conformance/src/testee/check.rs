@@ -1,4 +1,4 @@
-//! Tries each step of the testee protocol and explains what fails, for the author of an adapter.
+//! Tries the steps of the testee protocol and explains what fails, for the author of an adapter.
 
 use ads_cnc_vectors::{Expect, Vector, vector};
 
@@ -18,11 +18,11 @@ pub struct ProtocolStepResult {
     pub fault: Option<String>,
 }
 
-/// The vectors to try, one for each kind of field. Those whose stream the testee claims are used.
+/// The IDs of the vectors to try, of which those whose stream the testee claims are used.
 const SAMPLES: [&str; 8] = [
     "handle-printed",
     "object-count",
-    "description-printed",
+    "description-printed-boolean-array",
     "name-printed-vartest",
     "value-printed-handle-element",
     "dynamic-value-printed",
@@ -33,7 +33,7 @@ const SAMPLES: [&str; 8] = [
 /// The edition in the questions. The samples are the same in both editions.
 const EDITION: &str = "en-1.05";
 
-/// Tries every step of the protocol with a testee.
+/// Tries the steps of the protocol with a testee, except for the ops `packets` and `check`.
 pub fn check_protocol(process: &mut TesteeProcess) -> Vec<ProtocolStepResult> {
     let mut steps = Steps { process, findings: Vec::new() };
     let hello = steps.process.hello();
@@ -175,4 +175,14 @@ impl Steps<'_> {
 /// The question for a vector with this op (`decode` or `encode`); `None` if the vector has none.
 fn question_of(op: &str, vector: &Vector) -> Option<Question> {
     of_vector(vector, EDITION).into_iter().find(|question| question.op == op)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_sample_is_a_vector() {
+        assert!(SAMPLES.into_iter().all(|id| vector(id).is_some()));
+    }
 }

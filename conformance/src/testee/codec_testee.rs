@@ -17,7 +17,8 @@ pub struct CodecTestee {
 }
 
 impl CodecTestee {
-    /// The answer to hello, which claims all streams and ops of the vectors, and both editions.
+    /// The answer to hello, which claims all ops of the protocol, all streams of the vectors, and
+    /// both editions.
     pub fn hello(&self) -> TesteeHello {
         let mut streams: Vec<String> = vectors().iter().map(|one| one.stream.clone()).collect();
         streams.sort();
@@ -140,8 +141,9 @@ fn split(text: &[u8]) -> Result<Output, Answer> {
     Ok(Output { packets: Some(all), ..Output::default() })
 }
 
-/// Checks packets one after another by the rules of streaming, like a CNC that receives them. Rejects
-/// the packets with the class and line of the first diagnostic.
+/// Checks packets by the rules of streaming, in the order in which a CNC receives them. Rejects the
+/// packets with the clause and the line of the first diagnostic or, without any, of a comment that
+/// is open at the end.
 fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
     let mut checker = Checker::new();
     let mut found = None;

@@ -178,8 +178,8 @@ fn hex(path: &str, reference: &[u8], given: Option<&str>) -> Option<Difference> 
     }
 }
 
-/// Whether a text differs from the expected text only in its end: it is equal up to the first NUL or, if
-/// the expected text has no NUL, lacks only the last character.
+/// Whether a text differs from the expected text only in its end: it is equal up to the first NUL
+/// or, if the expected text has no NUL, lacks only the last character.
 fn has_other_end(reference: &Tagged, given: Option<&str>) -> bool {
     let reference_text = reference.hex.as_deref().unwrap_or_default();
     let Some(Ok(given)) = given.map(compact::parse) else { return false };
@@ -187,8 +187,8 @@ fn has_other_end(reference: &Tagged, given: Option<&str>) -> bool {
         || reference.open && reference_text.split_last().is_some_and(|(_, most)| most == given)
 }
 
-/// Compares the ends of two texts with equal characters: `open` (no NUL) and `tail` (the bytes after
-/// the NUL), which a testee may omit.
+/// Compares the ends of two texts with equal characters: `open` (no NUL) and `tail` (the bytes
+/// after the NUL), which a testee may omit.
 fn end(path: &str, reference: &Tagged, found: &Json) -> Option<Difference> {
     let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
     let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);

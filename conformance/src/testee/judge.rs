@@ -22,8 +22,8 @@ const ANSWERS_MAX: usize = 32 << 20;
 #[derive(Debug)]
 pub struct JudgedTestee {
     pub hello: Option<TesteeHello>,
-    /// The outcomes of the cases and, except for this project's codec, of the case about the testee
-    /// protocol.
+    /// The outcomes of the cases and, except for this project's codec and unless the run ends
+    /// before the first question, of the case about the testee protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
     /// Number of questions without an answer, because the process crashed, hung or could not be
@@ -31,7 +31,8 @@ pub struct JudgedTestee {
     pub restarts: usize,
 }
 
-/// Asks a testee all questions of these cases that it claims to answer, and judges the answers.
+/// Asks a testee all questions of these cases that it claims to answer, unless the run ends early,
+/// and judges the answers.
 pub fn judge(
     testee: &mut dyn Testee,
     mut cases: Vec<Case>,
@@ -106,7 +107,8 @@ pub fn judge(
             let time = times.entry(*case).or_default();
             *time = time.saturating_add(begin.elapsed());
         }
-        // The answers are judged only after the last question, because rejections depend on siblings.
+        // The answers are judged only after the last question, because rejections depend on
+        // siblings.
         let is_lost = matches!(
             reaction,
             TesteeReaction::Died(_) | TesteeReaction::Silent(_) | TesteeReaction::Broken(_)

@@ -31,8 +31,8 @@ pub(super) fn level(body: &Body, verdict: Verdict, op: &str, reaction: &TesteeRe
     }
 }
 
-/// The wrong fields of an answer to an accepted vector; `None` if the answer has other fields than
-/// expected.
+/// The wrong fields of an answer to an accepted vector; `None` for any other vector, and if they
+/// cannot be determined, for example because the answer has other fields than expected.
 pub(super) fn wrong_fields(vector: &Vector, output: &Output, strict: bool) -> Option<WrongFields> {
     let Expect::Accept(accept) = &vector.expect else { return None };
     let stream = Stream::by_name(&vector.stream)?;
@@ -64,7 +64,8 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
         output.hex.as_ref().is_some_and(|bytes| !same(bytes))
     };
     let deciding: Vec<&Assumption> = vector.assumed.iter().filter(decides).collect();
-    // `None` if the answer has other fields than expected: then every field may be wrong.
+    // `None` for example if the answer has other fields than expected: then every field may be
+    // wrong.
     let wrong = wrong_fields(vector, output, false);
     let rests_whole = |one: &&Assumption| match one.about {
         Some(About::End) => has_other_end(),
@@ -88,8 +89,8 @@ fn accepted_level(vector: &Vector, op: &str, reaction: &TesteeReaction) -> Level
     }
 }
 
-/// Whether bytes differ from the expected bytes only in the ends of texts: in the bytes after the first
-/// NUL of a text field, or in the number of NULs at the end of the stream.
+/// Whether bytes differ from the expected bytes only in the ends of texts: in the bytes after the
+/// first NUL of a text field, or in the number of NULs at the end of the stream.
 fn has_end_alone(vector: &Vector, expected: &[u8], found: &[u8]) -> bool {
     let trimmed = |bytes: &[u8]| {
         let len =
@@ -123,8 +124,8 @@ mod tests {
         accepted_level(vector, "encode", &TesteeReaction::Answer(Answer::Ok(output)))
     }
 
-    /// A size that is wrong together with the name is judged at level *must*, although the vector only
-    /// assumes the name.
+    /// A size that is wrong together with the name is judged at level *must*: the vector has only
+    /// an assumption about the name.
     #[test]
     fn an_assumption_excuses_only_the_fields_that_it_is_about() {
         const SIZE: usize = 12;

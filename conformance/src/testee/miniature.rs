@@ -21,7 +21,7 @@ pub enum Miniature {
     Crashes,
     /// Claims streams that it does not implement.
     Boasts,
-    /// Accepts ops that do not exist, instead of answering that they are unsupported.
+    /// Accepts ops and streams that do not exist, instead of answering that they are unsupported.
     KnowsAll,
     /// Reports an internal error instead of rejecting faulty input.
     Excuses,
@@ -135,8 +135,8 @@ pub enum MiniatureAction {
     Crash,
 }
 
-/// Removes the parts of values that are not significant: the `value` of texts and bytes, whose `hex` is
-/// significant, and of floats, whose `bits` are.
+/// Removes the parts of values that are not significant: the `value` of texts and bytes, whose
+/// `hex` is significant, and of floats, whose `bits` are.
 fn strip(value: &mut serde_json::Value) {
     match value {
         serde_json::Value::Array(items) => items.iter_mut().for_each(strip),

@@ -1,9 +1,9 @@
-//! Tests other codecs: a command answers questions over stdin and stdout. Each question and each
-//! answer is a line of JSON.
+//! Tests codecs. A command answers questions over stdin and stdout; each question and each answer
+//! is a line of JSON.
 //!
 //! `conformance/adapters/README.md` specifies the protocol. [`CodecTestee`] answers with this
-//! project's codec; [`TesteeProcess`] runs another codec. [`judge`] asks a testee the questions that
-//! are made from the golden vectors and the sequences in `spec-vectors/data`.
+//! project's codec, without a process; [`TesteeProcess`] runs a command. [`judge`] asks a testee
+//! the questions that are made from the golden vectors and the NC texts in `spec-vectors/data`.
 
 mod blame;
 mod check;

@@ -70,8 +70,8 @@ pub(super) fn plan(
     again(true).chain(planned).chain(again(false)).collect()
 }
 
-/// The sanity questions, as case and question: for different streams or ops, and one third of them
-/// for rejected vectors.
+/// The sanity questions, as case and question: for different streams or ops, and every third of
+/// them for a rejected vector.
 fn sanity(cases: &[Case], planned: &[PlannedQuestion]) -> Vec<(usize, Question)> {
     let mut chosen: Vec<(usize, Question)> = Vec::new();
     for one in planned {

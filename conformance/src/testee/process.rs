@@ -8,7 +8,7 @@ use crate::deadline::Deadline;
 use crate::process::{START, Subprocess, not_json};
 use crate::text::shorten;
 
-/// Maximum number of characters of a line that are shown in a message.
+/// Maximum number of characters of a line that are stored for a message.
 const SHOWN: usize = 400;
 
 /// A testee that is started by a command.
@@ -45,8 +45,8 @@ impl TesteeProcess {
         self.process.stderr()
     }
 
-    /// The last line sent to the testee, and the answer to it, each truncated to 400
-    /// characters; `None` for a line that was not sent or received.
+    /// The last line sent to the testee, except for `bye`, and the answer to it, each truncated to
+    /// 400 characters; `None` for a line that was not sent or received.
     pub fn last(&self) -> (Option<String>, Option<String>) {
         (self.sent.clone(), self.received.clone())
     }
@@ -131,8 +131,8 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
 }
 
 /// Parses the line received for the question `seq`. Returns the reaction, and whether the next line
-/// can be attributed to the next question. It cannot after an answer with another `seq` or none,
-/// because the next answer may be late too.
+/// can be attributed to the next question. It cannot after an answer with another `seq`, or with
+/// none unless it is an `error`, because the next answer may be late too.
 ///
 /// ```
 /// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};

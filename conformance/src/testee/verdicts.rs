@@ -27,7 +27,8 @@ pub struct JudgementOptions<'t> {
     /// The edition that the user selected. `None` for the first edition that the testee claims, or
     /// en-1.05 if it claims none.
     pub edition: Option<&'t str>,
-    /// Whether an answer that only contradicts an assumption fails too, as for this project's codec.
+    /// Whether an answer that only contradicts an assumption fails too, as for this project's
+    /// codec.
     pub strict: bool,
 }
 
@@ -137,7 +138,8 @@ impl Verdicts<'_> {
         }
     }
 
-    /// The wrong fields of an answer to an accepted vector; `None` for other cases.
+    /// The wrong fields of an answer to an accepted vector; `None` for other cases, and if they
+    /// cannot be determined.
     fn wrong_fields(&self, case: &Case, reaction: &TesteeReaction) -> Option<WrongFields> {
         match (&case.body, reaction) {
             (Body::Vector(vector), TesteeReaction::Answer(Answer::Ok(output))) => {
@@ -312,8 +314,8 @@ impl Verdicts<'_> {
         }
     }
 
-    /// Whether a failure is only a violation of the testee protocol: the answer, or the answer to the
-    /// valid sibling, is a line that the protocol does not define.
+    /// Whether a failure is only a violation of the testee protocol: the answer, or the answer to
+    /// the valid sibling, is a line that the protocol does not define.
     fn is_of_protocol(
         &self,
         case: &Case,

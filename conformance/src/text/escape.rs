@@ -10,8 +10,8 @@ pub(crate) fn escape_lines(text: &str) -> String {
     escape_unless(&text.replace("\r\n", "\n"), |one| matches!(one, '\n' | '\t'))
 }
 
-/// Whether a character controls a terminal or the reading direction: control characters, line and
-/// paragraph separators, and bidirectional controls.
+/// Whether a character may control a terminal or the order of characters: control characters, line
+/// and paragraph separators, and the bidirectional embeddings, overrides and isolates.
 pub(crate) fn is_escaped(one: char) -> bool {
     one.is_control() || matches!(one, '\u{2028}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }

@@ -1,5 +1,6 @@
-//! Writes JSON that cannot control a terminal: DEL, C1, line separators and bidirectional controls
-//! are escaped too. The escaped JSON parses to the same characters.
+//! Writes JSON that cannot control a terminal: in its strings, all characters for which
+//! [`is_escaped`] returns true are escaped, such as DEL and C1. The JSON parses to the same
+//! characters.
 
 use std::io::{self, Write};
 

@@ -1,5 +1,5 @@
-//! Text: hex, escapes, durations, points in time, patterns of names, JSON. This module opens no
-//! file or socket, and imports no other module of this crate.
+//! Text, such as hex, escapes, durations, points in time, patterns of names and JSON. This module
+//! opens no file or socket, and imports no other module of this crate.
 
 use std::fmt::Display;
 
@@ -62,7 +62,8 @@ pub(crate) fn plural<N: Display + PartialEq + From<u8>>(number: N, noun: &str) -
     format!("{number} {stem}{end}")
 }
 
-/// The lines of a text, broken at spaces. A word longer than `width` has its own line.
+/// The words of a text in lines of at most `width` characters. A word longer than `width` has its
+/// own line.
 pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -77,7 +78,7 @@ pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Declares the variants of an enum in order, and their names.
+/// Adds the list of its variants, in this order, and the name of each variant to an enum.
 macro_rules! named {
     ($enum:ident: $($variant:ident $name:literal,)+) => {
         impl $enum {

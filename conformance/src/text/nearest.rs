@@ -47,8 +47,8 @@ pub(crate) fn did_you_mean<'n>(word: &str, names: impl IntoIterator<Item = &'n s
     }
 }
 
-/// The minimum number of edits between two words: to insert, delete or replace a character, or to
-/// swap it with the next character.
+/// The optimal string alignment distance of two words: the minimum number of edits if no part is
+/// edited twice. An edit inserts, deletes or replaces a character, or swaps it with the next one.
 fn distance(one: &[char], other: &[char]) -> usize {
     // `last` contains the distances of all prefixes of `other` to the current prefix of `one`,
     // `before` the distances to the prefix that is one character shorter.

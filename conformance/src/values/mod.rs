@@ -1,5 +1,5 @@
-//! Typed values: parses and formats them by the type in the description of a variable, the
-//! descriptor of an object or the attributes of an element.
+//! Typed values: parses and formats them by a type, for example that in the description of a
+//! variable, in the descriptor of an object or in the attributes of an element.
 
 mod json;
 mod parse;
@@ -7,7 +7,7 @@ mod show;
 
 pub use json::value_of;
 pub use parse::{InvalidValue, parse};
-pub(crate) use show::{indices, number};
+pub(crate) use show::{element_label, number};
 pub use show::{lines, plain, printable};
 
 use std::fmt;
@@ -40,7 +40,7 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Type {
-    /// The name of the type on the CNC.
+    /// The name of the type, as the CNC or the codec states it; empty for an unknown type.
     pub name: String,
     /// The data type, if the manuals define the type.
     pub data_type: Option<DataType>,

@@ -17,8 +17,8 @@ pub struct InvalidValue(String);
 /// Parses a value: an integer in decimal or, after 0x, in hexadecimal; a REAL in decimal; `TRUE`,
 /// `FALSE`, `1` or `0` for a BOOLEAN; or a text. The elements of an array of numbers are separated
 /// by commas or blanks, optionally in brackets. The elements of an array of texts are separated by
-/// commas; a text that contains a comma, or starts or ends with a blank, is quoted, and quotes in
-/// it are doubled. In both arrays, the last index changes fastest.
+/// commas; a text that contains a comma, starts with a quote, or starts or ends with a blank, must
+/// be quoted, and quotes in it are doubled. In both arrays, the last index changes fastest.
 ///
 /// A single text is taken literally. It is encoded with one NUL, and may be shorter than its
 /// variable.

@@ -12,14 +12,14 @@ const WIDTH: usize = 72;
 /// Maximum number of numbers on a line.
 const PER_LINE: usize = 10;
 
-/// Escapes the control and bidirectional characters of a text.
+/// Escapes the control characters, separators and bidirectional controls of `crate::text::escape`.
 pub fn printable(text: &str) -> String {
     escape(text)
 }
 
 /// Formats the whole value on one line; `None` if the type is unknown or the bytes do not match it.
-/// [`parse`](super::parse()) accepts the line, except NaN and infinities, and parses escaped
-/// characters literally.
+/// [`parse`](super::parse()) accepts the line, except NaN, infinities and an array without
+/// elements, and parses escaped characters literally.
 pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let several = !ty.dimensions.is_empty();
@@ -84,9 +84,9 @@ fn display(element: Element<'_>) -> String {
     }
 }
 
-/// Formats the value on one or more lines. A single element has no indices. Each line of an array
-/// starts with the indices of its first element, and contains one text, or as many numbers of the
-/// row as fit.
+/// Formats the value on lines. A single element has no indices. Each line of an array starts with
+/// the indices of its first element, and contains one text, or as many numbers of the row as fit,
+/// at most 10.
 ///
 /// ```
 /// use ads_cnc::value::DataType;
@@ -113,16 +113,16 @@ pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
             let at = number.saturating_mul(row).saturating_add(part.saturating_mul(fit));
             let items: Vec<String> = items.iter().map(|item| format!("{item:>width$}")).collect();
             let items = if is_text { items.concat().trim().to_owned() } else { items.join("  ") };
-            all.push((indices(at, &ty.dimensions), items));
+            all.push((element_label(at, &ty.dimensions), items));
         }
     }
     let width = all.iter().map(|(label, _)| label.len()).max().unwrap_or(0);
     Some(all.into_iter().map(|(label, items)| format!("{label:<width$}  {items}")).collect())
 }
 
-/// The indices of the element at position `at`, in brackets; the last index changes fastest (VAR-21,
-/// assumed).
-pub(crate) fn indices(at: usize, dimensions: &[u32]) -> String {
+/// The indices of the element at position `at`, in brackets; the last index changes fastest
+/// (VAR-21, assumed).
+pub(crate) fn element_label(at: usize, dimensions: &[u32]) -> String {
     let (mut left, mut all) = (at, Vec::new());
     for &len in dimensions.iter().rev() {
         let len = to_usize(len);

@@ -1,5 +1,5 @@
-//! The published crate `ads`, a client that is independent of this project, reads the simulated CNC.
-//! The expected bytes are literals, not encoded by this project's codec.
+//! The published crate `ads`, a client that is independent of this project, sends requests to the
+//! simulated CNC. No expected bytes are encoded by this project's codec; most are literals.
 
 use std::io::Read as _;
 use std::process::{Command, Stdio};
@@ -109,7 +109,7 @@ fn other_variables() {
         let value = [0x00, 0x00, 0x00, 0x00, 0x00, 0x4A, 0x93, 0x40];
         assert_eq!(ask(0x48, b"V.E.L\xE4nge\0"), value);
         assert_eq!(ask(0x48, b"V.E.text\0"), b"L\xE4nge 5\x80\0rest\0\0\0\0\0\0\0\0");
-        // In the whole value of an array, the last index changes fastest.
+        // Elements of arrays with two and three dimensions.
         assert_eq!(ask(0x48, b"V.E.matrix[1][0]\0"), [21, 0]);
         assert_eq!(ask(0x48, b"V.E.cube[1][2][3]\0"), [23]);
         // An index before a dot is part of the name.
@@ -157,7 +157,7 @@ fn invalid_requests_return_error_numbers() {
         assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02\xFF\xFF\xFF\xFF"), 0x705);
         assert_eq!(ask_for(sda, CHANNEL_1, 0x44, b"V.E\0", 3), Err(0x705));
         assert_eq!(ask_for(sda, CHANNEL_1, 0x48, b"V.E.test\0", 19), Err(0x705));
-        // Requests to COM with a wrong size or an unknown object.
+        // Requests to COM with a wrong size, or an object, channel or axis that does not exist.
         assert_eq!(read(com, 0x13_0101, 31, 84), Err(0x703));
         assert_eq!(read(com, 0x13_0101, 1, 83), Err(0x705));
         assert_eq!(read(com, 0x13_0105, 0, 4), Err(0x702));

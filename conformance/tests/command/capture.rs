@@ -33,7 +33,8 @@ fn long(bytes: &[u8], at: usize) -> u32 {
     u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap())
 }
 
-/// The Internet checksum over these parts: all bits are 1 if the checksum in the parts is correct.
+/// The ones' complement sum of these parts: all bits are 1 if the Internet checksum in the parts is
+/// correct.
 fn sum(parts: &[&[u8]]) -> u16 {
     let bytes = parts.concat();
     let words = bytes.chunks(2).map(|two| [two[0], *two.get(1).unwrap_or(&0)]);
@@ -118,7 +119,7 @@ fn flows(capture: &[u8]) -> Vec<Flow> {
     flows
 }
 
-/// Compares each connection of a capture with the client's own record of its exchanges.
+/// Compares the captured connection of a client with the client's own record of its exchanges.
 fn conversation(listen: SocketAddr) {
     let cnc = Arc::new(Cnc::with_default_model().unwrap());
     let server = Server::start(net::listen(listen).unwrap(), cnc).unwrap();

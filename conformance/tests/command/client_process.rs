@@ -19,7 +19,7 @@ fn run(options: &str, args: &[&str]) -> (Option<i32>, Value) {
     (output.status.code(), report)
 }
 
-/// The failures of a case: the requirement, what was found, and the last received bytes.
+/// The failures of a case: the requirement, what was found, and the evidence.
 fn failures(report: &Value, id: &str) -> Vec<(String, String, Value)> {
     let cases = report["cases"].as_array().unwrap();
     let case = cases.iter().find(|case| case["id"] == id).unwrap();
@@ -41,8 +41,8 @@ fn a_running_client_passes_everything() {
     assert!(report["frames"].as_u64().unwrap() > 200);
 }
 
-/// After the maximum number of failures (`--max-fail`), the other scenarios are not run, and the report
-/// states this reason.
+/// After the maximum number of failed cases (`--max-fail`), the other scenarios are not run, and
+/// the report states this reason.
 #[test]
 fn a_run_of_a_client_ends_after_enough_failures() {
     let (code, report) = run("--defect client.error-set", &["--seed", "1", "--max-fail", "2"]);
@@ -137,7 +137,8 @@ fn an_invalid_answer_fails_only_the_protocol() {
     assert!(failed.iter().all(|one| one["requirement"] == "CLIENT"), "{failed:#?}");
 }
 
-/// If a request goes to the wrong port, the wrong result of the client is reported as a consequence.
+/// If a request goes to the wrong port, only the requirement of the port fails; the requirement of
+/// the result is inconclusive.
 #[test]
 fn a_result_follows_from_the_request() {
     let (_, report) = run("--defect client.port", &["--only", "client-read-real"]);

@@ -1,4 +1,5 @@
-//! `ads-cnc explain` as users call it: the printed examples of the manuals, complete and truncated.
+//! `ads-cnc explain` as users call it, for example with printed examples of the manual, complete
+//! and truncated.
 
 use crate::common::text;
 use std::io::Write as _;

@@ -76,8 +76,8 @@ fn a_target_that_is_not_a_cnc_is_not_judged() {
     assert!(text(&output.stderr).contains("does not use AMS/TCP"), "{}", text(&output.stderr));
 }
 
-/// A device whose frames are all wrong is judged: only the requirements of frames and services
-/// fail, and each failure contains the bytes of a frame.
+/// A device that sends wrong frames is judged: only the requirements of frames and services fail,
+/// and each failure contains the bytes of a frame.
 #[test]
 fn broken_frames_fail_the_rule_of_the_frame() {
     for (defect, clauses) in [

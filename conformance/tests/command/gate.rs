@@ -211,7 +211,7 @@ proptest! {
     }
 }
 
-/// The strategy generates frames of every kind that passes, and frames that are rejected.
+/// The strategy generates queries and writes that pass, and frames that are rejected.
 #[test]
 fn the_strategy_covers_both_results() {
     use proptest::strategy::ValueTree as _;

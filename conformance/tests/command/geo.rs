@@ -1,5 +1,5 @@
-//! The manuals do not state whether SDA or GEO has a class: if one task does not have it, the tools
-//! query the other.
+//! The manuals do not state whether the task SDA or GEO has a class: if SDA does not have a class,
+//! the tools query GEO.
 
 use std::net::SocketAddr;
 use std::process::Output;

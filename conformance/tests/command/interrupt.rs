@@ -117,7 +117,8 @@ fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) ->
     tool.wait_with_output().unwrap()
 }
 
-/// After a signal at any write, all values of the CNC are restored, and the report is written.
+/// After a signal at one of the first 25 writes, all values of the CNC are restored, and the report
+/// is written.
 #[test]
 fn a_signal_at_any_write_leaves_nothing_changed() {
     let each = |name: &'static str, writes: &mut dyn Iterator<Item = usize>| {
@@ -149,8 +150,8 @@ fn a_signal_at_any_write_leaves_nothing_changed() {
     });
 }
 
-/// The four ways to write a value: the value, the entry that allows its writes, and a case that writes
-/// only this value. The third write of the case restores the value.
+/// Four ways to write a value: the value, the entry that allows its writes, and a case that then
+/// writes only this value. The third write of the case restores the value.
 fn ways() -> [(&'static str, String, &'static str); 4] {
     let name = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n".to_owned();
     let object = "[[object]]\nchannel = 1\nname = \"mc_command_single_block_w\"\n".to_owned();
@@ -186,7 +187,8 @@ fn hostile(
     (addr, writes)
 }
 
-/// If the write that restores a value is lost or rejected once, it is repeated.
+/// If the write that restores a value is lost or rejected once, it is repeated, unless the CNC has
+/// executed it.
 #[test]
 fn a_lost_or_rejected_restore_is_repeated() {
     for (what, table, case) in ways() {
@@ -223,8 +225,8 @@ fn a_lost_or_rejected_restore_is_repeated() {
     }
 }
 
-/// A device confirms a write that restores a value without executing it, and the reply to one of the
-/// following reads is lost: the value is still reported as left changed.
+/// A device confirms a write that restores a value without executing it, and one of the following
+/// reads is lost: the value is still reported as left changed.
 #[test]
 fn a_lost_read_is_not_taken_for_a_changing_value() {
     thread::scope(|scope| {

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use crate::common::file::TestFile;
 use crate::common::{runs, signal};
 
-/// Maximum time for which this test waits for a process or a response.
+/// Maximum time for which a test waits for processes to start or to end.
 const WAIT_MAX: Duration = Duration::from_secs(30);
 
 fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
@@ -20,8 +20,9 @@ fn wait_until(mut done: impl FnMut() -> bool, what: &str) {
     }
 }
 
-/// Runs the suite with a testee or client that ignores stdin and signals and starts another process, and
-/// sends these signals to the suite. Returns the exit code, the JSON report and stderr.
+/// Runs the suite with a testee or client that ignores stdin and some signals and starts another
+/// process, and sends the signals `names` to the suite. Returns the exit code, the JSON report and
+/// stderr.
 fn interrupted(option: &str, greeting: &str, names: &[&str]) -> (Option<i32>, TestFile, String) {
     let (ids, json) = (TestFile::new(".txt", b""), TestFile::new(".json", b""));
     let command = format!(

@@ -1,4 +1,5 @@
-//! Messages state which argument is wrong, what is expected, and what was found.
+//! Messages of the command. A message about a wrong argument, for example, states which argument is
+//! wrong, what is expected, and what was found.
 
 use std::process::Command;
 
@@ -128,7 +129,7 @@ fn another_type_of_a_parameter_is_rejected() {
     }
 }
 
-/// The short help of `run`, which most users read, fits on a screen.
+/// The short help of `run` has at most 50 lines.
 #[test]
 fn the_short_help_of_run_is_short() {
     let (_, shown, _) = run_tool(&["run", "-h"]);

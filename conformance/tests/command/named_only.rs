@@ -346,8 +346,8 @@ fn a_lost_connection_leaves_nothing_changed() {
     assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
 }
 
-/// After a lost connection, the list also contains the address of the changed object for another object:
-/// the run does not restore the value, and the last line contains the reason.
+/// After a lost connection, the list contains the address of another object for the changed object:
+/// the run does not restore the value, and the last line of stderr contains the reason.
 #[test]
 fn a_value_that_is_not_restored_has_a_reason() {
     let cnc = Logged::start(&[]);

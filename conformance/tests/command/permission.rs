@@ -33,7 +33,8 @@ fn expiring(table: &str, seconds: u64) -> TestFile {
 
 const VARIABLE: &str = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n";
 
-/// Entries with another name, channel, rank or axis than that of the variable do not permit its write.
+/// Entries with another name, another channel, a rank or an axis, and entries of another kind, do
+/// not permit a write of the variable by its channel number and name.
 #[test]
 fn other_entries_permit_nothing() {
     let cnc = Serve::start(&[]);

@@ -13,7 +13,8 @@ fn loopback() -> SocketAddr {
     SocketAddr::from(([127, 0, 0, 1], 0))
 }
 
-/// `ads-cnc` without a command runs the suite against the simulated CNC, and passes.
+/// `ads-cnc` without a command runs the suite against this project's codec and the simulated CNC,
+/// and passes.
 #[test]
 fn without_a_command_the_suite_runs() {
     let output = ads_cnc(&[]);
@@ -177,9 +178,9 @@ fn a_long_list_is_read_completely_with_all() {
     assert_eq!(without.status.code(), Some(2), "{without:?}");
 }
 
-/// A run sends malformed requests only to a target on this machine, and only if a file permits them.
-/// Otherwise, the run does not even connect: a program at a loopback address may forward requests to a
-/// machine that moves.
+/// A run sends malformed requests to a target only if the target is on this machine and a file
+/// permits them. Otherwise, the run does not even connect: a program at a loopback address may
+/// forward requests to a machine that moves.
 #[test]
 fn malformed_requests_need_a_file_that_permits_them() {
     let serve = Serve::start(&[]);

@@ -53,7 +53,8 @@ fn only_selected_cases_are_run() {
     assert!(ids(&case).contains(&"com-count") && ids(&case).contains(&"val-string-size"));
     assert!(with(&case, "pass").contains("COM-1"));
 
-    // A case that judges the frames of other cases runs some of these cases.
+    // If it is selected alone, the case that judges the frames of other cases runs some of these
+    // cases.
     let frames = run(&["--only", "ads-every-frame"]);
     assert_eq!((ids(&frames), &frames["exit_code"]), (vec!["ads-every-frame"], &Value::from(0)));
 }
@@ -143,6 +144,7 @@ fn cases_are_listed_without_running() {
         ("readbyname", "VAR-14  Value"),
         ("ads:4.3.2", "VAR-8  "),
         ("val-whole-by-*", "VAR-11  "),
+        ("seq-stream-4094", "STM-6  "),
     ] {
         let rows = ads_cnc(&["requirements", name]).stdout;
         assert!(String::from_utf8(rows).unwrap().contains(title), "{name}");
@@ -222,7 +224,7 @@ fn known_failures_are_waived_until_they_expire() {
         let out = String::from_utf8(output.stdout).unwrap();
         assert_eq!(output.status.code(), Some(code), "{name}: {out}");
         assert!(out.contains(shown), "{name}: {out}");
-        // The output suggests an entry for the failure only if the failure is not waived.
+        // The output suggests an entry for the failure exactly if it is not waived.
         let entry = "[[waiver]]\ntest = \"var-descriptions\"\nrequirement = \"VAR-8\"\nverdict = \"fail\"\n";
         assert_eq!(out.contains(entry), !out.contains("FAIL, WAIVED"), "{name}: {out}");
         assert_eq!(
@@ -263,7 +265,8 @@ fn an_invalid_file_of_waivers_is_rejected_with_its_line() {
     assert_eq!(ads_cnc(&["run", "--waivers", "/no/such/file"]).status.code(), Some(2));
 }
 
-/// After the maximum number of failures, the remaining cases are not run, and the last line counts them.
+/// After the maximum number of failed cases, the remaining cases are not run, and the last line
+/// counts them.
 #[test]
 fn a_run_stops_after_so_many_failures() {
     let defect = ["--defect", "variable-description.size.flip", "--only", "VAR", "--seed", "1"];

@@ -1,4 +1,5 @@
-//! `ads-cnc service` as users call it, with an NC program that sends requests.
+//! `ads-cnc service` as users call it. In most tests, the test itself sends requests as an NC
+//! program does.
 
 use std::io::{BufRead, BufReader, Read as _};
 use std::process::{Child, Command, Output, Stdio};
@@ -343,8 +344,8 @@ fn remaining_processes_do_not_delay_the_answer() {
     assert!(!runs(&response), "{response} runs");
 }
 
-/// A process that has created a session (`setsid`) is not ended. Each such process occupies a
-/// thread of the tool, and the number of these threads is limited.
+/// A process that has created a session (`setsid`) is not ended. Each such process that keeps
+/// stdout open occupies a thread of the tool, and the number of these threads is limited.
 #[cfg(target_os = "linux")]
 #[test]
 fn processes_in_own_sessions_are_limited() {

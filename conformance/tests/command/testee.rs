@@ -155,7 +155,8 @@ fn with_wrong_size(args: &[&str]) -> String {
     String::from_utf8(run.output().unwrap().stdout).unwrap()
 }
 
-/// The output of a failure contains the expected value once, and marks the bytes of the wrong field.
+/// The output of a failure states the expected and the found value, and marks the bytes of the
+/// wrong field.
 #[test]
 fn a_wrong_field_is_marked() {
     let stdout = with_wrong_size(&["--only", "VAR-8", "--seed", "1"]);

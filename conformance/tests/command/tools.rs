@@ -247,7 +247,7 @@ fn writes_to_a_device_need_an_entry() {
         assert_eq!(text(&output.stderr), "");
         assert_eq!(device.value(&get), new, "{name}");
 
-        // The entry allows only the variable that it names.
+        // The entry allows only the value that it names.
         let other = ["set", "V.E.uns32", "1", "--allow-write", file.path()];
         assert_eq!(device.call(&other).status.code(), Some(4));
         assert_eq!(device.value(&["V.E.uns32"]), "4294967295");

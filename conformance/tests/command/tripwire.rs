@@ -197,8 +197,8 @@ fn a_run_writes_only_named_values_and_restores_them() {
     assert_eq!(writes.len(), 21);
 }
 
-/// The suite streams only comments to a device, and responds to no request of an NC program, so that
-/// nothing moves.
+/// The suite streams only comments and empty lines to a device, and responds to no request of an NC
+/// program, so that nothing moves.
 #[test]
 fn a_run_streams_only_comments_and_answers_no_request() {
     let entries = "[[stream]]\nchannel = 1\n[[stream]]\nrank = 1\n[[service]]\nchannel = 1\n";

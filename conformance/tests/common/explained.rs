@@ -27,7 +27,7 @@ fn check_part(part: &ExplainedStream, bytes: &[u8]) {
     }
 }
 
-/// Checks that the parts cover every byte, and only once if the bytes are valid.
+/// Checks that the parts cover every byte, and only once unless the bytes contain an error.
 fn check_whole(explanation: &Explanation, bytes: &[u8]) {
     let mut shown = vec![0; bytes.len()];
     for part in &explanation.parts {
@@ -46,7 +46,8 @@ fn check_whole(explanation: &Explanation, bytes: &[u8]) {
     assert!(shown.iter().all(right), "{shown:?} of {explanation:#?}");
 }
 
-/// Checks that the printed text contains no control characters, which a terminal would interpret.
+/// Checks that the printed text contains no control characters except line ends, because a terminal
+/// would interpret them.
 pub(crate) fn check_printed(printed: &[u8]) {
     let controls = |byte: &&u8| byte.is_ascii_control() && **byte != b'\n';
     assert_eq!(printed.iter().find(controls), None);
@@ -54,7 +55,7 @@ pub(crate) fn check_printed(printed: &[u8]) {
     assert!(!printed.chars().any(|one| one.is_control() && one != '\n'));
 }
 
-/// Checks an explanation and its printed form.
+/// Checks an explanation, and that it can be printed.
 pub(crate) fn check_explanation(explanation: &Explanation, bytes: &[u8]) {
     assert_eq!(explanation.length, bytes.len());
     for part in &explanation.parts {

@@ -14,7 +14,7 @@ impl TestFile {
         Self(path)
     }
 
-    /// Creates a file for --allow-write for a CNC on this machine.
+    /// Creates a file for --allow-write for a CNC on this machine with the AMS NetId 127.0.0.1.1.1.
     pub(crate) fn allowing(table: &str) -> Self {
         let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
         Self::new(".toml", format!("{head}{table}").as_bytes())

@@ -19,8 +19,8 @@ pub(crate) fn is_harmless(frame: &[u8]) -> bool {
             frame.len() == 50
                 && (group & 0xFF00 != 0x0100 || group >> 16 & 0xF != 2 || offset != 0x90)
         }
-        // ReadWrite: the queries of variables and dynamic parameters, and of the address of an
-        // instance
+        // ReadWrite: the queries of variables, of axis variables and of dynamic parameters, and of
+        // the address of an object
         9 => {
             let (group, offset) = (number(frame, 38), number(frame, 42));
             let of_decoder = group & !0x10_00FF == 0x2_2300 && group & 0xFF > 0;

@@ -1,5 +1,5 @@
-//! Helpers of the tests: the command, `ads-cnc serve` in a separate process, and a connection to it without
-//! a gate.
+//! Helpers of the tests, such as the command `ads-cnc`, `ads-cnc serve` in a separate process, and
+//! a connection to it without a gate.
 
 #![allow(dead_code, reason = "not every test uses every item")]
 
@@ -70,7 +70,7 @@ impl Drop for Serve {
     }
 }
 
-/// A TCP connection without a gate, for bytes that the tool itself never sends.
+/// A TCP connection without a gate, which sends any bytes.
 #[allow(clippy::disallowed_methods, reason = "to a listener of the test")]
 pub(crate) fn connect(addr: std::net::SocketAddr) -> TcpStream {
     let stream = TcpStream::connect_timeout(&addr, Duration::from_secs(5)).unwrap();

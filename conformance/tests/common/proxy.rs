@@ -1,4 +1,5 @@
-//! A proxy between a tool and a CNC. A test decides for each frame what the proxy does with it.
+//! A proxy between a tool and a CNC. A test decides for each frame of the tool what the proxy does
+//! with the frame.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{SocketAddr, TcpStream};
@@ -28,7 +29,7 @@ pub(crate) enum FrameHandling {
 }
 
 /// Starts a proxy that forwards connections to a CNC one after the other and calls `handling` for
-/// each frame. Returns the address of the proxy.
+/// each frame of the tool. Returns the address of the proxy.
 pub(crate) fn proxy(
     cnc: SocketAddr,
     mut handling: impl FnMut(&FrameRef<'_>) -> FrameHandling + Send + 'static,

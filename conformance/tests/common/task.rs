@@ -2,7 +2,7 @@
 
 use ads::{Device, Error};
 
-/// Sends a ReadWrite with a read length that is sufficient for the longest reply.
+/// Sends a ReadWrite with a read length of 2048 bytes.
 pub(crate) fn ask(
     device: Device<'_>,
     group: u32,

@@ -7,7 +7,7 @@ use proptest::test_runner::{Config, FileFailurePersistence};
 /// The configuration for a number of new cases; `source` is the `file!()` of the test.
 pub(crate) fn cases(cases: u32, source: &str) -> Config {
     let default = Config::default();
-    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables the files; Miri has no files.
+    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables the files. Under Miri, too, no files are used.
     if default.failure_persistence.is_none() || cfg!(miri) {
         return Config { cases, failure_persistence: None, ..default };
     }
@@ -15,7 +15,7 @@ pub(crate) fn cases(cases: u32, source: &str) -> Config {
     Config { cases, failure_persistence: Some(Box::new(beside(folder, source))), ..default }
 }
 
-/// A file in `folder` with the name of the test.
+/// The file in `folder` for the failed cases of the test file `source`.
 pub(crate) fn beside(folder: impl AsRef<Path>, source: &str) -> FileFailurePersistence {
     let name = Path::new(source).with_extension("txt");
     let file = folder.as_ref().join(name.file_name().expect("the file of a test"));

@@ -1,5 +1,5 @@
-//! Clients under test: this project's own client passes all scenarios, and with each of its defects, the
-//! requirement that the defect breaks fails.
+//! Clients under test: this project's own client passes all scenarios, and each of its seeded
+//! defects is judged as a violation of the requirement that the defect breaks.
 
 use std::net::SocketAddr;
 use std::thread;
@@ -21,7 +21,7 @@ fn the_own_client_passes_everything() {
     assert!(judged.requests > 200, "{}", judged.requests);
 }
 
-/// With the valid variants of the client, no requirement fails.
+/// With each valid variant of the client, every requirement passes.
 #[test]
 fn valid_variants_pass() {
     thread::scope(|scope| {
@@ -47,7 +47,7 @@ fn judge_without_findings(fault: Option<ClientFault>) -> JudgedClient {
 
 #[test]
 fn every_defect_fails_its_requirement() {
-    // Uses threads, because a client with a defect waits for most of the time.
+    // Uses threads to save time.
     let missed: Vec<&str> = thread::scope(|scope| {
         let part = |part| {
             move || defects().iter().skip(part).step_by(PARTS).filter(missed).map(id).collect()

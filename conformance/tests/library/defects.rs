@@ -1,4 +1,5 @@
-//! The suite detects a wrong field in a stream, both by vectors and by cases against a CNC.
+//! The suite detects a wrong field in the streams that these tests name, both by vectors and,
+//! except for the defects in `UNSEEN`, by cases against a CNC.
 
 use std::sync::Arc;
 
@@ -49,7 +50,7 @@ fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
     failed.map(|outcome| outcome.case.id.as_str()).collect()
 }
 
-/// The two defects of a field that change the bytes of the field whatever they are.
+/// The two defects of a field that change its bytes whatever the bytes are.
 fn defects(field: Field) -> impl Iterator<Item = FieldDefect> {
     let all = field
         .stream()
@@ -59,9 +60,10 @@ fn defects(field: Field) -> impl Iterator<Item = FieldDefect> {
     all.filter(|defect| matches!(defect.change, FieldChange::FlipLow | FieldChange::Invert))
 }
 
-/// Checks that with every defect of every field of `stream`, a vector fails and a case of the target that
-/// is not a printed example fails. For the fields in `only_printed`, a printed example suffices; for the
-/// defects in `UNSEEN`, a test of the simulated CNC.
+/// Checks that with each of the two [`defects`] of every field of `stream`, a vector fails and a
+/// case of the target that is not a printed example fails or has a warning. For the fields in
+/// `only_printed`, a printed example suffices; for the defects in `UNSEEN`, no case of the target
+/// need fail.
 fn every_field_is_seen(stream: Stream, only_printed: &[&str]) {
     for defect in stream.fields().flat_map(defects) {
         // Runs only the cases of the field's area, such as VAR. Fields of frames (ADS) concern all areas.
@@ -98,8 +100,8 @@ fn every_field_of_the_description_is_seen() {
 
 #[test]
 fn every_field_of_the_descriptor_is_seen() {
-    // Only the printed example fixes the values of the number, the name, the type and the
-    // unassigned bytes of a descriptor.
+    // For the number, the name, the type and the unassigned bytes of a descriptor, a printed
+    // example suffices.
     let printed = ["id", "not_assigned", "name", "type"];
     every_field_is_seen(Stream::ObjectDescriptor, &printed);
 }
@@ -120,7 +122,7 @@ fn every_attribute_of_elements_is_seen() {
     every_field_is_seen(Stream::ElementCount, &[]);
     every_field_is_seen(Stream::ElementLength, &[]);
     every_field_is_seen(Stream::ElementWriteFlag, &[]);
-    // Only printed examples fix the texts of a name, a type or a unit.
+    // For the text of a name, a type or a unit, a printed example suffices.
     every_field_is_seen(Stream::ElementText, &["text"]);
 }
 
@@ -130,8 +132,7 @@ fn every_field_of_dynamic_parameters_is_seen() {
     every_field_is_seen(Stream::DynamicIndex, &[]);
     every_field_is_seen(Stream::DynamicName, &[]);
     every_field_is_seen(Stream::DynamicNameRequest, &[]);
-    // The value by name and the value by index are equally wrong, so only a printed example
-    // detects the defect.
+    // The value by name and the value by index are equally wrong, so a printed example suffices.
     every_field_is_seen(Stream::DynamicValue, &["value"]);
 }
 

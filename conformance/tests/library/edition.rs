@@ -304,8 +304,7 @@ fn the_axis_interface_has_only_axis_variables() {
     }
 }
 
-/// `permits` recognises the kind in a request with any number of NULs after the kind, and in a
-/// whole name.
+/// The kind is recognised in a request with several NULs after the kind, and in a whole name.
 #[test]
 fn the_nuls_of_a_kind_are_ignored() {
     let request = VariableKindRef::decode(b"V.CYC\0\0\0").unwrap();
@@ -327,7 +326,7 @@ fn editions_versions_and_support_are_as_printed() {
     assert_eq!(not.to_string(), "no (VAR-1, assumed)");
 }
 
-/// The IDs of editions are IDs of documents in the data of the vectors.
+/// The document and the number of each edition are those of a document in the data of the vectors.
 #[test]
 fn editions_are_documents_of_the_vectors() {
     for edition in Edition::ALL {
@@ -425,8 +424,8 @@ fn other_functions_ignore_kinds() {
     }
 }
 
-/// Functions that are only documented online are in no printed edition, so `Feature::of` must contain
-/// the versions that have them.
+/// Exactly the functions that are documented only online, in no printed edition, have a feature,
+/// which states the versions that have them.
 #[test]
 fn functions_documented_online_have_a_feature() {
     for &function in Function::ALL {

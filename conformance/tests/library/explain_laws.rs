@@ -104,7 +104,7 @@ fn bytes() -> impl Strategy<Value = Vec<u8>> {
     proptest::collection::vec(word, 0..24).prop_map(|words| words.concat())
 }
 
-/// One to three complete frames, which may then be truncated and changed at one offset.
+/// One to three complete frames, which may then be changed at one offset and truncated.
 fn frames() -> impl Strategy<Value = Vec<u8>> {
     let command = prop_oneof![4 => select(vec![2_u16, 3, 9]), 1 => any::<u16>()];
     let flags = prop_oneof![4 => 4..6_u16, 1 => any::<u16>()];
@@ -188,7 +188,8 @@ proptest! {
     }
 }
 
-/// Each golden vector is explained without an error or with an error, as the vector expects.
+/// Each golden vector of a stream with a field table, except the program stream, is explained
+/// without an error or with an error, as the vector expects.
 #[test]
 fn explanations_agree_with_the_vectors() {
     let schema = schema();
@@ -210,8 +211,8 @@ fn explanations_agree_with_the_vectors() {
         match (&vector.expect, fault) {
             (Expect::Accept(_), None) => {}
             (Expect::Reject(reject), Some(fault)) => {
-                // The error class and the offset in a vector are advisory, but most equal those of the
-                // codec.
+                // The error class and the offset in a vector are advisory, but most equal those of
+                // the explanation.
                 rejected += 1;
                 same += usize::from((fault.class, fault.offset) == (&reject.class, reject.offset));
             }

@@ -66,7 +66,8 @@ fn a_sample_keeps_the_index_after_the_last() {
     }
 }
 
-/// A long list is sampled, and the report states the sample; `Sample::All` reads everything.
+/// A long list is sampled, and the result of the discovery states the sample; `Sample::All` reads
+/// everything.
 #[test]
 fn a_long_list_is_sampled() {
     let (_, Discovery { found, .. }) = connected(with_variables(1000), Sample::BySeed(1));

@@ -1,5 +1,5 @@
-//! Codecs that differ from this project's codec where the manuals state nothing: each is correct, and no
-//! case fails.
+//! Codecs that differ from this project's codec. Where they differ only in behaviour that is
+//! assumed, recommended or printed in another edition, no case fails.
 
 use ads_cnc_conformance::exit::Exit;
 use ads_cnc_conformance::judge::{Body, Case, CaseSubject, Needs, Verdict, VerdictTally};
@@ -55,7 +55,7 @@ fn of_bytes(own: &CodecTestee, question: &Question, bytes: Vec<u8>) -> Answer {
     own.answer(&Question { hex: Some(bytes), ..question.clone() })
 }
 
-/// A codec that uses 2 bytes for each number of a stream for which the manuals state no width.
+/// The answer of a codec that uses 2 instead of 4 bytes for each number of the stream `of`.
 fn of_two_bytes(own: &CodecTestee, question: &Question, of: &str) -> Answer {
     if question.stream != of {
         return own.answer(question);
@@ -191,9 +191,10 @@ fn the_largest_index_of_a_name_may_be_accepted() {
     assert_differs(codec, &["vec-path-index-too-large"]);
 }
 
-/// A checker of NC text is correct even if it does not know lower-case letters, nested parentheses and
-/// quotes, and does not treat a jump to its own line, a block without an end or labels with leading zeros
-/// specially.
+/// No case fails for a checker of NC text that gives the opposite answer for certain texts on which
+/// the manuals state nothing: lower-case letters, nested parentheses and quotes, a comment block
+/// without an end, a jump to its own line, labels with leading zeros, a last line without a line
+/// end, and a CR without LF.
 #[test]
 fn a_checker_may_know_only_the_manuals_nc_text() {
     const OTHERWISE: [&str; 10] = [
@@ -255,8 +256,8 @@ fn the_opposite_of_assumptions_fails_nothing() {
         true => opposite(own.answer(question)),
         false => own.answer(question),
     });
-    // Most of these cases differ. The others are inconclusive, because the codec also rejects the
-    // valid sibling of a rejected vector.
+    // Most of these cases differ. Others are inconclusive, for example because the codec also
+    // rejects the valid sibling of a rejected vector.
     assert_eq!(exit, Exit::Success);
     assert!(other.len() > 350, "{}", other.len());
     let (exit, _) = judged(|own, question| opposite(own.answer(question)));
@@ -281,7 +282,7 @@ fn names_of_another_edition_fail_nothing() {
     assert_eq!(judged("de-1.051"), Verdict::Differs);
 }
 
-/// The levels of vectors and sequences of documented, recommended and assumed behaviour.
+/// The levels of some vectors and sequences of documented, recommended and assumed behaviour.
 #[test]
 fn levels_are_in_the_data() {
     for (id, expected) in [

@@ -1,5 +1,5 @@
-//! The number of requests that list the objects, elements and variables of a CNC is small, and limited
-//! whatever the CNC replies.
+//! The number of requests that list the objects, elements and variables of the default model is
+//! small, and limited even if a field of the replies is wrong.
 
 use ads_cnc_conformance::faults::{Faulty, FieldDefect};
 use ads_cnc_conformance::gate::Gate;
@@ -48,7 +48,8 @@ fn the_notes_of_a_list_with_a_gap_are_true() {
     assert!(found.notes.iter().eq(notes), "{:?}", found.notes);
 }
 
-/// With any defect of a field in replies, a walk over all items needs fewer than 4,000 requests.
+/// With each defect of a field in the streams below, a walk over all objects and elements, and a
+/// walk over all variables, each need fewer than 4,000 requests.
 #[test]
 fn walks_with_wrong_replies_end() {
     let streams = [

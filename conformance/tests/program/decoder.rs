@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::{Ack, ProgramEnd};
+use ads_cnc_conformance::number::digest;
 use ads_cnc_conformance::simulator::program::{
-    Pace, ProgramConfig, ProgramState, Start, StartError, StreamingProgram, digest,
+    Pace, ProgramConfig, ProgramState, Start, StartError, StreamingProgram,
 };
 use proptest::prelude::*;
 

@@ -1,5 +1,6 @@
-//! The steps of an NC program and of one or two hosts of services in any order, with failing writes and
-//! reads: each request is served once and receives its own response.
+//! The steps of an NC program and of one or two hosts of services in any order, with failing writes
+//! and reads: each request is served once and receives its own response. After timeouts and resets,
+//! this is true of the requests that are sent once the hosts are idle.
 
 use ads_cnc::service::ServiceId;
 use ads_cnc_conformance::simulator::program::service::Clears;
@@ -23,7 +24,7 @@ fn outcome() -> impl Strategy<Value = StepOutcome> {
 }
 
 fn orderly() -> impl Strategy<Value = Vec<Action>> {
-    // Each action is repeated, so that one side makes progress while the other waits.
+    // Actions are repeated, so that one side makes progress while the other waits.
     let one = prop_oneof![
         1 => Just(Action::Program),
         2 => (0..2_usize, outcome()).prop_map(|(place, outcome)| Action::Host(place, outcome)),

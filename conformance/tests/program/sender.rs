@@ -3,8 +3,9 @@
 use std::time::Duration;
 
 use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender};
+use ads_cnc_conformance::number::digest;
 use ads_cnc_conformance::simulator::program::{
-    Pace, ProgramConfig, ProgramState, StreamingProgram, digest,
+    Pace, ProgramConfig, ProgramState, StreamingProgram,
 };
 use proptest::prelude::*;
 
@@ -74,7 +75,7 @@ fn any_pace() -> impl Strategy<Value = Pace> {
     ]
 }
 
-/// Lines of any length without program ends and errors.
+/// Lines of various lengths without program ends and errors.
 fn lines() -> impl Strategy<Value = Vec<String>> {
     let line = (any::<u32>(), prop_oneof![9 => 0..80_usize, 1 => 0..960_usize])
         .prop_map(|(n, len)| format!("N{n} {}", "X".repeat(len)));

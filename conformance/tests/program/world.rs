@@ -18,7 +18,7 @@ pub(crate) enum StepOutcome {
     Fine,
     /// The read or write does not reach the CNC, and the host gets an error.
     Fails,
-    /// A write reaches the CNC, but the host gets an error.
+    /// A write reaches the CNC, but the host gets an error; a read fails as with `Fails`.
     FailsLate,
 }
 

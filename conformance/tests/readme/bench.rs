@@ -1,5 +1,4 @@
-//! The environment in which the calls of documents are executed: a folder, a device, and a simulated
-//! CNC.
+//! The environment in which the calls of documents are executed: a folder and two simulated CNCs.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -10,7 +9,8 @@ use std::{env, thread};
 use super::common::Serve;
 use super::shown::{Shown, fits, words};
 
-/// Time limit of a call, which is long because a build by cargo takes minutes.
+/// Time limit of a call that ends by itself, which is long because a build by cargo may take
+/// minutes.
 const WAIT_MAX: Duration = Duration::from_secs(900);
 
 /// Time limit for a call that does not end by itself to print the shown output.
@@ -29,7 +29,7 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// Creates the environment, with the files that the calls use or show.
+    /// Creates the environment, with files that the calls use or show.
     pub(crate) fn new(name: &str, shown: &[Shown]) -> Self {
         let directory = format!("ads-cnc-shown-{name}-{}", std::process::id());
         let directory = env::temp_dir().join(directory);
@@ -43,7 +43,8 @@ impl Bench {
             if let Some(name) = call.strip_prefix("cat ") {
                 bench.write(name, &output.replace("expires = 2030-", "expires = 9999-"));
             }
-            // Writes the entry that a rejection suggests to the file that the next call uses.
+            // Writes the entry that a rejection in the document suggests to the file that the next
+            // call uses.
             if let Some((_, entry)) = output.split_once("--allow-write:\n\n") {
                 let expires = "expires = 9999-12-31T23:59:59Z";
                 bench.write("test.toml", &entry.replace("expires = …", expires));
@@ -67,8 +68,9 @@ impl Bench {
         }
     }
 
-    /// Executes a call; returns its stdout and stderr in the order in which they were printed, and the exit
-    /// status. A call that does not end by itself is ended after it has printed the shown output.
+    /// Executes a call; returns its output, if the call does not write it to a file, and the exit
+    /// status. The output of `ads-cnc` includes stderr. A call that does not end by itself is ended
+    /// after it has printed the shown output, and any call at its time limit.
     fn output(&self, call: &str, shown: &str) -> (String, Option<ExitStatus>) {
         let mut words = words(call);
         let is_endless =
@@ -107,7 +109,7 @@ impl Bench {
         let words: Vec<&str> = words.iter().map(|word| here(word.as_str())).collect();
         let (program, arguments) = words.split_first().unwrap();
         let mut command = match *program {
-            // The messages of cargo itself on stderr are not part of the shown output.
+            // On stderr, cargo prints its own messages, which the documents do not show.
             "cargo" => {
                 let mut cargo = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
                 cargo.current_dir(root()).stderr(Stdio::null());

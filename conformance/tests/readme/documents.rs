@@ -6,11 +6,12 @@ use std::path::Path;
 use super::bench::{Bench, root};
 use super::shown::{Shown, calls};
 
-/// The starts of calls that need other programs or several minutes; gate.rs executes these calls.
+/// The starts of the calls that only gate.rs executes, because they need a build by cargo, Python
+/// 3, or minutes.
 pub(crate) const IN_THE_GATE: [&str; 4] =
     ["cargo run ", "ads-cnc selftest", "ads-cnc run --testee ", "ads-cnc run --client "];
 
-/// The path and the text of each document.
+/// The path and the text of each Markdown file, except in folders of generated files.
 pub(crate) fn texts() -> Vec<(String, String)> {
     let mut found = Vec::new();
     add(&root(), "", &mut found);

@@ -1,5 +1,5 @@
-//! A module of `conformance/src` imports only modules below it in the table of `lib.rs`, and no files
-//! import each other in a circle. Code in `#[cfg(test)]` may import any module.
+//! A module of `conformance/src` imports only itself and modules below it in the table of `lib.rs`,
+//! and no files import each other in a circle. Tests may import any module.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -11,15 +11,16 @@ use super::bench::root;
 /// reaches the end after at most this number of imports.
 const IMPORTS_MAX: usize = 8;
 
-/// An import: a line of the module `from` imports another module.
+/// An import: the line `at` of the module `from` names the module `to`, which may be the same
+/// module.
 struct Arrow {
     from: String,
     to: String,
     at: String,
 }
 
-/// Reads the files in a folder: the text of each file without comments, tests and declarations of modules,
-/// by its path below `src`.
+/// Reads the files in a folder, except lib.rs and main.rs: the text of each file without lines of
+/// comments, tests and declarations of modules, by its path below `src`.
 fn read_files(folder: &Path, prefix: &str, found: &mut BTreeMap<String, String>) {
     for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
         let name = entry.file_name().into_string().unwrap();
@@ -150,8 +151,8 @@ fn expand(tree: &str) -> Vec<String> {
     paths.map(|path| format!("{}{path}", prefix.trim())).collect()
 }
 
-/// The module that defines the item to which a path in `module` refers, following re-exports; `None` if
-/// it is this module or another crate.
+/// The module that defines the item to which a path in `module` refers, following re-exports;
+/// `None` if the path begins with a name that this module or another crate defines.
 fn definition(modules: &BTreeMap<String, Module>, module: &str, path: &str) -> Option<String> {
     let (first, rest) = path.split_once("::").unwrap_or((path, ""));
     let child = format!("{module}::{first}");

@@ -1,5 +1,6 @@
-//! The calls of documents that need Python 3, or minutes. `cargo test --workspace` omits this test;
-//! `.ci/run` runs it. `ADS_CNC_TOOL` is the path of a release build of the tool, which saves minutes.
+//! The calls of documents that need a build by cargo, Python 3, or minutes. Only `.ci/run` runs
+//! this test; `cargo test --workspace` omits it. The environment variable `ADS_CNC_TOOL` may name a
+//! release build of the tool, which saves minutes.
 
 mod bench;
 #[path = "../common/mod.rs"]

@@ -1,5 +1,5 @@
-//! Links between the documents lead to existing files and anchors, and claims about safety to existing
-//! commands.
+//! Relative links in the documents lead to existing files and anchors, and the claims of ASSURANCE
+//! and SECURITY name existing commands.
 
 use std::fs;
 
@@ -32,14 +32,15 @@ fn links_have_targets() {
     assert!(seen > 40, "{seen} links");
 }
 
-/// The anchor of a heading, as Git hosts create it.
+/// The anchor of a heading, as GitHub creates it for the first heading with this text.
 fn slug(heading: &str) -> String {
     let heading = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = heading.chars().filter(|one| one.is_alphanumeric() || " -_".contains(*one));
     kept.map(|one| if one == ' ' { '-' } else { one }).collect()
 }
 
-/// Each row of ASSURANCE and SECURITY names commands that exist, or states why it names none.
+/// Each row of the tables of ASSURANCE and SECURITY names commands that exist, or states why it
+/// names none.
 #[test]
 fn claims_have_commands() {
     let read = |path: &&str| fs::read_to_string(root().join(path)).unwrap();
@@ -61,8 +62,8 @@ fn claims_have_commands() {
     }
 }
 
-/// A command for tests names existing tests, or modules of tests; `.ci/run` or a workflow runs the script of
-/// any other command.
+/// A command `cargo test -p …` names existing tests, or modules of tests. Of any other command,
+/// `.ci/run` or a workflow contains the script, or the whole command if it is a command of cargo.
 fn assert_exists(command: &str, run: &str) {
     let words: Vec<&str> = command.split(' ').filter(|word| *word != "--").collect();
     let (tests, filters) = match &words[..] {

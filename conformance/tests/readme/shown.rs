@@ -26,7 +26,7 @@ pub(crate) fn calls(document: &str) -> Vec<Shown> {
     all
 }
 
-/// Splits a call into words as a shell does, but without expansions.
+/// Splits a call into words at the spaces outside of quotes, and removes the quotes.
 pub(crate) fn words(call: &str) -> Vec<String> {
     let (mut words, mut quote, mut open) = (vec![String::new()], None, false);
     for character in call.chars() {
@@ -45,10 +45,9 @@ pub(crate) fn words(call: &str) -> Vec<String> {
     words
 }
 
-/// Whether the output matches the shown output line by line. A shown line with only … matches any number
-/// of lines, and a shown line that ends in … matches any line with the same beginning. Values that
-/// differ from run to run are ignored: ports that the system chooses, seeds, times, and the numbers
-/// of checks and frames.
+/// Whether the output matches the shown output line by line. A shown line with only … matches any
+/// number of lines, and a shown line that ends in … matches any line with the same beginning. Some
+/// values that may differ from run to run are ignored, such as ports, seeds and times.
 pub(crate) fn fits(shown: &str, output: &str) -> bool {
     let lines = |text: &str| text.lines().map(steady).collect::<Vec<_>>();
     all_fit(&lines(shown), &lines(output))
@@ -67,7 +66,7 @@ fn all_fit(shown: &[String], output: &[String]) -> bool {
     })
 }
 
-/// The line without the values that differ from run to run.
+/// The line without the number after each of some words.
 fn steady(line: &str) -> String {
     let mut line = line.to_owned();
     for words in ["127.0.0.1:", "seed ", "cases, ", "checks, ", "within ", " s ("] {

@@ -11,8 +11,8 @@ use ads_cnc_conformance::simulator::{ContentOwner, StoredContent};
 
 use crate::target::{CheckResult, TestCnc};
 
-/// All addresses of a content. For a content of a channel: by the number of the channel, and then by
-/// its rank.
+/// The addresses of a content. For a content of a channel: by the number of the channel, and then
+/// by its rank; none if the CNC does not have this channel.
 pub(crate) fn addresses(
     target: &TestCnc,
     content: &StoredContent,
@@ -77,7 +77,7 @@ pub(crate) fn addresses(
     })
 }
 
-/// The address of an element; `None` for an object.
+/// The first address of an element; `None` for an object.
 pub(crate) fn element(
     target: &TestCnc,
     content: &StoredContent,

@@ -31,7 +31,8 @@ fn place_of(content: &StoredContent) -> Option<u8> {
     }
 }
 
-/// The name and the value of each content of a place of channel 1, read at each of its addresses.
+/// The name and the value of each content for which [`place_of`] returns `place`, read at each of
+/// its addresses that can be read.
 fn contents(target: &TestCnc, place: u8) -> CheckResult<Vec<(String, Reply)>> {
     let mut all = Vec::new();
     for content in target.cnc().stored_contents() {
@@ -66,8 +67,8 @@ fn an_axis_takes_its_values_to_another_place(target: &TestCnc) -> CheckResult {
     Ok(())
 }
 
-/// Reads of all elements of a class at a place of a channel, whose lengths are those of place 1 of
-/// channel 1.
+/// The requests that read the elements of a class at a place of a channel, whose number and lengths
+/// are those of place 1 of channel 1.
 fn elements(
     target: &TestCnc,
     class: Class,

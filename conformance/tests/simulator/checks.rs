@@ -1,5 +1,5 @@
-//! Checks of the simulated CNC. Each check is a test of the CNC without a defect, and must also fail
-//! for certain defects.
+//! Checks of the simulated CNC. Each check is a test of the CNC without a defect; `defects.rs` also
+//! runs the checks for a CNC with a defect.
 
 use ads_cnc_conformance::matrix::SIMULATOR_CHECKS;
 use ads_cnc_vectors::ClauseId;

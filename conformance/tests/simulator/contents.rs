@@ -1,5 +1,5 @@
-//! Checks of the contents of objects and elements. Each content has a different value, so that the checks
-//! detect contents that are mixed up.
+//! Checks of the contents of objects and elements. Each content has a value made from its number,
+//! so that the checks detect contents that are mixed up.
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{
@@ -21,8 +21,8 @@ checks! {
     elements_have_the_attributes_of_their_contents,
 }
 
-/// Number of rounds with new values. Over this number of rounds, each BOOLEAN has a different
-/// sequence of values.
+/// Number of rounds with new values. In each round, a BOOLEAN has one of the lowest bits of its
+/// number.
 const ROUNDS: u32 = 6;
 /// Number of rounds in which contents other than BOOLEANs are read.
 const ROUNDS_OF_NUMBERS: u32 = 2;
@@ -126,7 +126,8 @@ fn descriptors(target: &TestCnc, list: impl Into<ObjectList>) -> CheckResult<Des
     Ok(all)
 }
 
-/// Each object has a descriptor in its list, with the name, the size and an address of the object.
+/// Each object of the platform or of a channel has a descriptor in its list, with the name, the
+/// size and an address of the object.
 fn every_object_is_in_its_list(target: &TestCnc) -> CheckResult {
     let all = target.cnc().stored_contents();
     let mut lists = vec![(0, descriptors(target, ObjectList::PLATFORM)?)];

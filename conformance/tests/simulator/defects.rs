@@ -81,8 +81,8 @@ const OTHERWISE: [&str; 15] = [
     "different.request-over-early",
 ];
 
-/// The check that compares replies with those of the simulated CNC without a defect. A valid
-/// variant may reply differently.
+/// A check that compares the replies to many queries with those of the simulated CNC without a
+/// defect. A valid variant may reply differently.
 const OF_THIS_CNC: &str = "each_query_has_its_own_answer";
 
 #[test]

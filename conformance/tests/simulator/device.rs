@@ -1,4 +1,5 @@
-//! Checks of device information and error numbers.
+//! Checks of device information, of error numbers, and of the replies to queries of various
+//! functions.
 
 use ads_cnc::Decode as _;
 use ads_cnc::Kind;

@@ -1,6 +1,6 @@
 //! Tests of the simulated CNC, including its internal state: the executed lines of programs, the
-//! values of variables, and changes by an operator. The checks also detect defects that no request can
-//! detect.
+//! values of variables, and changes by an operator. They detect the defects that no case of the
+//! suite detects.
 
 mod addresses;
 mod changes;

@@ -149,8 +149,8 @@ fn parameters_come_and_go(target: &TestCnc) -> CheckResult {
     Ok(())
 }
 
-/// Checks that the parameters at the ends of the list and around indices 128 and 255 have these names
-/// and values.
+/// Checks the number of parameters, and the names and values at some indices, such as the ends of
+/// the list.
 fn are_listed(
     target: &TestCnc,
     channel: Channel,

@@ -1,4 +1,5 @@
-//! The law of the targets `…_bytes`: bytes that the codec decodes are encoded to the same bytes.
+//! The laws of the targets `…_bytes`, such as: bytes that the codec decodes are encoded to the same
+//! bytes.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::{Decode as _, Error, ErrorKind, NoData};
@@ -50,7 +51,7 @@ pub(crate) const STREAMING_DEFECTS: &[&str] = match DEFECTS {
 };
 
 /// The defects for variables: the last one concerns values that are read by their type, which only
-/// variables have.
+/// the target `variable_bytes` checks.
 pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "the last byte loses its top bit when it is encoded",
     "the offset of an error after the first eight bytes is off by one",

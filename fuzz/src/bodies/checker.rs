@@ -10,10 +10,10 @@ use crate::{Defect, Outcome};
 /// The byte that ends a lot. It is not a character of NC text.
 const CUT: u8 = 0xFF;
 
-/// Maximum number of lots in an input. More lots would find nothing new, and take time.
+/// Maximum number of lots in an input; the last lot may contain more bytes [`CUT`].
 const LOTS: usize = 12;
 
-/// Input: NC text, in which a byte 0xFF ends a lot of lines.
+/// Input: NC text, in which each of the first eleven bytes 0xFF ends a lot of lines.
 ///
 /// The check of a lot has the findings that a check of the whole text up to the end of this lot has
 /// in the lines of the lot, in the order of the text, with any line ends. Text that cannot be

@@ -14,8 +14,8 @@ use crate::{Defect, Outcome};
 /// `match` below interprets. The characters of a line depend on its byte, so that lines differ.
 ///
 /// With any acknowledgements and reads, a sender loses no line, repeats no line and counts
-/// correctly. The interface is a bounded queue, whose output is the text of the sender if nobody
-/// else writes or resets.
+/// correctly. The interface is a bounded queue, whose output is the accepted text of the sender if
+/// nobody else writes or resets, and no packet counts as accepted that was not written.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let lines = input.byte() % 8;

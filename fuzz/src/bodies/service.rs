@@ -17,8 +17,8 @@ use crate::{Defect, Outcome};
 /// Then one byte for each action, see [`actions`].
 ///
 /// Without chaos, every request is served once, by the service to which it is sent, and gets its
-/// own answer, whichever steps fail. With chaos, this holds for the requests after it, once all
-/// parties have become idle.
+/// own answer, whichever steps fail (with two hosts, [`World::luck_of_two`] replaces some actions).
+/// With chaos, this holds for the requests after it, once all parties have become idle.
 pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let what = input.byte();
@@ -133,7 +133,7 @@ pub(crate) fn machines(data: &[u8], defect: Defect) -> Outcome {
     }
 }
 
-/// Maximum number of events in an input. More events would find nothing new.
+/// Maximum number of events in an input; the rest of the input is ignored.
 const EVENTS: usize = 300;
 
 fn host(mut input: Input<'_>, defect: Defect) -> Outcome {

@@ -5,7 +5,7 @@ use super::bytes::bend_among;
 use crate::common::Subject;
 use crate::{Defect, Outcome};
 
-/// Input: an index of the stream (1 byte), then the bytes from which a value of it is made.
+/// Input: an index of the stream (1 byte), then the bytes from which a value of the stream is made.
 ///
 /// The value encodes to as many bytes as announced, and the encoder rejects a smaller buffer. Every
 /// reading accepts these bytes and gives the value.
@@ -15,7 +15,7 @@ pub(crate) fn check(family: Family, data: &[u8], defect: Defect) -> Outcome {
     Outcome::accepted((Subject::of(stream).made)(bytes, &bend_among(&OF_BYTES, defect)))
 }
 
-/// The numbers of those defects of `bytes` that a valid value can reveal. This target makes only
+/// The numbers in `bytes` of the defects that are seeded for this target. The target makes only
 /// valid values, so it cannot reveal a defect of errors.
 const OF_BYTES: [u8; 11] = [1, 3, 4, 5, 6, 10, 11, 12, 13, 14, 15];
 

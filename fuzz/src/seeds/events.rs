@@ -66,8 +66,8 @@ pub(super) fn worlds() -> Vec<Seed> {
     seeds
 }
 
-/// Inputs of the target `service_machines`: the machine, then events with values. 0x0A is a state of 1,
-/// 0x03 a UUID, 0x1D a text.
+/// Inputs of the target `service_machines`. As the byte of a value, 0x0A is a state of 1, 0x03 a
+/// UUID, and 0x1D a text.
 pub(super) fn machines() -> Vec<Seed> {
     let found = [0, 0x0A, 0, 0x03, 0, 0x1D];
     let answer = [14, 1, 0x0D];

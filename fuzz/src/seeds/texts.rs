@@ -17,7 +17,7 @@ pub(super) fn programs() -> Vec<Seed> {
 }
 
 /// The packets of the sequences that check an NC text packet by packet, with a byte 0xFF between two
-/// packets.
+/// packets; and a text with many findings.
 pub(super) fn lots() -> Vec<Seed> {
     let mut seeds = short(|given| match given {
         SequenceInput::NcCheck(packets) => {

@@ -1,4 +1,4 @@
-//! The cases of the streams of elements of the SDA task.
+//! The cases of the streams of objects and elements of the SDA task.
 
 use ads_cnc::layout::Stream;
 use ads_cnc::sda::*;

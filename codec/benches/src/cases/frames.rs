@@ -1,4 +1,4 @@
-//! The cases of frames on a TCP stream, and of streams without data.
+//! The cases of frames on a TCP stream, and of the empty stream `NoData`.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::{Decode, Encode, NoData};
@@ -44,7 +44,7 @@ fn nothing() -> Vec<Vec<u8>> {
     vec![vec![]; 100]
 }
 
-/// Frames of Read requests with data of several lengths.
+/// Frames with the AMS header of a Read request, and with 0 to 48 bytes of data.
 fn frames() -> Vec<Vec<u8>> {
     (0..100).map(|at| frame(at, at % 5 * 12)).collect()
 }

@@ -17,7 +17,8 @@ macro_rules! grows {
     };
 }
 
-/// The number of descriptors in a long reply; a million descriptors are split into lists of this length.
+/// The number of descriptors in the longest list. The cases of 1,000,000 descriptors process such a
+/// list 25 times.
 const LIST: u64 = 40_000;
 
 pub(super) const CASES: &[&[Case]] = &[

@@ -14,8 +14,9 @@ pub(crate) struct Entry {
     pub(crate) alike: fn(),
 }
 
-/// Declares the cases of a stream. The inputs are the samples of the codec. The encoding cases
-/// encode the owned type, or the only type of the stream.
+/// Declares the cases of a stream. The inputs are the samples of the codec, or faulty variants of
+/// them in the cases of rejection. The encoding cases encode the owned type, or the only type of
+/// the stream.
 macro_rules! stream {
     ($subject:literal, $stream:ident, $both:ty, by hand $hand:ty) => {
         $crate::cases::stream::Entry {
@@ -96,8 +97,8 @@ macro_rules! stream {
     };
 }
 
-/// Checks that codec and handwritten code accept and reject the same bytes, and encode accepted bytes to
-/// the same bytes.
+/// Checks that the codec and the handwritten code accept and reject the same bytes, and encode the
+/// decoded value to the same bytes.
 #[cfg(test)]
 macro_rules! alike {
     ($stream:ident, $codec:ty, $hand:ty) => {{

@@ -199,7 +199,8 @@ fn checked(text: Vec<u8>) -> Work {
 
 /// Checks a whole text of about `size` bytes.
 fn whole(size: usize, line: fn(usize, usize) -> String) -> Work {
-    // Estimate the number of lines from the length of a line near the end, where line numbers are longest.
+    // Estimate the number of lines from the length of a line near the end, where line numbers are
+    // longest.
     let lines = size / (line(size / 16, size).len() + 1);
     findings(text(&|at| line(at, lines), "\n", size))
 }

@@ -22,7 +22,7 @@ pub(crate) use variable::{
     Description, DescriptionByName, Extended, HandleRead, HandleWrite, IndexKind, NameWrite,
 };
 
-/// A fault and its position, which users need to find the fault.
+/// A fault: the expected and the found number, and for a fault in a field its offset `at`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Truncated { at: u32, expected: u32, found: u32 },

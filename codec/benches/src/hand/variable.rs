@@ -43,7 +43,8 @@ impl<'a> U32List<'a> for Vec<u32> {
     }
 }
 
-/// Decodes the list of numbers after the count at offset `at`; returns the list and the bytes after it.
+/// Decodes the list of numbers after the count at offset `at`; returns the list and the bytes after
+/// it.
 fn numbers<'a, N: U32List<'a>>(
     bytes: &'a [u8],
     at: usize,
@@ -222,7 +223,7 @@ impl<'a, B: ByteStorage<'a>> HandWritten<'a> for NameWrite<B> {
         at_most(MAX, bytes.len())?;
         let field = &bytes[..bytes.len().min(256)];
         let Some(nul) = field.iter().position(|&byte| byte == 0) else {
-            return Err(Fault::MissingNul { at: 0, max: 256, found: bytes.len() as u32 });
+            return Err(Fault::MissingNul { at: 0, max: 256, found: field.len() as u32 });
         };
         Ok(Self { name: bytes[..nul].into(), value: bytes[nul + 1..].into() })
     }

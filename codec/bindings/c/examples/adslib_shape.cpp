@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// The same types as in AdsDef.h of AdsLib.
+// Types with the same layout as those in AdsDef.h of AdsLib.
 struct AmsNetId {
     uint8_t b[6];
 };
@@ -31,7 +31,7 @@ static uint32_t function(const char *name) {
     return ads_cnc_function(name, static_cast<uint32_t>(std::strlen(name)));
 }
 
-// A CNC with one variable, V.E.a, whose handle is 7.
+// A CNC with one variable, V.E.a, whose handle is 7. It has only the function HandleByName.
 static long cnc(long, const AmsAddr *address, uint32_t group, uint32_t offset, uint32_t read_length,
                 void *read, uint32_t write_length, const void *written, uint32_t *bytes_read) {
     const AdsCncBytes data{static_cast<const uint8_t *>(written), write_length};

@@ -10,9 +10,11 @@
  *
  * Memory. The library has no allocator and no globals, and there is nothing to free. The caller provides all
  * memory. Pointers into a buffer are valid while the buffer is unchanged. Any thread may call any function,
- * but two threads must not use the same memory at once. Input and output buffers must not overlap.
+ * but no thread may write memory that another thread uses at the same time. Input and output buffers must not
+ * overlap.
  *
- * Errors. Functions return true on success; otherwise they return false and write an AdsCncError to `error`.
+ * Errors. Functions with the parameter `error` return true on success; otherwise they return false and write an
+ * AdsCncError to `error`.
  * Any number is safe to pass. An invalid pointer, and a length that exceeds the memory at its pointer, are not.
  * Pass null for no bytes, and for results that you do not need. After an error, the contents of output buffers
  * are unspecified.
@@ -22,7 +24,7 @@
  *
  * Texts. Names in requests and streams are CP1252, as on the wire. ASCII needs no conversion;
  * ads_cnc_text_from_utf8 converts UTF-8 to CP1252, ads_cnc_text_to_utf8 converts back. Names and descriptions
- * that the library returns are always valid and have no NUL: print them with "%.*s".
+ * of the library itself, as in errors and tables, are UTF-8 without a NUL: print them with "%.*s".
  */
 #ifndef ADS_CNC_H
 #define ADS_CNC_H
@@ -37,7 +39,7 @@ extern "C" {
 /* The ABI that this header describes: the minor version of the library. */
 #define ADS_CNC_ABI 2
 
-/* The number of a function, stream or field that does not exist. */
+/* Stands for no function, stream or field. */
 #define ADS_CNC_NONE 0xFFFFFFFFu
 
 /* The ABI of the library. */
@@ -45,7 +47,7 @@ uint32_t ads_cnc_abi(void);
 
 /* ------------------------------------------------------------------------------------- structs */
 
-/* Bytes of the caller or constant bytes of the library; null with length 0 for no bytes. */
+/* Bytes of the caller or constant bytes of the library. The pointer may be null if the length is 0. */
 typedef struct AdsCncBytes {
     const uint8_t *data;
     uint32_t length;
@@ -59,19 +61,19 @@ typedef struct AdsCncBytes {
 typedef struct AdsCncError {
     uint32_t kind;       /* AdsCncErrorKind */
     uint32_t stream;     /* the stream at fault, or ADS_CNC_NONE */
-    uint32_t field;      /* the field at fault; ADS_CNC_NONE for the stream as a whole */
-    uint32_t offset;     /* offset of the field in the stream, in bytes */
+    uint32_t field;      /* the field at fault; ADS_CNC_NONE for the stream as a whole, or without a stream */
+    uint32_t offset;     /* offset of the fault in the stream, in bytes; in a text or name, in characters */
     uint32_t expected;   /* a number whose meaning depends on the kind */
     uint32_t found;      /* a number whose meaning depends on the kind */
     AdsCncBytes subject; /* name of the stream or other subject at fault */
-    AdsCncBytes name;    /* name of the field or argument */
+    AdsCncBytes name;    /* name of the field or argument, or empty */
     AdsCncBytes text;    /* description of the kind */
 } AdsCncError;
 
 typedef enum AdsCncErrorKind {
     /* errors of a stream or value; each comment lists `expected` and `found`, in this order */
     ADS_CNC_OTHER_ERROR = 0,
-    ADS_CNC_TRUNCATED = 1,     /* bytes that the field needs, bytes found */
+    ADS_CNC_TRUNCATED = 1,     /* bytes (of a UUID or name: characters) that the field needs, those found */
     ADS_CNC_TRAILING = 2,      /* length of the stream, length of the input */
     ADS_CNC_TOO_LONG = 3,      /* maximum length, length */
     ADS_CNC_TOO_MANY = 4,      /* maximum count, count */
@@ -83,7 +85,7 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_UNEXPECTED = 10,   /* 0, code point */
     ADS_CNC_MISSING = 11,
     ADS_CNC_OUT_OF_RANGE = 12, /* nearest permitted value, value */
-    ADS_CNC_MISMATCH = 13,     /* required value, value found */
+    ADS_CNC_MISMATCH = 13,     /* required value, value found; or their lengths */
     ADS_CNC_CONTENT = 14,      /* 0, index offset of a function instead of content */
     ADS_CNC_BUFFER = 15,       /* bytes needed, bytes available */
     /* errors of the caller */
@@ -91,7 +93,7 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_NO_FUNCTION = 33,
     ADS_CNC_NO_STREAM = 34,
     ADS_CNC_NO_FIELD = 35,
-    ADS_CNC_ARGUMENT = 36,     /* value that the function does not accept; name is the argument */
+    ADS_CNC_ARGUMENT = 36,     /* value that the function does not accept; name is the argument or field */
     ADS_CNC_ROOM = 37,         /* items or bytes needed, room available */
     ADS_CNC_NOT_STARTED = 38,  /* sender or host that was never started */
     ADS_CNC_LINE = 39,         /* line; number of characters, or byte; `offset` is the column */
@@ -102,13 +104,16 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_COMMAND = 43       /* command of the function, command of the call */
 } AdsCncErrorKind;
 
-/* The arguments of any function. Set the arguments that ads_cnc_function_info lists for the function; the
- * others must be zero: `AdsCncRequest request = {0};`. */
+/* The arguments of any function. Set the arguments that ads_cnc_function_info lists for the function. You may also
+ * set `by_index`, and `axis` for a list of objects, which are not listed. The others must be zero:
+ * `AdsCncRequest request = {0};`. */
 typedef struct AdsCncRequest {
     uint32_t function;      /* number from ads_cnc_function */
-    uint32_t channel;       /* from 1; 0 is the platform, for lists of objects and object addresses */
+    uint32_t channel;       /* from 1; 0 is the platform, for lists of objects and object addresses; for the object
+                               address of a spindle, the index of the spindle */
     uint32_t by_index;      /* 1: `channel` counts the active channels */
-    uint32_t axis;          /* axis of the channel, from 1; a platform axis for lists of objects with channel 0 */
+    uint32_t axis;          /* axis of the channel, from 1; a platform axis for lists of objects with channel 0; in
+                               an object address, 0 is the channel itself */
     uint32_t index;         /* variables from 0; parameters and objects from 1 */
     uint32_t count;         /* number of descriptors to read */
     uint32_t size;          /* maximum number of bytes of content to read */
@@ -170,13 +175,13 @@ typedef struct AdsCncPart {
 /* --------------------------------------------------------------------------------- client */
 
 /* Encodes the data of a request to `buffer` and writes the call to send to `call`. 2048 bytes of room are
- * sufficient for all requests except those with contents. */
+ * sufficient for all requests except WriteElement and WriteObject. */
 bool ads_cnc_encode(const AdsCncRequest *request, uint8_t *buffer, uint32_t room, AdsCncCall *call,
                     AdsCncError *error);
 
 /* Checks the data of the reply to a request, and returns its fields in the order of the table and their number
  * in `count`. If `fields` is null, the fields are only counted. A reply to a Write has no fields. Pass the
- * received length, not the read length: see the README. */
+ * received length, not the read length: see "Common mistakes" in codec/bindings/README.md. */
 bool ads_cnc_decode_reply(const AdsCncRequest *request, const uint8_t *data, uint32_t length,
                           AdsCncField *fields, uint32_t room, uint32_t *count, AdsCncError *error);
 
@@ -335,7 +340,7 @@ typedef struct AdsCncFrame {
     uint32_t state_flags;  /* ADS_CNC_REQUEST or ADS_CNC_RESPONSE */
     uint32_t error;        /* AMS error number, 0 for none */
     uint32_t invoke_id;    /* a response has the invoke ID of its request */
-    AdsCncBytes data;      /* for a request, from ads_cnc_call_write; for a reply, the stream "read-reply",
+    AdsCncBytes data;      /* for a request, from ads_cnc_call_write; for the reply to it, the stream "read-reply",
                               "write-reply" or "read-write-reply" */
 } AdsCncFrame;
 
@@ -388,7 +393,8 @@ typedef struct AdsCncProgress {
  * first: in an error of kind ADS_CNC_LINE, `expected` is the line and `offset` the column. */
 bool ads_cnc_sender_start(AdsCncSender *sender, const uint8_t *text, uint32_t length, AdsCncError *error);
 
-/* The packet to write by WriteProgramStream, valid until the next call; false if no packet is left. */
+/* The packet to write by WriteProgramStream, valid until the next call; false if no packet is left or one was
+ * rejected. */
 bool ads_cnc_sender_packet(AdsCncSender *sender, AdsCncBytes *packet);
 
 /* Reports the result of writing the packet: ADS_CNC_ACCEPTED; ADS_CNC_BUSY, after which the caller waits about
@@ -423,8 +429,8 @@ typedef enum AdsCncStepKind {
 
 typedef struct AdsCncHostStep {
     uint32_t kind;           /* AdsCncStepKind */
-    uint32_t service;        /* index of the service in the IDs, from 0 */
-    uint32_t request_state;
+    uint32_t service;        /* to serve a request: index of the service in the IDs, from 0 */
+    uint32_t request_state;  /* to serve a request: its state */
     AdsCncBytes variable;    /* name of a variable */
     AdsCncBytes data;        /* a value, or the text of a request in CP1252; valid until the next call */
 } AdsCncHostStep;
@@ -453,8 +459,9 @@ bool ads_cnc_host_answer(AdsCncHost *host, const uint8_t *response, uint32_t len
  * taken effect. ADS_CNC_POLL: the wait is over. ADS_CNC_RESTART: the CNC was reset, or the connection is new. */
 bool ads_cnc_host_event(AdsCncHost *host, uint32_t event);
 
-/* The outcome of the last answer: ADS_CNC_ANSWERED, or ADS_CNC_ABANDONED if the program did not wait for it.
- * ADS_CNC_NO_OUTCOME before the first answer, while an answer is written, and if the host was never started. */
+/* The outcome of the last answer: ADS_CNC_ANSWERED, or ADS_CNC_ABANDONED if the variables no longer contained the
+ * request. ADS_CNC_NO_OUTCOME before the first answer, until the outcome of an answer is known, and if the host
+ * was never started. */
 uint32_t ads_cnc_host_outcome(const AdsCncHost *host);
 
 #ifdef __cplusplus

@@ -30,8 +30,8 @@ pub struct AdsCncGroup {
     pub instance: u32,
 }
 
-/// Names of attributes that the codec displays but does not return as `&str`. A test compares them with the
-/// displayed names.
+/// Names of attributes that the codec displays but does not return as `&str`. A test compares them
+/// with the displayed names.
 pub(crate) const ATTRIBUTES: [&str; 7] =
     ["content", "name", "type", "length", "unit", "write flag", "object address"];
 const ALL_ATTRIBUTES: [Attribute; 7] = Attribute::ALL;
@@ -144,8 +144,8 @@ pub unsafe extern "C" fn ads_cnc_offset_parts(
 /// Parses the name of a variable.
 ///
 /// # Safety
-/// `name` points to `length` bytes, `parts` to memory for `room` values; `count` and `error` are null or
-/// point to memory for one value.
+/// `name` points to `length` bytes, `parts` is null or points to memory for `room` values; `count`
+/// and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_path(
     name: *const u8,

@@ -16,9 +16,10 @@ pub struct AdsCncError {
     pub kind: u32,
     /// The number of the stream at fault, or `ADS_CNC_NONE`.
     pub stream: u32,
-    /// The number of the field at fault; `ADS_CNC_NONE` for the stream as a whole.
+    /// The number of the field at fault; `ADS_CNC_NONE` for the stream as a whole, or without a
+    /// stream.
     pub field: u32,
-    /// The offset of the field in the stream, in bytes.
+    /// The offset of the fault in the stream, in bytes; in a text or name, in characters.
     pub offset: u32,
     /// A number whose meaning depends on the kind, such as the expected length.
     pub expected: u32,
@@ -26,7 +27,7 @@ pub struct AdsCncError {
     pub found: u32,
     /// The name of the stream or other subject at fault.
     pub subject: AdsCncBytes,
-    /// The name of the field or argument.
+    /// The name of the field or argument, or empty.
     pub name: AdsCncBytes,
     /// A description of the kind.
     pub text: AdsCncBytes,
@@ -41,13 +42,14 @@ pub(crate) enum Fault {
     NoFunction,
     NoStream,
     NoField,
-    /// The name of an argument whose value the function does not accept.
+    /// The name of an argument or field whose value the function does not accept.
     Argument(&'static str),
     /// The memory of the caller is too small: the numbers of items needed and available.
     Room(u32, u32),
     /// The sender or host was never started.
     NotStarted,
-    /// A line of an NC program that cannot be sent: line, column, the number found, and a description.
+    /// A line of an NC program that cannot be sent: line, column, the number found, and a
+    /// description.
     Line(u32, u32, u32, &'static str),
     /// A received call that cannot be dispatched.
     Dispatch(DispatchError),

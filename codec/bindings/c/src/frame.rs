@@ -66,8 +66,8 @@ impl AdsCncFrame {
 /// Encodes a frame, including both lengths.
 ///
 /// # Safety
-/// `frame` points to a frame, and the frame to its data; `buffer` points to `room` bytes; `length` and
-/// `error` are null or point to memory for one value.
+/// `frame` points to a frame, and the frame to its data; `buffer` points to `room` bytes; `length`
+/// and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_frame_write(
     frame: *const AdsCncFrame,
@@ -91,7 +91,8 @@ pub unsafe extern "C" fn ads_cnc_frame_write(
 /// Decodes the first received frame; `used` is its length, or 0 if the frame is not complete yet.
 ///
 /// # Safety
-/// `data` points to `length` bytes; `frame`, `used` and `error` are null or point to memory for one value.
+/// `data` points to `length` bytes; `frame`, `used` and `error` are null or point to memory for one
+/// value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_frame_read(
     data: *const u8,
@@ -133,8 +134,8 @@ pub unsafe extern "C" fn ads_cnc_frame_read(
 /// Encodes the data of the frame for a call: a Read, Write or ReadWrite request.
 ///
 /// # Safety
-/// `call` points to a call, and the call to its data; `buffer` points to `room` bytes; `length` and `error`
-/// are null or point to memory for one value.
+/// `call` points to a call, and the call to its data; `buffer` points to `room` bytes; `length` and
+/// `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_call_write(
     call: *const AdsCncCall,
@@ -156,8 +157,8 @@ pub unsafe extern "C" fn ads_cnc_call_write(
 /// Decodes the call in a frame that is a Read, Write or ReadWrite request.
 ///
 /// # Safety
-/// `frame` points to a frame, and the frame to its data; `call` and `error` are null or point to memory for
-/// one value.
+/// `frame` points to a frame, and the frame to its data; `call` and `error` are null or point to
+/// memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_call_read(
     frame: *const AdsCncFrame,

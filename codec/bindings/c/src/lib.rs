@@ -1,9 +1,9 @@
 //! The codec for C and for languages that call C. `include/ads_cnc.h` documents it.
 //!
-//! The library has no allocator, no globals and no ownership: the caller provides all memory, nothing
-//! is freed, and any thread may call any function. Structs consist of numbers and pointers. A wrong
-//! number is an error. An invalid pointer, or a length that exceeds the memory at its pointer, is
-//! undefined behaviour.
+//! The library has no allocator, no globals and no ownership: the caller provides all memory,
+//! nothing is freed, and any thread may call any function. Structs consist of numbers and pointers.
+//! Any number is safe to pass. An invalid pointer, or a length that exceeds the memory at its
+//! pointer, is undefined behaviour.
 
 #![cfg_attr(not(test), no_std)]
 
@@ -30,7 +30,7 @@ pub use request::{AdsCncCall, AdsCncRequest};
 pub use stream::{AdsCncField, AdsCncPart};
 pub use tables::{AdsCncFieldInfo, AdsCncFunctionInfo, AdsCncStreamInfo, AdsCncType};
 
-/// The number of a function, stream or field that does not exist.
+/// Stands for no function, stream or field.
 pub const ADS_CNC_NONE: u32 = u32::MAX;
 
 /// The ABI of the library. Programs built with a header of another ABI must not use this library.
@@ -56,9 +56,9 @@ const fn decimal(mut digits: &[u8]) -> u32 {
     number
 }
 
-/// The panic handler refers to an undefined symbol. No function can reach a panic, so a release build does
-/// not contain this reference; `codec/bindings/run` verifies this. If the linker reports the symbol, the
-/// build is less optimised than the proof requires.
+/// The panic handler refers to an undefined symbol. No function can reach a panic, so a release
+/// build does not contain this reference; `codec/bindings/run` verifies this. If the linker reports
+/// the symbol, the build may be less optimised than this check requires.
 #[cfg(not(any(test, debug_assertions)))]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {

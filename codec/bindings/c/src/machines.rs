@@ -1,4 +1,5 @@
-//! The state machines: the sender of an NC program and the host of services, in memory of the caller.
+//! The state machines: the sender of an NC program and the host of services, in memory of the
+//! caller.
 
 use core::mem::MaybeUninit;
 
@@ -26,8 +27,8 @@ macro_rules! machine {
 
         impl $memory {
             /// # Safety
-            /// `it` is null, or points to memory for a machine that is not accessed elsewhere during the
-            /// call.
+            /// `it` is null, or points to memory for a machine that is not accessed elsewhere
+            /// during the call.
             unsafe fn start(it: *mut Self, state: $state) -> Result<(), Fault> {
                 if it.is_null() {
                     return Err(Fault::Pointer);
@@ -41,7 +42,7 @@ macro_rules! machine {
             }
 
             /// # Safety
-            /// `it` is null, or points to initialised memory, which need not be a started machine.
+            /// `it` is null, or points to a machine that was started, or to memory that is zero.
             unsafe fn state(it: *const Self) -> Result<*mut $state, Fault> {
                 if it.is_null() {
                     return Err(Fault::Pointer);
@@ -159,8 +160,8 @@ fn line_fault(kind: LineErrorKind) -> (u32, &'static str) {
 /// cannot be sent, `expected` of the error is the line, and `offset` the column.
 ///
 /// # Safety
-/// `sender` points to memory for a sender; `text` points to `length` bytes, which stay valid as long as the
-/// sender is used; `error` is null or points to memory for one value.
+/// `sender` points to memory for a sender; `text` points to `length` bytes, which stay valid as
+/// long as the sender is used; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_start(
     sender: *mut AdsCncSender,
@@ -185,8 +186,8 @@ pub unsafe extern "C" fn ads_cnc_sender_start(
 /// accepted, a packet was rejected, or the sender was never started.
 ///
 /// # Safety
-/// `sender` points to a sender that was started and whose text is still valid; `packet` is null or points
-/// to memory for one value.
+/// `sender` points to memory that is zero, or to a sender that was started and whose text is still
+/// valid; `packet` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_packet(
     sender: *mut AdsCncSender,
@@ -203,7 +204,8 @@ pub unsafe extern "C" fn ads_cnc_sender_packet(
 /// unknown acknowledgement.
 ///
 /// # Safety
-/// `sender` points to a sender that was started and whose text is still valid.
+/// `sender` points to memory that is zero, or to a sender that was started and whose text is still
+/// valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_acknowledge(
     sender: *mut AdsCncSender,
@@ -232,7 +234,8 @@ pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
 /// Returns the progress of a sender in `progress`; returns false if the sender was never started.
 ///
 /// # Safety
-/// `sender` points to a sender that was started; `progress` is null or points to memory for one value.
+/// `sender` points to memory that is zero, or to a sender that was started and whose text is still
+/// valid; `progress` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_sender_progress(
     sender: *const AdsCncSender,
@@ -286,8 +289,8 @@ pub unsafe extern "C" fn ads_cnc_service_id(
 /// Starts a host of services on one channel.
 ///
 /// # Safety
-/// `host` points to memory for a host; `ids` points to `count` IDs, which stay valid as long as the host is
-/// used; `error` is null or points to memory for one value.
+/// `host` points to memory for a host; `ids` points to `count` IDs, which stay valid as long as the
+/// host is used; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_start(
     host: *mut AdsCncHost,
@@ -306,12 +309,12 @@ pub unsafe extern "C" fn ads_cnc_host_start(
     unsafe { told(start(), error) }
 }
 
-/// Returns the next step in `step`. It stays the same until its completion is reported. Returns
-/// false if the host was never started.
+/// Returns the next step in `step`. The step stays the same until its completion is reported.
+/// Returns false if the host was never started.
 ///
 /// # Safety
-/// `host` points to a host that was started and whose IDs are still valid; `step` is null or points to
-/// memory for one value.
+/// `host` points to memory that is zero, or to a host that was started and whose IDs are still
+/// valid; `step` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_step(
     host: *const AdsCncHost,
@@ -340,8 +343,8 @@ pub unsafe extern "C" fn ads_cnc_host_step(
             kind: 3,
             service: it.ids.iter().position(|id| core::ptr::eq(id, uuid)).map_or(0, to_u32),
             request_state,
-            // The request to serve is the last request that was read: a host hands out a request
-            // when two reads are equal.
+            // The request to serve is the last request that was read, because a host returns it
+            // after two equal reads.
             data: it.request.get(..it.length).map_or(AdsCncBytes::NONE, AdsCncBytes::of),
             ..none
         },
@@ -354,8 +357,8 @@ pub unsafe extern "C" fn ads_cnc_host_step(
 /// Reports the value that was read.
 ///
 /// # Safety
-/// `host` points to a host that was started and whose IDs are still valid; `value` points to `length`
-/// bytes; `error` is null or points to memory for one value.
+/// `host` points to memory that is zero, or to a host that was started and whose IDs are still
+/// valid; `value` points to `length` bytes; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_read(
     host: *mut AdsCncHost,
@@ -372,12 +375,12 @@ pub unsafe extern "C" fn ads_cnc_host_read(
     unsafe { told(read(), error) }
 }
 
-/// Answers the request that the host has handed out, with a CP1252 text without a NUL and a state that is
-/// not 0.
+/// Answers the request that the last step has returned, with a CP1252 text without a NUL and a
+/// state that is not 0.
 ///
 /// # Safety
-/// `host` points to a host that was started and whose IDs are still valid; `response` points to `length`
-/// bytes; `error` is null or points to memory for one value.
+/// `host` points to memory that is zero, or to a host that was started and whose IDs are still
+/// valid; `response` points to `length` bytes; `error` is null or points to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_answer(
     host: *mut AdsCncHost,
@@ -399,7 +402,8 @@ pub unsafe extern "C" fn ads_cnc_host_answer(
 /// Returns false for an unknown event, or if the host was never started.
 ///
 /// # Safety
-/// `host` points to a host that was started and whose IDs are still valid.
+/// `host` points to memory that is zero, or to a host that was started and whose IDs are still
+/// valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_event(host: *mut AdsCncHost, event: u32) -> bool {
     // SAFETY: the caller's contract.
@@ -415,10 +419,12 @@ pub unsafe extern "C" fn ads_cnc_host_event(host: *mut AdsCncHost, event: u32) -
 }
 
 /// The outcome of the last answer: `ADS_CNC_ANSWERED`, `ADS_CNC_ABANDONED`, or `ADS_CNC_NO_OUTCOME`
-/// before the first answer, while an answer is written, and if the host was never started.
+/// before the first answer, until the outcome of an answer is known, and if the host was never
+/// started.
 ///
 /// # Safety
-/// `host` points to a host that was started.
+/// `host` points to memory that is zero, or to a host that was started and whose IDs are still
+/// valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_host_outcome(host: *const AdsCncHost) -> u32 {
     // SAFETY: the caller's contract.

@@ -38,7 +38,8 @@ pub(crate) fn to_usize(length: u32) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }
 
-/// Checks that a slice can have this number of items, and that the pointer to them is not null.
+/// Checks that a slice can have this number of items, and that the pointer is not null unless they
+/// have no bytes. Returns the number.
 fn items<T>(data: *const T, count: u32) -> Result<usize, Fault> {
     let count = to_usize(count);
     let size = count.checked_mul(size_of::<T>()).and_then(|size| isize::try_from(size).ok());
@@ -50,7 +51,8 @@ fn items<T>(data: *const T, count: u32) -> Result<usize, Fault> {
 }
 
 /// # Safety
-/// `data` is null, or points to `count` initialised, aligned items that are not written during `'a`.
+/// `data` is null, or points to `count` initialised, aligned items that are not written during
+/// `'a`.
 pub(crate) unsafe fn slice<'a, T>(data: *const T, count: u32) -> Result<&'a [T], Fault> {
     match items(data, count)? {
         0 => Ok(&[]),
@@ -67,7 +69,8 @@ pub(crate) unsafe fn bytes<'a>(data: *const u8, length: u32) -> Result<&'a [u8],
 }
 
 /// # Safety
-/// `data` is null, or points to `length` bytes that only the returned reference accesses during `'a`.
+/// `data` is null, or points to `length` bytes that only the returned reference accesses during
+/// `'a`.
 pub(crate) unsafe fn room<'a>(data: *mut u8, length: u32) -> Result<&'a mut [u8], Fault> {
     match items(data.cast_const(), length)? {
         0 => Ok(&mut []),
@@ -111,8 +114,8 @@ pub(crate) unsafe fn fill(
     Ok(())
 }
 
-/// Writes to item `at` of an array of the caller; does nothing if the array is null or `at` is after its
-/// end.
+/// Writes to item `at` of an array of the caller; does nothing if the array is null or `at` is
+/// after its end.
 ///
 /// # Safety
 /// `array` is null, or points to aligned memory for `room` items.

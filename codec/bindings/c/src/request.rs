@@ -21,11 +21,13 @@ use crate::tables::{argument, function, service};
 pub struct AdsCncRequest {
     /// The number of the function.
     pub function: u32,
-    /// The channel, from 1; 0 is the platform, for functions that support it.
+    /// The channel, from 1; 0 is the platform, for functions that support it. For the object
+    /// address of a spindle, the index of the spindle.
     pub channel: u32,
     /// 1 if `channel` counts only the active channels (addressing by index), otherwise 0.
     pub by_index: u32,
-    /// An axis of the channel, from 1; for a list of objects with channel 0, a platform axis.
+    /// An axis of the channel, from 1; for a list of objects with channel 0, a platform axis; in an
+    /// object address, 0 is the channel itself.
     pub axis: u32,
     /// The index of a variable, from 0, or of a parameter or an object, from 1.
     pub index: u32,
@@ -96,8 +98,8 @@ impl AdsCncCall {
     }
 }
 
-/// Names that the codec displays but does not return as `&str`. A test compares them with the displayed
-/// names.
+/// Names that the codec displays but does not return as `&str`. A test compares them with the
+/// displayed names.
 pub(crate) const KINDS: [&str; 4] = ["P", "V.L", "V.P", "V.S"];
 pub(crate) const CLASSES: [&str; 6] =
     ["position controller", "interpolator", "decoder", "HLD", "path preparation", "spindle"];
@@ -185,7 +187,8 @@ impl<'a> Arguments<'a> {
     }
 }
 
-/// Builds each operation from its arguments. The tables of the codec define which arguments a function has.
+/// Builds each operation from its arguments. A test checks that a function needs the arguments that
+/// `ads_cnc_function_info` lists for it.
 macro_rules! operations {
     ($all:ident: $( $how:ident $function:ident($( $argument:expr ),+); )+) => {
         fn made<'a>(function: Function, $all: &Arguments<'a>) -> Result<Request<'a>, Fault> {
@@ -242,8 +245,8 @@ operations! { all:
 }
 
 /// # Safety
-/// `it` points to a request, and each pointer of the request to the number of items that the request
-/// states; none of these items is written during `'a`.
+/// `it` is null or points to a request, and each pointer of the request is null or points to the
+/// number of items that the request states; none of these items is written during `'a`.
 unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
     // SAFETY: the caller's contract.
     let it = unsafe { get(it)? };
@@ -263,8 +266,8 @@ unsafe fn request<'a>(it: *const AdsCncRequest) -> Result<Request<'a>, Fault> {
 /// Encodes the data of a request to `buffer`, and writes the call to send to `call`.
 ///
 /// # Safety
-/// Each pointer of the request points to the number of items that the request states; `buffer` points to
-/// `room` bytes; `call` and `error` are null or point to memory for one value.
+/// Each pointer of the request points to the number of items that the request states; `buffer`
+/// points to `room` bytes; `call` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_encode(
     request: *const AdsCncRequest,
@@ -288,9 +291,9 @@ pub unsafe extern "C" fn ads_cnc_encode(
 /// Checks the data of the reply to a request, and returns its fields.
 ///
 /// # Safety
-/// Each pointer of the request points to the number of items that the request states; `data` points to
-/// `length` bytes, `fields` to memory for `room` values; `count` and `error` are null or point to memory
-/// for one value.
+/// Each pointer of the request points to the number of items that the request states; `data` points
+/// to `length` bytes; `fields` is null or points to memory for `room` values; `count` and `error`
+/// are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_decode_reply(
     request: *const AdsCncRequest,
@@ -368,7 +371,7 @@ fn address(function: Function, call: &Call<'_>, it: &mut AdsCncRequest) {
 /// Sets the arguments that the data of a call contains.
 ///
 /// # Safety
-/// `indices` points to memory for `room` numbers.
+/// `indices` is null or points to memory for `room` numbers.
 unsafe fn data(
     function: Function,
     call: &Call<'_>,
@@ -404,12 +407,12 @@ unsafe fn data(
     }
 }
 
-/// Decodes a received call to its function and arguments. Names and values point into the data of the
-/// call; `indices` needs room for up to 510 indices.
+/// Decodes a received call to its function and arguments. Names and values point into the data of
+/// the call; `indices` needs room for up to 510 indices.
 ///
 /// # Safety
-/// `call` points to a call, and the call to its data; `indices` points to memory for `room` numbers;
-/// `request`, `ads_error` and `error` are null or point to memory for one value.
+/// `call` points to a call, and the call to its data; `indices` is null or points to memory for
+/// `room` numbers; `request`, `ads_error` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_dispatch(
     call: *const AdsCncCall,
@@ -442,8 +445,8 @@ pub unsafe extern "C" fn ads_cnc_dispatch(
     let number = match result {
         Ok(()) => 0,
         Err(Fault::Dispatch(error)) => error.ads_error().0,
-        // Other errors: an unknown command, a port of more than 16 bits, a null pointer, or too
-        // little room for the indices.
+        // Other errors, such as an unknown command, a port of more than 16 bits, a null pointer, or
+        // too little room for the indices.
         Err(_) => codec::ads::AdsError::SERVICE_NOT_SUPPORTED.0,
     };
     // SAFETY: the caller's contract.

@@ -37,7 +37,8 @@ pub struct AdsCncPart {
 }
 
 /// # Safety
-/// `fields` points to memory for `room` values; `count` is null or points to memory for one value.
+/// `fields` is null or points to memory for `room` values; `count` is null or points to memory for
+/// one value.
 pub(crate) unsafe fn walk(
     stream: Stream,
     data: &[u8],
@@ -79,8 +80,8 @@ pub(crate) unsafe fn walk(
 /// Checks a stream and returns its fields.
 ///
 /// # Safety
-/// `data` points to `length` bytes, `fields` to memory for `room` values; `count` and `error` are null or
-/// point to memory for one value.
+/// `data` points to `length` bytes; `fields` is null or points to memory for `room` values; `count`
+/// and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_decode(
     stream: u32,
@@ -142,8 +143,8 @@ unsafe fn part<'a>(stream: Stream, part: &AdsCncPart) -> Result<(Field, Bytes<'a
 /// Builds a stream from its fields.
 ///
 /// # Safety
-/// `parts` points to `count` parts, and each part to its data; `buffer` points to `room` bytes; `length`
-/// and `error` are null or point to memory for one value.
+/// `parts` points to `count` parts, and each part to its data; `buffer` points to `room` bytes;
+/// `length` and `error` are null or point to memory for one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ads_cnc_build(
     stream: u32,
@@ -194,8 +195,8 @@ impl Out<'_> {
 /// Converts a text, and writes the length of the result to `length`.
 ///
 /// # Safety
-/// `data` points to `size` bytes, `buffer` to memory for `room` bytes; `length` is null or points to
-/// memory for one value.
+/// `data` points to `size` bytes, `buffer` to memory for `room` bytes; `length` is null or points
+/// to memory for one value.
 unsafe fn convert(
     (data, size): (*const u8, u32),
     (buffer, room): (*mut u8, u32),

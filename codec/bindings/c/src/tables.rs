@@ -57,8 +57,7 @@ pub struct AdsCncFieldInfo {
     pub clause: AdsCncBytes,
     /// `ADS_CNC_NUMBER` and so on.
     pub kind: u32,
-    /// The size of a number, of an item of a list, or of a text of fixed length in bytes; 0 if it
-    /// varies.
+    /// The size of the field or of one item of a list in bytes; 0 if it varies.
     pub size: u32,
     /// 1 if the field counts the items or bytes of the next one.
     pub is_count: u32,
@@ -134,8 +133,9 @@ pub(crate) fn argument(field: Field) -> u32 {
     (1..).zip(ARGUMENTS).find(|(_, it)| *it == name).map_or(0, |(number, _)| number)
 }
 
-/// The arguments of a function and their number: those in its address, those in its data, and the
-/// one that determines its read length.
+/// The arguments that a function needs and their number: those in its address, those in its data,
+/// and the one that determines its read length. The optional `by_index`, and `axis` for a list of
+/// objects, are not among them.
 fn arguments(function: Function) -> ([u32; 8], u32) {
     let spec = function.spec();
     let group: &[u32] = match spec.group {

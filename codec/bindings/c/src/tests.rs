@@ -148,8 +148,8 @@ layouts! {
     AdsCncHostStep { kind, service, request_state, variable, data }
 }
 
-/// The structs in Rust have the layout in tests/layout.h. `codec/bindings/run` compiles tests/layout.c,
-/// which checks the structs of the C header against the same rows.
+/// The structs in Rust have the layout in tests/layout.h. `codec/bindings/run` compiles
+/// tests/layout.c, which checks the structs of the C header against the same rows.
 #[test]
 fn layouts_of_structs_equal_those_of_the_header() {
     let rows: Vec<&str> = include_str!("../tests/layout.h").lines().collect();

@@ -24,9 +24,9 @@ export interface Request<T> extends Call {
 export class AdsCncError extends Error {
   /** the stream or other subject at fault */
   stream: string;
-  /** the field or argument at fault */
+  /** the field or argument at fault, or empty */
   field: string;
-  /** the offset of the field in the stream */
+  /** the offset of the fault in the stream */
   offset: number;
   kind: string;
   expected: number;
@@ -92,7 +92,8 @@ export interface Field {
   data: Uint8Array;
 }
 
-/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats. */
+/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to null if it
+ * has no field. */
 export function decode(stream: string, data: Uint8Array): unknown;
 /** Encodes a stream, the inverse of `decode`. Bytes are written unchanged. */
 export function encode(stream: string, value: unknown): Uint8Array;
@@ -218,6 +219,6 @@ export class Host {
   poll(): void;
   /** Starts again, after a reset of the CNC or on a new connection. */
   restart(): void;
-  /** The outcome of the last answer; null before the first answer and while an answer is written. */
+  /** The outcome of the last answer; null before the first answer, and until the outcome of an answer is known. */
   get outcome(): 'answered' | 'abandoned' | null;
 }

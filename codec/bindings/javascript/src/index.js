@@ -1,5 +1,6 @@
 // A codec for the byte streams that read and write an ISG/TwinCAT CNC over ADS. The codec is WebAssembly;
-// ads_cnc.h documents its functions. The build appends generated code to this file.
+// ads_cnc.h documents its functions. The build puts the constant WASM_BASE64 before this file, and the functions
+// of the CNC after it.
 
 const ABI = 2,
   NONE = 0xffffffff;
@@ -249,7 +250,8 @@ function valueOf(stream, parts) {
   return rows.length === 1 ? records[0][camel(rows[0].name)] : records[0];
 }
 
-/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats. */
+/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to null if it
+ * has no field. */
 export const decode = (stream, data) => valueOf(named(stream), fields(stream, data));
 
 /** Encodes a stream, the inverse of `decode`. Bytes are written unchanged. */
@@ -662,7 +664,7 @@ export class Host {
     this.#event(3);
   }
 
-  /** The outcome of the last answer: 'answered' or 'abandoned'; null before the first and while one is written. */
+  /** The outcome of the last answer: 'answered' or 'abandoned'; null before the first, and until one is known. */
   get outcome() {
     return [null, 'answered', 'abandoned'][this.#it.use((at) => codec.ads_cnc_host_outcome(at))];
   }

@@ -173,7 +173,7 @@ class Servers(unittest.TestCase):
 
 
 class Limits(unittest.TestCase):
-    """The limits that the README lists."""
+    """The limits that codec/bindings/README.md lists."""
 
     def test_sum_commands_are_rejected(self):
         with self.assertRaises(ads_cnc.AdsCncError) as raised:

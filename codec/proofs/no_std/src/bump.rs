@@ -23,7 +23,8 @@ unsafe impl GlobalAlloc for Bump {
             return core::ptr::null_mut();
         }
         let block = self.block.get().cast::<u8>();
-        // SAFETY: `at + reach` is within the block, and aligning the address adds less than `align` bytes.
+        // SAFETY: `at + reach` is within the block, and aligning the address adds less than `align`
+        // bytes.
         unsafe {
             let free = block.add(at);
             free.add(free.align_offset(layout.align()))

@@ -17,7 +17,7 @@ mod bump;
 mod everything;
 mod memory;
 
-// Align the stack to 16 bytes, as calls require; the kernel does not guarantee this alignment.
+// Align the stack to 16 bytes, as the call of `main` requires.
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
 
 extern "C" fn main() -> ! {

@@ -1,5 +1,5 @@
 //! Functions that call generic functions of the codec with specific types, and functions that call
-//! an iterator of the codec until it ends.
+//! an iterator of the codec until it ends. `values` also keeps generic functions themselves.
 
 pub(crate) mod views {
     use ads_cnc::{CncStr, DescriptorRef, DescriptorsRef, U32List};

@@ -49,7 +49,8 @@ impl<'a> VariablePath<'a> {
         Ok(Self { text: CncStr::without_nul(bytes), kind_end, variable_end })
     }
 
-    /// Builds the name of an element of this array: the name with indices at its end.
+    /// Builds the name of an element of this array: the name of the array with these indices at its
+    /// end.
     ///
     /// ```
     /// use ads_cnc::{U32List, VariablePath};
@@ -157,7 +158,8 @@ impl<'a> VariablePath<'a> {
     }
 }
 
-/// Checks a part that begins after `before` characters; returns the start and the end of its indices.
+/// Checks a part whose dot follows `before` characters; returns the start and the end of its
+/// indices.
 fn check_part(part: PathPart<'_>, before: usize) -> Result<(usize, usize), Error> {
     let start = before.saturating_add(1);
     scan::part(part.name, start)?;

@@ -74,7 +74,8 @@ pub struct VariablePath<'a> {
     text: CncStr<'a>,
     /// The offset of the dot after the kind, in the bytes of the text.
     kind_end: usize,
-    /// The offset of the indices at the end, in the bytes of the text.
+    /// The offset of the indices at the end, or of the end if there are no indices, in the bytes of
+    /// the text.
     variable_end: usize,
 }
 
@@ -84,10 +85,12 @@ impl<'a> VariablePath<'a> {
     /// # Errors
     /// Offsets count characters.
     /// - Those of [`CncStr::new`].
-    /// - [`Unexpected`](crate::ErrorKind::Unexpected): an empty part, a double dot, a bracket or another
-    ///   character that a part must not contain, text after a bracket, or no kind.
-    /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, after a dot or in
-    ///   a bracket.
+    /// - [`Unexpected`](crate::ErrorKind::Unexpected): a name that does not begin with `V.`, an
+    ///   empty part before a dot or bracket, an index after the kind, an index that is empty or
+    ///   contains a character other than a decimal digit, text after an index, or `]` outside an
+    ///   index.
+    /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in or after its kind, after a
+    ///   dot or in an index.
     /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index greater than 4 294 967 294; an
     ///   index that exceeds 32 bits is reported as 4 294 967 295.
     /// - [`TooLong`](crate::ErrorKind::TooLong): more than 255 characters (VAR-9).
@@ -124,7 +127,8 @@ impl<'a> VariablePath<'a> {
         Kind::from_field(self.text.split_at(self.kind_end).0.into())
     }
 
-    /// The parts after the kind: any structures, then the variable. There is at least one part.
+    /// The parts after the kind: any structures, then the variable, then the axis in a V.A name for
+    /// the channel interface. There is at least one part.
     ///
     /// ```
     /// use ads_cnc::{U32List, VariablePath};

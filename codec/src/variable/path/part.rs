@@ -6,7 +6,7 @@ use core::iter::FusedIterator;
 use super::super::U32List;
 use crate::text::CncStr;
 
-/// A part of a name: a structure or the variable, with its indices.
+/// A part of a name: a structure, the variable or the axis, with its indices.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20).
 ///

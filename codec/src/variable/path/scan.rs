@@ -1,4 +1,4 @@
-//! Parses and checks a name in one pass.
+//! Parses and checks the name of a variable.
 
 use super::super::u32_list::decimal;
 use super::INDEX_MAX;
@@ -9,7 +9,8 @@ use crate::layout::{Field, Subject};
 use crate::limits::NAME_MAX;
 use crate::text::CncStr;
 
-/// The end of a name's kind and the start of its last indices, as offsets in [`CncStr::raw`].
+/// The end of a name's kind, and the end of the name without the indices at its end, as offsets in
+/// [`CncStr::raw`].
 pub(super) struct Ends {
     pub(super) kind: usize,
     pub(super) variable: usize,

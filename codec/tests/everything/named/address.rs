@@ -1,4 +1,5 @@
-//! Calls the functions of index groups and index offsets.
+//! Calls the functions of channels, axes, spindles and elements, and of index groups and index
+//! offsets.
 
 use ads_cnc::address::{Access, Attribute, AxisStride, Class};
 use ads_cnc::*;

@@ -1,6 +1,6 @@
-//! Calls every public function that exists without features by its path, with arguments that the
-//! compiler does not know. The script `proofs/reached.py` compares the paths with the list of the
-//! public API.
+//! Calls the public functions that exist without features by their paths, with arguments that the
+//! compiler does not know. The script `proofs/reached.py` compares the paths in this folder and in
+//! its parent with the list of the public API.
 
 mod address;
 mod machines;
@@ -13,7 +13,7 @@ use core::hint::black_box;
 
 use ads_cnc::CncStr;
 
-/// The length of a buffer that is large enough for any stream of variables.
+/// The length in bytes of a buffer that is large enough for any stream of variables.
 const ROOM: usize = 2200;
 
 /// Returns the value in a way that hides it from the compiler.

@@ -6,8 +6,8 @@ use ads_cnc::*;
 
 use super::{ROOM, any, seen, text};
 
-/// Calls every method of the operation, and decodes the bytes as the reply to it. Returns the
-/// operation.
+/// Calls the methods of the trait `Operation` on the operation, such as `decode_reply` with the
+/// bytes as the reply. Returns the operation; `None` for an error.
 fn ask<'a, T: operation::Operation + Into<Request<'a>>>(
     op: Result<T, Error>,
     bytes: &[u8],
@@ -83,7 +83,8 @@ pub(super) fn makers(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Calls constructors with names and values of several of the types that they accept.
+/// Converts names and values of several of the types that constructors accept, and makes writes
+/// with these values.
 fn arguments(channel: Channel, handle: Handle, bytes: &[u8]) -> Result<(), Error> {
     let text = text(bytes, "V.E.a");
     let path = VariablePath::new(text)?;

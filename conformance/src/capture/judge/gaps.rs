@@ -1,5 +1,5 @@
-//! Handles gaps in a capture, and makes the requirements inconclusive that cannot be judged because
-//! of a gap.
+//! Handles gaps, bytes that are not whole frames, and the ends of connections; makes the
+//! requirements inconclusive that cannot be judged because of missing bytes.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::AMS_HEADER_LEN;
@@ -150,7 +150,8 @@ impl TrafficJudge {
             }
         }
         // If the capture does not contain the beginning of the connection, these replies may belong
-        // to requests that were sent before the capture began.
+        // to requests that were sent before the capture began; if a request was dropped, to the
+        // dropped request.
         let unasked = lost.unasked.iter().filter(|_| !lost.joined && !lost.is_running);
         for reply in unasked {
             self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());

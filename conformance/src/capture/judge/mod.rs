@@ -42,7 +42,8 @@ struct ConnectionLoss {
     /// Whether requests may have been sent before the capture began, although all later frames were
     /// captured.
     is_running: bool,
-    /// The number of the last packet that follows a gap.
+    /// The number of the last packet that follows a gap, or that contains bytes that are not a
+    /// frame.
     gap: Option<u64>,
     /// The first few replies for which no request was captured.
     unasked: Vec<CapturedFrame>,
@@ -69,7 +70,7 @@ pub(super) struct TrafficJudge {
     waiting_ids: BTreeSet<(u32, u64)>,
     /// For each connection, the numbers and invoke IDs of its waiting requests.
     waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
-    /// Memory of all waiting requests in bytes.
+    /// Memory of all waiting requests in bytes, estimated.
     waiting_bytes: usize,
     early: EarlyReplies,
     lost: BTreeMap<u64, ConnectionLoss>,

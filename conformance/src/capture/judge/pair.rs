@@ -21,11 +21,12 @@ const WAITING_BYTES_MAX: usize = 0x100_0000;
 const EARLY_MAX: usize = 4096;
 const EARLY_BYTES_MAX: usize = 0x100_0000;
 
-/// Maximum number of packets by which a reply may be captured before its request.
+/// Maximum number of packets by which a reply, or a gap that may contain a reply, may be captured
+/// before its request.
 pub(super) const REORDERED_MAX: u64 = 256;
 
-/// Maximum number of requests or replies with the same invoke ID that are compared. If packets were
-/// captured out of order, fewer requests and replies have to be compared.
+/// Maximum number of requests or replies with the same invoke ID that are compared; more than
+/// [`REORDERED_MAX`], the number of packets that may be out of order.
 const ALIKE_MAX: usize = 512;
 
 /// Maximum number of replies without a request that are shown for a connection, and maximum number
@@ -67,7 +68,7 @@ impl EarlyReplies {
     }
 }
 
-/// Memory in bytes that a waiting request needs in addition to its frame.
+/// Memory in bytes that a waiting request needs in addition to its frame, estimated.
 const WAITING_OVERHEAD: usize = 1280;
 
 impl CapturedFrame {
@@ -190,8 +191,9 @@ impl TrafficJudge {
             request_frame.mirrors(reply) && !request_frame.follows(reply)
         };
         let index = self.waiting.get(&key).and_then(|all| {
-            // A client reuses an invoke ID only after it has received the reply to the earlier
-            // request. That reply was lost in the gap, so this reply belongs to the latest request.
+            // A client should reuse an invoke ID only after it has received the reply to the
+            // earlier request. That reply is assumed to be lost in the gap, so this reply is taken
+            // as that to the latest request.
             if lost {
                 let latest = (0..all.len()).rev().take(ALIKE_MAX);
                 latest.into_iter().find(|&index| all.get(index).is_some_and(matches))
@@ -273,7 +275,7 @@ impl TrafficJudge {
         }
     }
 
-    /// Judges a reply without a request, once the connection has ended.
+    /// Judges a reply without a request, once its connection or the capture has ended.
     pub(super) fn unasked(&mut self, reply: &CapturedFrame, is_open: bool) {
         let observation =
             CapturedFrames::Bytes(&reply.frame, location(&reply.direction, None, Some(reply.span)));

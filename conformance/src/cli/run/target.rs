@@ -1,4 +1,4 @@
-//! Runs the suite against a device or the simulated CNC.
+//! Runs the suite against a device or the simulated CNC, and fills in a profile for a device.
 
 use std::path::Path;
 use std::time::Instant;
@@ -35,8 +35,8 @@ impl Run {
         let deadline = self.deadline.begin();
         let session = target.with_malformed(self.malformed).open()?;
         let mut session = session.with_deadline(deadline);
-        // The run ends if the device does not reply to a first query. Afterwards, each case judges
-        // a missing reply.
+        // The run ends if the device does not reply to a first query. Afterwards, the cases judge
+        // missing replies.
         match session.check_reachable(&profile) {
             Ok(()) => {}
             Err(ToolError::NotSent) => {
@@ -216,7 +216,8 @@ fn has_written(outcome: &CaseOutcome) -> bool {
     outcome.case.needs == Needs::Writes && outcome.verdicts.iter().any(judged)
 }
 
-/// The device information and the ADS state; `None` if the target returns no device information.
+/// The device information and the ADS state of the COM task; `None` if the target returns no device
+/// information.
 fn of_itself(session: &mut session::Session) -> Option<DeviceReport> {
     let info = session.device_info(Task::Com).ok()?;
     let state = session.device_state(Task::Com).ok();

@@ -24,8 +24,8 @@ const GRACE: Duration = Duration::from_millis(500);
 const POLL_INTERVAL: Duration = Duration::from_millis(5);
 
 /// Maximum number of ended commands whose stdout a process still keeps open. Each such stdout
-/// occupies a thread of this tool. Only a process with its own process group can outlive the
-/// command.
+/// occupies a thread of this tool. The process was started by the command and, on Unix, has its own
+/// process group: other processes are ended with the command.
 const HOLDERS_MAX: usize = 8;
 
 /// The command that answers each request.
@@ -126,7 +126,7 @@ impl CapturedOutput {
                 drop(tell);
             };
             if thread::Builder::new().name("stdout".to_owned()).spawn(read).is_err() {
-                // Without the thread, no output is read, so the response of the service is empty.
+                // Without the thread, no output is read, so the response contains no output.
                 readers.fetch_sub(1, Ordering::SeqCst);
             }
         }

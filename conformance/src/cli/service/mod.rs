@@ -170,7 +170,7 @@ impl ServiceArgs {
 
     fn serve(&self) -> Result<(), ToolError> {
         let channel = self.channel.channel;
-        // Check the writes before the first poll: an NC program would wait forever for an answer
+        // Check the writes before the first poll: an NC program would wait in vain for an answer
         // that the gate does not allow.
         let check = |session: &Session| {
             use ServiceVariable::{RequestState, Response, ResponseState};
@@ -206,8 +206,8 @@ impl ServiceArgs {
         ));
         while answers.is_none_or(|answers| serving.answered < answers) {
             let is_idle = serving.step(&mut session)?;
-            // Exit only before a wait, so that the writes of an answer are completed unless the CNC
-            // rejects one of them.
+            // A signal ends the loop only before a wait, so that the writes of an answer are
+            // completed unless one of them fails.
             if is_idle && (serving.is_enough(answers) || interrupt.sleep(self.poll)) {
                 break;
             }
@@ -292,7 +292,8 @@ impl Serving<'_> {
         }
     }
 
-    /// Prints the outcome of the last answer, unless it was printed before, and counts the answer.
+    /// Prints the outcome of the last answer, unless it was printed before, and counts the answer
+    /// unless it was dropped.
     fn print_outcome(&mut self) -> Result<(), ToolError> {
         let Some(served) = self.served.take() else { return Ok(()) };
         match self.host.outcome() {

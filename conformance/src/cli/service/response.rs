@@ -95,8 +95,9 @@ pub(super) fn answer(ended: &CommandEnd, stdout: &[u8]) -> ServiceResponse {
     ServiceResponse { response, state: ended.state(), warnings }
 }
 
-/// Converts the output of a command to CP1252, and removes its last line end and the bytes from the
-/// first NUL on. Output that is not UTF-8 is taken as CP1252.
+/// Converts the output of a command to CP1252, and removes the bytes from the first NUL on and then
+/// the last line end. Output that is not UTF-8 is taken as CP1252, unless only the limit of the
+/// stored output cuts its last character.
 fn cp1252(stdout: &[u8], warnings: &mut Vec<String>) -> Vec<u8> {
     let mut bytes = match std::str::from_utf8(stdout) {
         Ok(text) => to_cp1252(text, warnings),
@@ -139,7 +140,7 @@ mod tests {
     use super::*;
 
     fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
-        // With `Interrupted`, `answer` changes only an empty response.
+        // `Interrupted` adds no warning, and its reason replaces only an empty response.
         let ServiceResponse { response, warnings, .. } = answer(&CommandEnd::Interrupted, stdout);
         (response.as_bytes().to_vec(), warnings)
     }

@@ -15,8 +15,9 @@ pub(super) struct CheckedText<'a> {
     pub(super) ends: usize,
 }
 
-/// Checks a text and prints a line for each of the first [`SHOWN_MAX`] diagnostics. Returns `None`
-/// if a line cannot be sent.
+/// Checks a text and prints a message for each line that cannot be sent; if all lines can be sent,
+/// for each diagnostic. Prints at most the first [`SHOWN_MAX`] messages. Returns `None` if a line
+/// cannot be sent.
 pub(super) fn check<'a>(
     bytes: &'a [u8],
     name: &str,
@@ -93,7 +94,7 @@ mod tests {
         (String::from_utf8(out).unwrap(), ends)
     }
 
-    /// The number of the first line is the same as in the error of the codec.
+    /// The number of the first reported line is the same as in the error of the codec.
     #[test]
     fn every_line_that_cannot_be_sent_is_reported() {
         let long = [&b"\r"[..], &[b'X'; 991]].concat();

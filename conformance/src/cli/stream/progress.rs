@@ -39,7 +39,7 @@ impl StreamProgress {
     }
 
     /// If an update is due, shows how much the CNC has accepted and, if `waits` is set, why the
-    /// command waits.
+    /// command waits. With --quiet, shows nothing.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
         let due = if !self.line.live {
             LINE_INTERVAL

@@ -1,4 +1,5 @@
-//! Sends packets until the CNC has accepted all of them.
+//! Sends the packets of a program until the CNC has accepted all of them, or an error or a signal
+//! ends the sending.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -28,9 +29,9 @@ pub(super) enum SendEnd {
     Interrupted,
     /// A packet was rejected as busy more often than `Retry::times`.
     GivenUp(AdsError),
-    /// A packet was rejected with another error, or not sent.
+    /// A packet was rejected with another error or not sent, or an internal error occurred.
     Stopped(ToolError),
-    /// A packet was sent, but without a valid reply it is unknown whether the CNC accepted it.
+    /// Without a valid reply, it is unknown whether the CNC accepted a packet.
     Unknown(ToolError),
 }
 
@@ -41,7 +42,7 @@ pub(super) struct Sending<'a> {
     pub(super) retry: Retry,
     /// Total number of times that the CNC rejected a packet as busy.
     pub(super) busy_rejections: u64,
-    /// Number of lines in the last packet sent.
+    /// Number of lines in the last packet that was sent or was to be sent.
     pub(super) out: usize,
 }
 

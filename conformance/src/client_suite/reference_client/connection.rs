@@ -1,4 +1,5 @@
-//! Sends the requests of this project's client and receives the replies; a defect changes their bytes.
+//! Sends the requests of this project's client and receives the replies; a defect may change their
+//! bytes.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
@@ -17,7 +18,8 @@ use crate::number::to_usize;
 use crate::simulator::DATA_MAX;
 use crate::text::plural;
 
-/// How long to wait for a connection, and for a reply.
+/// How long to wait for a connection and for the bytes of each read; also the time after which an
+/// incomplete reply is no longer awaited.
 const TIMEOUT: Duration = Duration::from_secs(3);
 
 pub(super) struct Connection {

@@ -1,5 +1,5 @@
-//! This project's client, optionally with a defect. It is an example of the client protocol, and the
-//! self-test tests the suite with it.
+//! This project's client, optionally with a defect. It is an example of the client protocol, and
+//! the self-test tests the suite with it.
 
 mod actions;
 mod apply_defect;

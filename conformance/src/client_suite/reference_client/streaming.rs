@@ -18,8 +18,8 @@ use crate::client_suite::message::DONE;
 /// Pause before the client repeats a packet, or reads a state again.
 pub(super) const PAUSE: Duration = Duration::from_millis(10);
 
-/// Maximum time for which the client repeats a packet that the CNC rejects as busy, and for which it
-/// waits for the response to a request over the Service Interface.
+/// Maximum time for which the client repeats a packet that the CNC rejects as busy, and for which
+/// it waits for the response to a request over the Service Interface.
 pub(super) const WAIT_MAX: Duration = Duration::from_secs(10);
 
 pub(super) fn stream(

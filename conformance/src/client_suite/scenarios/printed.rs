@@ -1,5 +1,5 @@
-//! Scenarios with the examples printed in the manuals. The suite compares the client's request with the
-//! bytes of the vectors, and replies with such bytes, without the codec.
+//! Scenarios with the examples printed in the manuals. The suite compares the client's request with
+//! the bytes of the vectors, and replies with such bytes, without the codec.
 
 use ads_cnc_vectors::{AdsService, Direction, Vector, vector};
 use serde_json::{Value, json};
@@ -9,8 +9,8 @@ use crate::client_suite::literal::Literal;
 use crate::client_suite::scenario::ExpectedRequest;
 use crate::judge::Rule;
 
-/// The action, the expected result and the vector of each example. The vector contains the request or
-/// the reply.
+/// The action, the expected result and the vector of each example. The vector contains the reply
+/// or, for a write, the request.
 fn examples() -> Vec<(&'static str, Value, &'static str)> {
     let array = json!([123, 234, 345, 456, 567]);
     vec![

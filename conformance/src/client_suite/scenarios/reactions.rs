@@ -1,5 +1,5 @@
-//! Scenarios with replies that are split, repeated, late, missing or invalid: the client must
-//! return the right value or an error, never another value, and must not crash.
+//! Scenarios with replies that are split, repeated, late, missing, unusual or invalid: the client
+//! must return the right value or an error, as the scenario says, and must not crash.
 
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ClauseId;

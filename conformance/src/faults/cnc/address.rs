@@ -187,8 +187,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
 ];
 
-/// Functions of the decoder at index offsets that can also belong to elements. The stride of elements
-/// does not apply to them.
+/// The functions of the decoder whose requests the defect `cnc.adr.stride-1000` passes on
+/// unchanged, because the stride applies only to elements.
 const FUNCTIONS: &[Function] = &[
     Function::AxisHandleByName,
     Function::AxisReadByName,

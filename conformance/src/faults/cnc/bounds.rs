@@ -1,4 +1,5 @@
-//! Defects that occur only at or near a limit: the last index, the maximum length or the largest number.
+//! Defects that occur only for some indices, lengths, numbers of dimensions or values, such as the
+//! last index or the maximum length.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

@@ -1,4 +1,5 @@
-//! Defects with which replies to different requests contradict each other (SDA, DYN).
+//! Defects of elements and of dynamic parameters, most of which show only if replies to different
+//! requests are compared (SDA, DYN).
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{Call, Function};
@@ -42,7 +43,8 @@ fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyDat
     }
 }
 
-/// Answers a request for one of the functions `of` with the first reply to the same request.
+/// Answers a request for one of the functions `of` with the first successful reply to the same
+/// request.
 fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     if !is(call, of) {
         return cnc.answer(call);
@@ -57,8 +59,8 @@ fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     Ok(bytes)
 }
 
-/// Executes a write, and then the same write at another address, where it fails if the content has
-/// another length or is read-only.
+/// Executes a write and, if it succeeds, the same write at another address. The result of the
+/// second write is ignored.
 fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> ReplyData {
     let reply = cnc.answer(call);
     if reply.is_ok() {

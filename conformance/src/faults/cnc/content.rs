@@ -1,4 +1,5 @@
-//! Defects in the contents of elements of SDA and GEO (SDA).
+//! Defects in the elements of SDA and GEO, at axis indices without an axis, and in the functions
+//! whose index offsets are between those of the decoder's elements (SDA).
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
@@ -17,8 +18,9 @@ const fn is_blank(offset: u32) -> bool {
     offset >= 0x2_0000
 }
 
-/// Whether the call addresses an axis index without an axis in interpolator, decoder or path preparation:
-/// in the default model, index 2 or above of any channel except channel 1.
+/// Whether the call addresses an axis index of 2 or above in the interpolator, decoder or path
+/// preparation of a channel whose number or rank is above 1. In the default model, these indices
+/// have no axis.
 pub(in crate::faults) fn empty_place(call: &Call<'_>) -> bool {
     class(call).is_some_and(|at| {
         matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)

@@ -28,7 +28,7 @@ pub(super) const fn sent(
     fault(id, breaks, what, CncFault::Frame(frame))
 }
 
-/// The frame with its length fields corrected.
+/// The frame with the lengths in its AMS/TCP and AMS headers corrected.
 pub(in crate::faults) fn measured(mut bytes: Vec<u8>) -> Vec<u8> {
     let length = to_u32(bytes.len());
     set_u32(&mut bytes, TCP_LENGTH, length.saturating_sub(6));
@@ -42,7 +42,7 @@ pub(super) fn set(mut bytes: Vec<u8>, offset: usize, new: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// The result field of a reply.
+/// The result field of a response frame; 0 if the frame is too short.
 pub(super) fn result(bytes: &[u8]) -> u32 {
     u32_at(bytes, RESULT).unwrap_or_default()
 }

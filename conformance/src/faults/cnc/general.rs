@@ -1,4 +1,5 @@
-//! Defects that violate the rules for all streams (GEN).
+//! Defects that violate the general rules (GEN): byte order, padding, code page, tasks and the
+//! sizes of types.
 
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::layout::{FieldSpec, Size, Type};
@@ -26,7 +27,8 @@ const fn reply(spec: &FunctionSpec) -> &'static [FieldSpec] {
     }
 }
 
-/// Changes the texts in replies with `outwards`, and the names in requests with `inwards`.
+/// Changes texts in replies with `outwards`: a text that is the whole reply, and the name in a
+/// description by index. Changes the names in requests for the functions `NAMED` with `inwards`.
 fn texts(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -5,7 +5,8 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncDefect, ReplyData, Upstream, fours, function, group, number, on, row, set_u32, text, u32_at,
+    CncDefect, ReplyData, Upstream, after_nul, first, fours, function, group, number, on, row,
+    set_u32, text, u32_at,
 };
 
 /// The parts of a request by handle: handle, indices, value.
@@ -14,6 +15,16 @@ pub(in crate::faults) fn parts(data: &[u8]) -> Option<(u32, Vec<u32>, &[u8])> {
     let end = count.checked_mul(4)?.checked_add(8)?;
     let indices = fours(data.get(8..end)?);
     Some((u32_at(data, 0)?, indices, data.get(end..)?))
+}
+
+/// The offset of the value in the data of a write.
+pub(in crate::faults) fn value_at(call: &Call<'_>) -> usize {
+    let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
+        b"name" => after_nul(call.data),
+        b"handle" => parts(call.data).map_or(&[][..], |(_, _, value)| value),
+        _ => call.data,
+    };
+    call.data.len().saturating_sub(value.len())
 }
 
 pub(in crate::faults) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
@@ -115,8 +126,9 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.handle-of-axis", &[VAR_10],
         "the handle of an axis variable belongs to the axis instead of the axis index",
         |cnc, call| {
-            // The logical number of the axis at an axis index of channel 1. The third byte of the handle
-            // of an axis variable is the axis index; this defect replaces it by the axis number.
+            // The logical number of the axis at an axis index of channel 1. Bits 16 to 23 of the
+            // handle of an axis variable are the axis index; this defect replaces them by the axis
+            // number.
             let axis = |place: u32| {
                 let number = cnc.read(AmsPort::COM, 0x12_0101, place << 16 | 3);
                 number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)

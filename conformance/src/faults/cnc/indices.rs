@@ -1,4 +1,4 @@
-//! Defects in the indices of elements in requests by handle (VAR).
+//! Defects in the handles and indices of requests by handle (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

@@ -1,4 +1,5 @@
-//! Defects in the addresses of instances of SDA and GEO (SDA).
+//! Defects in the addresses of instances of SDA and GEO, and in the use of the port of GEO (SDA,
+//! GEN).
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort};
@@ -31,7 +32,7 @@ fn with_instance(
 }
 
 /// Replies with the object address (0, 0) to requests for the instances for which `is_absent` returns
-/// true; its arguments are class, channel and axis.
+/// true; its arguments are the class in bits 12 to 15 of the index group, the channel and the axis.
 pub(in crate::faults) fn absent(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -64,7 +64,7 @@ pub(in crate::faults) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
     [name, indices.as_bytes(), &[0]].concat()
 }
 
-/// The description of the variable with this name; indices in the name are ignored.
+/// The description of the variable with this name; indices at the end of the name are ignored.
 pub(super) fn described(cnc: &Upstream<'_>, group: u32, name: &[u8]) -> Option<Vec<u8>> {
     cnc.ask(group, 0x4C, &[indexed(name).0, &[0]].concat()).ok()
 }

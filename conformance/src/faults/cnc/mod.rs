@@ -1,4 +1,4 @@
-//! Defects of a CNC, as middleware around the simulated CNC.
+//! Defects of a CNC, as middleware around the simulated CNC or another policy of its NC programs.
 
 mod address;
 mod ads;
@@ -41,12 +41,12 @@ pub(in crate::faults) use self::bytes::{
 };
 pub(in crate::faults) use self::content::empty_place;
 pub use self::faulty::Faulty;
-pub(in crate::faults) use self::handle::{joined, parts};
+pub(in crate::faults) use self::handle::{joined, parts, value_at};
 pub(in crate::faults) use self::instance::absent;
 pub(in crate::faults) use self::lookup::{indexed, with_indices};
 pub(in crate::faults) use self::request::{
     DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
-    first, function, functions, group, is, is_at, is_lookup, of_decoder, offset, value_at,
+    first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
 };
 pub(crate) use self::row::CncFault;
 pub(in crate::faults) use self::row::{CncDefect, fault, on, program, row};
@@ -59,7 +59,7 @@ pub(in crate::faults) use crate::simulator::ReplyData;
 pub(in crate::faults) use crate::values::until_nul as text;
 pub(in crate::faults) use frame::measured;
 
-/// The rows of all tables of defects.
+/// The rows of all tables of defects of a CNC.
 pub(super) fn rows() -> impl Iterator<Item = &'static CncDefect> {
     let areas: [&'static [CncDefect]; 29] = [
         variable_consistency::ROWS,

@@ -1,4 +1,4 @@
-//! Defects in the names of variables (VAR).
+//! Defects in the names of variables, and in accesses by name (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

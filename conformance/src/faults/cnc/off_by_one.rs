@@ -1,5 +1,5 @@
-//! Defects that use another channel, axis, kind, record or index instead of the requested one, or in
-//! addition to it.
+//! Defects that mix the data of different channels, axes, kinds, records or indices, or that
+//! separate two interfaces to the same value.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};

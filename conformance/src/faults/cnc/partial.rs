@@ -1,4 +1,5 @@
-//! Defects that affect only one data type, or only one of several ways to access the same value.
+//! Defects that affect only some values or accesses, such as those of one data type, one kind or
+//! one attribute, or one of several ways to access the same value.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -27,8 +28,8 @@ fn rounded(value: [u8; 8]) -> [u8; 8] {
     (bits & !((1 << 29) - 1)).to_le_bytes()
 }
 
-/// Stores the values written to axes through the HLD of channel 1 separately, so that the HLD without
-/// a channel keeps the old values of the same platform axes.
+/// Stores the values written to axes through the HLD of channel 1 separately, so that the HLD
+/// without a channel and the HLDs of other channels keep the old values of the same platform axes.
 fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let key = (0x3301, offset(call), Vec::new());
     match (group(call) | LOGICAL == 0x12_3301 && offset(call) >= 0x1_0000, function(call)) {

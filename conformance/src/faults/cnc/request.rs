@@ -4,8 +4,6 @@ use ads_cnc::address::{ClassGroup, ComGroup, Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{AdsService, Call, Effect, Function, OffsetRule};
 
-use super::{after_nul, parts};
-
 /// A constant list of the functions whose row in the function table has a property.
 macro_rules! functions {
     (|$spec:ident| $has:expr) => {{
@@ -73,7 +71,7 @@ pub(in crate::faults) const fn offset(call: &Call<'_>) -> u32 {
     call.index_offset.get()
 }
 
-/// The bit of the index group that is set in logical addressing and clear in addressing by rank.
+/// The bit of the index group that is set in logical addressing and clear in addressing by index.
 pub(in crate::faults) const LOGICAL: u32 = 0x10_0000;
 
 /// The function that a call requests; `None` if the call is not a valid request for a function.
@@ -101,14 +99,14 @@ pub(in crate::faults) fn com_group(call: &Call<'_>) -> Option<ComGroup> {
     }
 }
 
-/// The index offset of a call to the decoder of any channel, in logical addressing or by rank; `None`
-/// for other groups.
+/// The index offset of a call to the contents of the decoder of any channel, in logical addressing or
+/// addressing by index; `None` for other groups.
 pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
     (group(call) & 0xFFEF_FF00 == 0x02_2300).then(|| offset(call))
 }
 
-/// Whether a call addresses the decoder of any channel, in logical addressing or by rank, at the offset
-/// of one of these functions.
+/// Whether a call addresses the contents of the decoder of any channel, in logical addressing or
+/// addressing by index, at the offset of one of these functions.
 pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool {
     let mut offsets = functions.iter().map(|function| function.spec().offset);
     of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))
@@ -118,14 +116,4 @@ pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool 
 /// `NAMED`.
 pub(in crate::faults) fn is_lookup(call: &Call<'_>) -> bool {
     is_at(call, NAMED) && call.service == AdsService::ReadWrite
-}
-
-/// The offset of the value in the data of a write.
-pub(in crate::faults) fn value_at(call: &Call<'_>) -> usize {
-    let value = match function(call).map_or(&b""[..], |function| first(function.spec().request)) {
-        b"name" => after_nul(call.data),
-        b"handle" => parts(call.data).map_or(&[][..], |(_, _, value)| value),
-        _ => call.data,
-    };
-    call.data.len().saturating_sub(value.len())
 }

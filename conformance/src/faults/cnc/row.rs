@@ -16,11 +16,11 @@ pub(crate) enum CncFault {
     Answer(fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
     /// Replies to every request for one of these functions; the correct CNC replies to all others.
     Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> ReplyData),
-    /// Changes the frame of every reply.
+    /// Replaces the frame of every reply, by a changed frame or by none or several frames.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
     /// Sends frames in pieces of at most this many bytes.
     Pieces(usize),
-    /// Changes the execution of NC programs.
+    /// Changes the behaviour of NC programs and of the streaming interface.
     Program(Policy),
     /// Uses this data model, which is TOML text.
     Model(&'static str),
@@ -69,7 +69,7 @@ pub(in crate::faults) const fn fault(
     CncDefect { id, breaks, what, fault, edition: None, printed: true }
 }
 
-/// A row that changes the execution of NC programs.
+/// A row that changes the behaviour of NC programs and of the streaming interface.
 pub(in crate::faults) const fn program(
     id: &'static str,
     breaks: &'static [ClauseId],

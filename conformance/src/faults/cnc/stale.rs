@@ -1,4 +1,5 @@
-//! Defects whose replies depend on earlier requests, and defects of replies to rejected requests.
+//! Defects of elements, parameters, variables and ADS services, most of which depend on earlier
+//! requests or occur in replies to rejected requests.
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Function};
@@ -21,8 +22,9 @@ const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 /// Number of handles in the table of `slots`.
 const SLOTS: u32 = 16;
 
-/// Stores handles requested by name in a table of `SLOTS` entries. A new handle replaces the oldest, and
-/// a request with the replaced handle then addresses the variable of the new handle.
+/// Stores handles requested by name in a table of `SLOTS` entries. In a full table, a new handle
+/// replaces the oldest, and a request with the replaced handle then addresses the variable of the
+/// new handle.
 fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let gone = |handle: u32| (0x5106, handle, vec![u8::try_from(instance(call)).unwrap_or(0)]);
     match function(call) {
@@ -52,8 +54,8 @@ fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     }
 }
 
-/// Whether the axis index in the offset has an axis; `None` for calls that do not address an axis of
-/// interpolator, decoder or path preparation by the channel's number.
+/// Whether the axis index in the offset has an axis; `None` for calls that do not address the
+/// content of an axis of interpolator, decoder or path preparation by the channel's number.
 fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
     let channel = u8::try_from(instance(call)).ok()?;
     let place = u8::try_from(offset(call) >> 16).ok().filter(|place| *place > 0)?;
@@ -187,13 +189,13 @@ pub(super) const ROWS: &[CncDefect] = &[
                 }
             }
         }),
-    sent("cnc.ads.rejected-invoke-id-0", &[ADS_5],
+    sent("cnc.ads.refused-invoke-id-0", &[ADS_5],
         "the invoke ID of a response with an error as the result is 0",
         |_, _, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) => set(bytes, INVOKE_ID, &[0; 4]),
             _ => bytes,
         }),
-    sent("cnc.ads.rejected-data-length", &[ADS_5],
+    sent("cnc.ads.refused-data-length", &[ADS_5],
         "the AMS header of a rejected Read or ReadWrite states a data length of 4 instead of 8",
         |_, request, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) if !frame::is(request, &[Command::WRITE]) && bytes.len() > LENGTH => {

@@ -1,4 +1,4 @@
-//! Defects in the execution of streamed programs (STM).
+//! Defects of the streaming interface and in the execution of streamed programs (STM).
 
 use ads_cnc::limits::STREAM_MAX;
 use ads_cnc::streaming::{
@@ -113,7 +113,8 @@ impl Buffer for PacketBuffer {
     }
 }
 
-/// The lines read, with the findings of the check except those for which `is_overlooked` returns true.
+/// The lines read, with the events of the check except those for which `is_overlooked` returns
+/// true.
 fn overlooking(
     checker: &mut Checker,
     read: &[u8],

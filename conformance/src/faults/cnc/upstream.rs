@@ -17,7 +17,8 @@ pub(crate) struct Upstream<'a> {
     pub(super) memory: &'a Mutex<Memory>,
 }
 
-/// The key of stored bytes: usually an index group or channel, an index offset, and a name.
+/// The key of stored bytes, such as an index group, an index offset and a name. Each defect chooses
+/// its own keys.
 pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
 
 /// The memory of a defect between requests.

@@ -1,4 +1,4 @@
-//! Defects of variables that the replies of several functions, or of several requests, show (VAR).
+//! Defects of variables, most of which show only if several replies are compared (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Call, Function};
@@ -29,7 +29,7 @@ fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
     all.collect()
 }
 
-/// The value that the address of a write has before the write.
+/// The current value at the address of a write.
 fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
     let head = call.data.get(..value_at(call)).unwrap_or_default();
     let read = match function(call) {

@@ -1,4 +1,5 @@
-//! Defects of writes that depend on earlier writes, or that execute only a part of a write.
+//! Defects of writes, such as those that depend on earlier writes or that execute only a part of a
+//! write, and of the read of REQUEST by handle.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
@@ -27,8 +28,9 @@ fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
     cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
-/// If `now`, stores RESPONSE_STATE and executes a write, which sets RESPONSE_STATE to 0. If not `now`, a
-/// read of RESPONSE_STATE returns the stored value.
+/// If `now`, the call is a write of REQUEST_STATE, which sets RESPONSE_STATE to 0: stores
+/// RESPONSE_STATE, unless a value is stored, and executes the write. If not `now`, answers a read
+/// of RESPONSE_STATE with the stored value, if any, and any other call correctly.
 fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyData {
     let key = (instance(call), 0x5C, Vec::new());
     if now {

@@ -1,4 +1,4 @@
-//! Defects of addresses and names (ADR, VAR).
+//! Defects of addresses and names (ADR, GEN, VAR).
 
 use ads_cnc_vectors::ids::*;
 use serde_json::Value as Json;

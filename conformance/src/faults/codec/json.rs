@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json};
 
 use crate::text::hex;
 
-/// Changes every scalar value.
+/// Changes every scalar value: a JSON object whose field `type` is a text.
 pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Json>)) {
     match value {
         Json::Array(items) => items.iter_mut().for_each(|item| each(item, change)),
@@ -34,7 +34,7 @@ pub(super) fn texts(value: &mut Json, change: fn(Vec<u8>) -> Vec<u8>) {
     });
 }
 
-/// Changes every number of these types.
+/// Changes every integer of these types.
 pub(super) fn numbers(value: &mut Json, types: &[&str], change: fn(i128) -> i128) {
     each(value, &mut |one| {
         let is = one.get("type").and_then(Json::as_str).is_some_and(|kind| types.contains(&kind));

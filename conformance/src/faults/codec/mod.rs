@@ -53,7 +53,8 @@ pub(super) fn seeds() -> Vec<SeededDefect> {
     seeds
 }
 
-/// The IDs of the requirements that these vectors cite, sorted and without duplicates.
+/// The IDs of the requirements, or of parts of requirements, that these vectors cite, sorted and
+/// without duplicates.
 fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     let known = |id: &String| ads_cnc_vectors::clause(id).map(|clause| clause.id());
     let mut all: Vec<&'static str> =
@@ -63,15 +64,16 @@ fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     all
 }
 
-/// The vectors whose requirement level is the strongest of all given vectors.
+/// The vectors whose level is the strongest of all given vectors.
 fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
     let level = vectors.iter().map(|vector| vector.level()).min();
     vectors.retain(|vector| Some(vector.level()) == level);
     vectors
 }
 
-/// The defects that omit a check: one for each pair of a stream and an error class with which a vector
-/// must be rejected.
+/// The defects that omit a check: one for each pair of a stream and an error class of a rejected
+/// vector, if the codec `ads_cnc` returns an error for at least one of the vectors of the strongest
+/// level.
 fn forgotten_checks() -> Vec<SeededDefect> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {
@@ -125,7 +127,7 @@ fn too_strict() -> Vec<SeededDefect> {
 }
 
 /// The defects that exchange two fields: one for each pair of adjacent fields of the same type in a
-/// stream without records.
+/// stream without records, if the decoded value contains both.
 fn swapped() -> Vec<SeededDefect> {
     let fields = Stream::all().filter(|stream| !stream.layout().repeats).flat_map(|stream| {
         let layout = stream.layout();

@@ -11,8 +11,8 @@ pub(super) fn lines(text: &[u8], other: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
     text.split_inclusive(|byte| *byte == b'\n').flat_map(other).collect()
 }
 
-/// The text with every `word`, in upper or lower case, overwritten with `other`, which is not longer. A
-/// letter or digit must not follow the word.
+/// The text with every `word`, in any case, overwritten with `other`, which is not longer. A word
+/// that a letter or digit follows stays.
 fn without(text: &[u8], word: &str, other: &str) -> Vec<u8> {
     let mut text = text.to_vec();
     let is_word = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_alphanumeric);
@@ -33,7 +33,8 @@ fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
     text.iter().map(|byte| if of.contains(byte) { other } else { *byte }).collect()
 }
 
-/// Rejects NC text that contains this word in upper or lower case; `word` is in upper case.
+/// Rejects the NC text of a question with the operation `check` if the text contains this word in
+/// any case; `word` is in upper case.
 fn rejects(
     correct: CorrectAnswer<'_>,
     question: &Question,

@@ -1,4 +1,4 @@
-//! Defects of texts (GEN, COM, VAR).
+//! Defects of texts and descriptors (GEN, COM, DYN, SDA, SVC, VAR).
 
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc_vectors::ids::*;
@@ -6,7 +6,7 @@ use ads_cnc_vectors::ids::*;
 use super::json::{numbers, texts};
 use super::row::{CodecDefect, CodecFault, row};
 
-/// The bytes of a stream, without the final NUL if the stream is `of`.
+/// The bytes of a stream, without the final NUL if the stream is `of` and has more than one byte.
 fn nul(stream: &str, of: &str, mut bytes: Vec<u8>) -> Vec<u8> {
     if stream == of && bytes.len() > 1 && bytes.last() == Some(&0) {
         bytes.pop();

@@ -1,4 +1,4 @@
-//! Defects of numbers and lists (GEN, COM, SDA, VAR).
+//! Defects of numbers and lists (COM, DYN, SDA, VAR).
 
 use ads_cnc_vectors::ids::*;
 use serde_json::Value as Json;
@@ -129,7 +129,8 @@ pub(super) const ROWS: &[CodecDefect] = &[
                 let bits =
                     bits.filter(|bits| bits.len() == 16).map(|bits| u64::from_str_radix(bits, 16));
                 if let Some(Ok(bits)) = bits {
-                    // Clears the low 29 of the 52 bits of the fraction, so that a REAL32 can represent it.
+                    // Clears the low 29 of the 52 bits of the fraction, so that a REAL32 can
+                    // represent the fraction.
                     let bits = bits & !0x1FFF_FFFF;
                     one.insert("bits".to_owned(), Json::String(format!("{bits:#018x}")));
                     one.insert(

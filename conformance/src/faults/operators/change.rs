@@ -1,4 +1,4 @@
-//! Wrong replies: the reply to a request with another argument, or a changed reply.
+//! Builds the replies of generated defects, such as the reply to a request with another argument.
 
 use ads_cnc::address::{Class, IndexOffset};
 use ads_cnc::operation::{AdsService, Call, Function, OffsetRule};
@@ -17,9 +17,10 @@ pub(super) enum Argument {
     Index,
 }
 
-/// The reply to the request with another value of an argument; `None` if the request does not have the
-/// argument, if `other` does not change its value, for an argument in the index group or offset that is
-/// 0, and for the channel or axis of a spindle.
+/// The reply to the request with another value of an argument; `None` if the call is not a valid
+/// request for a function, if the request does not have the argument, if `other` does not change
+/// its value, for an argument in the index group or offset that is 0, and for the channel or axis
+/// of a spindle.
 pub(super) fn asked(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -85,8 +86,8 @@ pub(super) fn mistaken(
     asked(cnc, call, argument, other).filter(Result::is_ok).unwrap_or_else(|| cnc.answer(call))
 }
 
-/// The correct reply; if the CNC rejects the request, the reply to the request with another value of
-/// an argument.
+/// The correct reply; if the CNC rejects the request, the reply to the request with another value
+/// of an argument, or the error if `asked` returns `None`.
 pub(super) fn instead(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -96,9 +97,11 @@ pub(super) fn instead(
     cnc.answer(call).or_else(|error| asked(cnc, call, argument, other).unwrap_or(Err(error)))
 }
 
-/// The lowest index in a request for the function: 0 or 1.
+/// The index of the first variable, array element, parameter, object or element in a request for
+/// the function: 0 for variables and their array elements, otherwise 1.
 pub(super) fn least(call: &Call<'_>) -> u32 {
-    // Only the indices of variables are counted from 0 (VAR-2, VAR-20).
+    // The indices of variables and of array elements start at 0 (VAR-2, VAR-20). Element 0 of an
+    // instance is the number of its elements (SDA-4).
     u32::from(!function(call).is_some_and(|function| function.spec().clause.starts_with("VAR")))
 }
 
@@ -113,8 +116,9 @@ pub(super) fn changed(
     Ok(bytes)
 }
 
-/// Executes a write, and then a second write to the same address, whose value is the result of `other`
-/// for the new and the old value.
+/// Reads the old value, executes the write, and then executes a second write to the same address,
+/// whose value is the result of `other` for the new and the old value. Returns the reply to the
+/// first write, or an error if the old value could not be read.
 pub(super) fn rewritten(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -28,27 +28,29 @@ pub(super) fn has_rank(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
 }
 
-/// Whether the default model has a channel with a rank other than its number that has data for the
-/// function: no such channel has dynamic parameters (DYN-2 to DYN-4).
+/// Whether `has_rank` is true, and the default model has a channel with a rank other than its
+/// number that has data for the function: no such channel has dynamic parameters (DYN-2 to DYN-4).
 pub(super) fn differs_by_rank(spec: &FunctionSpec) -> bool {
     has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
 }
 
-/// Whether channel 1 can accept a request for another channel and reply differently. It rejects the
-/// handles of other channels, and extended descriptions are the same in all channels.
+/// Whether channel 1 of the default model can accept a request for another channel and reply
+/// differently. It rejects the handles of other channels, and the extended descriptions of
+/// variables with the same index are equal in all channels.
 pub(super) fn differs_by_channel(spec: &FunctionSpec) -> bool {
     first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
 }
 
-/// Whether the reply is the same for every instance of a class: the number of elements, and their types,
-/// lengths, units and write flags.
+/// Whether the simulated CNC sends the same reply for every channel and for every axis of a class:
+/// the number of elements, and their types, lengths, units and write flags.
 pub(super) fn is_alike(spec: &FunctionSpec) -> bool {
     matches!(spec.group, GroupRule::Elements(attribute) if attribute != Attribute::Name)
         && !spec.is_content()
 }
 
-/// Whether a generated defect can accept an item that does not exist: `FindInstance` answers it with the
-/// address (0, 0) instead of an error, and functions with the same reply for every instance are omitted.
+/// Whether the defects that accept an unknown channel or axis are generated for the function. They
+/// are not generated for `FindInstance`, which answers an unknown instance with the address (0, 0)
+/// instead of an error, or for functions for which `is_alike` is true.
 pub(super) fn has_unknown(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && !is_alike(spec)
 }
@@ -64,7 +66,8 @@ pub(super) fn has_index(spec: &FunctionSpec) -> bool {
         || matches!(spec.clause, "VAR-13" | "VAR-14")
 }
 
-/// Whether the function exists for several kinds of variables or parameters.
+/// Whether the index offset or the request of the function states a kind of variables or
+/// parameters.
 pub(super) fn has_kind(spec: &FunctionSpec) -> bool {
     matches!(spec.offset, OffsetRule::OfKind(_)) || is_of_kind(spec)
 }
@@ -81,7 +84,7 @@ pub(super) fn is_attribute(spec: &FunctionSpec) -> bool {
         && !matches!(spec.offset, OffsetRule::FirstElement)
 }
 
-/// Whether the function writes a value that can be read.
+/// Whether the function is a write, including the write of data streaming.
 pub(super) fn writes(spec: &FunctionSpec) -> bool {
     spec.effect != Effect::Query
 }

@@ -40,7 +40,7 @@ fn a_defect_shows_in_its_stream_only() {
     assert_eq!(with("variable-count.count.flip", 0x46, b"V.E.vartest\0"), Ok(vec![4, 0, 0, 2]));
 }
 
-/// Defects reach the streams inside requests for elements and writes too.
+/// Defects also change the replies to requests for elements, and the data of writes.
 #[test]
 fn a_defect_shows_in_elements_and_writes() {
     let read = |group| Call { service: AdsService::Read, ..call(group, 1, 256, &[]) };

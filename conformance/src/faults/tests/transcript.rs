@@ -10,7 +10,8 @@ use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use super::{Faulty, SeededDefect};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 
-/// A CNC and its replies, up to the first difference from another transcript.
+/// A CNC and its replies. After the first difference from the replies `other` of another
+/// transcript, no further request is sent.
 pub(super) struct Transcript<'t> {
     faulty: Faulty,
     cnc: Arc<Cnc>,

@@ -17,8 +17,8 @@ const ATTRIBUTES: &[Function] = &[
     Function::ReadElementWriteFlag,
 ];
 
-/// Whether a call requests the number of elements: a Read of offset 0 at the group of contents. The
-/// same offset has other meanings at other groups.
+/// Whether a call requests the number of elements: a Read at the group of contents, of an offset
+/// whose lowest 12 bits are 0. Such an offset has another meaning at the groups of attributes.
 fn is_number(call: &Call<'_>) -> bool {
     let of_content = class(call).is_some_and(|at| at.attribute == Attribute::Content);
     of_content && call.service == AdsService::Read && offset(call) & 0xFFF == 0
@@ -115,7 +115,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         CncFault::Model(MODEL))),
 ];
 
-/// A CNC with the channels 1 and 4, and with parameters that exist only for a part of each period.
+/// A CNC with the channels 1 and 4, and with some parameters that exist only for a part of each
+/// period.
 const MODEL: &str = r#"
 cnc-version = "V4.29.0"
 spindles = 1

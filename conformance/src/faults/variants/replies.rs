@@ -1,4 +1,4 @@
-//! Valid variants that differ in errors, delays, names and the ends of replies.
+//! Valid variants that differ in replies, such as in errors, delays, names and the ends of replies.
 
 use std::thread;
 use std::time::Duration;
@@ -70,7 +70,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
                 let remains = |bytes: Vec<u8>| {
-                    // Appends the bytes only to short names: the reply must not exceed its maximum length.
+                    // Appends the bytes only to short replies, because a reply must not exceed its
+                    // maximum length.
                     let room = if is(call, &[Function::DynamicNameByIndex]) { 90 } else { 240 };
                     let remains = if bytes.len() < room { &b"ns\0of"[..] } else { &[] };
                     [&bytes[..], remains].concat()

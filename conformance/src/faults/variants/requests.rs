@@ -1,5 +1,5 @@
-//! Valid variants that accept or reject other requests than the simulated CNC, where the manuals do not
-//! specify which requests are rejected.
+//! Valid variants that accept or reject other requests than the simulated CNC, where the manuals do
+//! not specify which requests are rejected, and a variant with other handles on the axis interface.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Function, OffsetRule};
@@ -13,8 +13,8 @@ use crate::faults::cnc::{
 const COUNT: &[Function] = &[Function::CountVariables];
 const OF_AXES: &[Function] = functions!(|spec| matches!(spec.offset, OffsetRule::OfAxis(_)));
 
-/// The bit that this variant sets in handles of the axis interface, to distinguish them from other
-/// handles.
+/// The bit that the variant `different.axis-handles` sets in handles of the axis interface, to
+/// distinguish them from other handles.
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
 #[rustfmt::skip]
@@ -87,7 +87,7 @@ pub(super) const ROWS: &[CncDefect] = &[
             Some(Function::ReadByHandle | Function::WriteByHandle) => {
                 let mut data = call.data.to_vec();
                 let handle = u32_at(&data, 0).unwrap_or_default();
-                // The top byte of an axis handle is 1 without this bit.
+                // In the default model, the top byte of an axis handle is 1 without this bit.
                 if handle >> 24 == (OF_AXIS_INTERFACE >> 24) | 1 {
                     set_u32(&mut data, 0, handle & !OF_AXIS_INTERFACE);
                 }

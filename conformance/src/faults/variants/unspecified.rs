@@ -201,7 +201,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         CncFault::Model(NUMBERS))),
 ];
 
-/// A CNC with the largest channel number, axis number and index offset, and with extreme values.
+/// A CNC with the largest channel number and the largest index offset, with axis numbers up to
+/// 65535, and with extreme values.
 const NUMBERS: &str = with_names!(
     r#"
 cnc-version = "V3.1.3100.0"

@@ -269,8 +269,8 @@ fn a_file_may_require_an_address() {
     }
 }
 
-/// Malformed requests pass only with both the option `--malformed` and a file that permits them, to
-/// the target of the file and before its expiry.
+/// Malformed requests to a device pass only with both the option `--malformed` and a file that
+/// permits them, to the target of the file and before its expiry.
 #[test]
 fn malformed_requests_need_a_file() {
     let bad = at(AmsPort::SDA, AdsService::ReadWrite, 0xF005, 0, b"x");
@@ -288,7 +288,7 @@ fn malformed_requests_need_a_file() {
         other[6] ^= 1;
         let rejection = malformed().check(&other, now()).unwrap_err();
         assert!(matches!(rejection.reason, Reason::OtherTarget { .. }), "{rejection}");
-        // An incomplete frame is rejected, because its target is unknown.
+        // An incomplete frame is rejected: no file can permit it.
         assert!(malformed().check(&frame[..frame.len() - 1], now()).is_err());
     }
     let rejection = Gate::queries().and_malformed().check_malformed(TARGET, now()).unwrap_err();

@@ -8,7 +8,8 @@ use super::Walker;
 use super::walker::{GAP, NUMBER_MAX};
 
 /// The active channels in ascending order of their numbers. `is_there` checks whether a channel
-/// exists; its last argument is whether a channel that was requested by its rank has COM objects.
+/// exists; its last argument is whether at least one channel, requested by its rank, has COM
+/// objects.
 pub(crate) fn active_channels<W: Walker>(
     walker: &mut W,
     mut is_there: impl FnMut(&mut W, Channel, bool) -> Result<bool, W::Error>,

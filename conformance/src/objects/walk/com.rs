@@ -31,9 +31,9 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Adds the objects of a list, except those at the addresses `known`. Returns the addresses of
-    /// the objects that were read, which are none if the list is not selected, or `None` if the
-    /// target does not have the list.
+    /// Adds the objects of a list, if it is selected, except those at the addresses `known`.
+    /// Returns the addresses of the objects that were read: of a list that is not selected, only
+    /// those of the platform. `None` if the target does not have the list, or if it is empty.
     fn list(
         &mut self,
         objects: ObjectList,

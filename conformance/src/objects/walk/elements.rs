@@ -13,7 +13,7 @@ use super::{Attributes, CLASSES, Walk, Walker as _};
 use crate::session::ToolError;
 use crate::values::Type;
 
-/// Maximum element number that fits into an index offset.
+/// Maximum element number that fits into an index offset together with an axis.
 const ELEMENTS_MAX: u32 = 0xFFFF;
 
 /// Maximum number of elements with different names whose attributes are stored for the same element

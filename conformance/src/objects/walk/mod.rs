@@ -53,13 +53,15 @@ pub struct Options {
 pub struct WalkResult {
     /// The objects, in the order of their lists.
     pub objects: Vec<ListedValue>,
-    /// Number of selected lists that were requested.
+    /// Number of selected lists that were read; without lists of objects and instances that the
+    /// target does not have.
     pub lists: u32,
     /// Number of requests sent.
     pub requests: u64,
     /// Notes, for example about objects that could not be read.
     pub notes: Vec<String>,
-    /// Whether a limit or the deadline ended the walk or shortened a list; a note states which.
+    /// Whether a limit or the deadline ended the walk, or a limit shortened a list of variables or
+    /// parameters; a note states this.
     pub is_cut: bool,
 }
 
@@ -91,7 +93,8 @@ pub struct WalkProgress {
 /// ```
 ///
 /// # Errors
-/// Those of [`Session::request`], except ADS errors and [`ToolError::Enough`].
+/// Those of [`Session::request`], except ADS errors, [`ToolError::Enough`], and AMS errors and
+/// missing replies of the task GEO.
 pub fn walk(
     session: &mut Session,
     options: &Options,
@@ -141,7 +144,8 @@ struct Walk<'w> {
     instances: Vec<ElementAddress>,
     /// The task that serves the current class: SDA or GEO.
     task: Task,
-    /// The error because of which GEO is no longer queried; `Ok` until such an error occurs.
+    /// The error because of which the task GEO is no longer queried; `Ok` until such an error
+    /// occurs.
     geo: Result<(), ToolError>,
     /// The attributes that were read. The key is the class, whether the instance is that of an
     /// axis, and the element number. Elements with the same key and name are assumed to have the
@@ -186,8 +190,8 @@ impl<'w> Walk<'w> {
         }
     }
 
-    /// Adds a note if the CNC has rejected requests for entries of a list, and if not all of the
-    /// `count` entries were requested.
+    /// Adds a note if the CNC has rejected requests for entries of a list, and another note if not
+    /// all of the `count` entries were requested.
     fn note_missing(&mut self, list: ValueList, count: u32, requested: Requested) {
         let Requested { sent, rejected } = requested;
         if rejected > 0 {

@@ -63,7 +63,8 @@ pub(crate) trait Walker: Sized {
         Ok(self.request(request)?.and_then(|data| T::decode(&data).ok()))
     }
 
-    /// The number of objects of a list; `None` if the target does not have the list.
+    /// The number of objects of a list; `None` if the target does not have the list, or if the list
+    /// is empty.
     fn count_objects(&mut self, list: impl Into<ObjectList>) -> Result<Option<u32>, Self::Error> {
         let count: Option<ObjectCount> = self.decoded(CountObjects::new(list))?;
         Ok(count.map(|count| count.0).filter(|&count| count > 0))
@@ -188,7 +189,8 @@ pub(crate) trait Walker: Sized {
         Ok(count)
     }
 
-    /// The number of elements that the target reports for an instance.
+    /// The number of elements that the target reports for an instance; `None` if it reports none
+    /// that can be decoded.
     fn count_elements(&mut self, first: ElementAddress) -> Result<Option<u32>, Self::Error> {
         // The address that the target returned may be that of a function, which has no elements.
         let data = match CountElements::new(first) {

@@ -1,4 +1,4 @@
-//! The causes of failures, with the cases that follow from them.
+//! The groups of checks that did not pass, with the cases that follow from them.
 
 use serde::Serialize;
 
@@ -32,11 +32,10 @@ struct FollowerView {
     case: String,
 }
 
-/// The causes, the gravest first.
+/// The groups: failures first, and then by verdict, with the gravest verdict first.
 pub(super) fn causes(report: &Report) -> Vec<CauseView> {
     let mut all = groups(report);
-    // The sort keeps the order of groups with an equal key, which `groups` has sorted by
-    // requirement.
+    // The sort keeps the order of groups with an equal key, which `groups` has sorted.
     all.sort_by_key(|group| {
         (!group.is_failure(), std::cmp::Reverse(group.verdict.gravity()), group.waived)
     });

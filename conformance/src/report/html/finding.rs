@@ -90,8 +90,8 @@ fn evidence(evidence: &EvidenceReport, is_of_frames: bool) -> EvidenceView {
     let EvidenceReport {
         call, result, sent, received, expected, frame_sent, frame_received, ..
     } = evidence;
-    // If the received and the expected fields have the same offsets, show each expected field below
-    // the received field.
+    // If the received and the expected fields have the same offsets, show each expected field that
+    // differs below the received field.
     let fits = received.as_ref().zip(expected.as_ref()).is_some_and(|(received, expected)| {
         let places = |bytes: &BytesReport| -> Vec<usize> {
             bytes.fields.iter().map(|field| field.offset).collect()

@@ -58,7 +58,8 @@ fn linked(report: &Report, judged_subject: CaseSubject, id: &str) -> (Vec<String
     (cases.into_iter().take(LINKED_MAX).map(|(_, id)| id.clone()).collect(), more)
 }
 
-/// A group of cases: the vectors of a stream, or the cases whose IDs begin with the same word.
+/// A group of cases: the vectors or sequences of a stream, or the cases whose IDs begin with the
+/// same word.
 #[derive(Serialize)]
 struct GroupView {
     title: String,

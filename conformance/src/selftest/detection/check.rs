@@ -33,9 +33,10 @@ pub struct CheckedTable {
     /// mode.
     #[serde(serialize_with = "figures")]
     pub table: DetectionTable,
-    /// Number of defects that were measured again.
+    /// Number of defects that were measured again without an error.
     pub measured: usize,
-    /// Differences from the committed table, and errors of measurements.
+    /// Differences from the committed table, changed inputs, errors of measurements, and
+    /// unnecessary witnesses.
     pub differences: Vec<String>,
 }
 

@@ -12,7 +12,8 @@ pub enum Mode {
     ReadOnly,
     /// Queries only, with a complete profile of the device.
     Profiled,
-    /// Without a profile; the file of `--allow-write` names every writable value.
+    /// Without a profile; the file of `--allow-write` names every writable value except the axis
+    /// numbers.
     Writes,
     /// The `--allow-write` file of `Writes`, the profile of `Profiled`, and malformed requests.
     All,
@@ -42,9 +43,10 @@ impl Mode {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detection {
     pub result: DetectionResult,
-    /// The IDs of the requirements that fail.
+    /// The IDs of the requirements that fail; if the defect is caught, also the IDs of those
+    /// requirements that the defect breaks that have a warning or a difference.
     pub requirements: BTreeSet<String>,
-    /// The IDs of the cases that fail.
+    /// The IDs of the cases in which these requirements fail or have a warning or a difference.
     pub cases: BTreeSet<String>,
 }
 

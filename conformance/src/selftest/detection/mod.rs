@@ -1,5 +1,4 @@
-//! Measures, in each mode in which a user can run the suite against a device, whether the suite
-//! detects each seeded defect of a CNC.
+//! Measures, in each [`Mode`], whether the suite detects each seeded defect of a CNC.
 //!
 //! The suite tests a simulated CNC in this process through the gate, as
 //! `ads-cnc run --target --all` tests a device: with the same cases, but without a deadline, and

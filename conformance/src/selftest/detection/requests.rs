@@ -1,11 +1,12 @@
 //! Sends generated requests, including malformed queries, as far as the gate of a mode allows them,
 //! and records the replies, to distinguish two CNCs.
 //!
-//! Malformed writes, and writes to an axis or a channel that may not exist, are omitted: the suite
-//! sends most of these to the simulated CNC only. The requests are derived from the function table,
-//! from the lists of the CNC, from boundary values and short sequences, but not from the cases of
-//! the suite. Two CNCs with equal replies receive the same requests, so equal digests mean equal
-//! replies.
+//! Malformed variants are sent only of queries, also with the service Write. Writes to an axis or a
+//! channel that may not exist are omitted: the suite sends most malformed writes to the simulated
+//! CNC only. The requests are derived from the function table, from the lists of the CNC, from
+//! boundary values and short sequences, but not from the cases of the suite. Two CNCs with equal
+//! replies receive the same requests, so equal digests mean replies that are equal as far as
+//! `meaning` compares them.
 
 mod configurable;
 mod queries;
@@ -30,9 +31,9 @@ pub(super) use self::configurable::Compare;
 use self::configurable::ConfigurableReplies;
 use crate::client::{Client, Inquiry};
 use crate::exchange::ExchangeError;
+use crate::number::digest;
 use crate::number::to_u32;
 use crate::simulator::Cnc;
-use crate::simulator::program::digest;
 use crate::text::hex::compact;
 
 /// The bytes of the result in the frame of a reply with data.
@@ -267,9 +268,9 @@ impl ReplyRecorder<'_> {
 
 /// A received frame without the differences that do not count. Each error number, and each value
 /// TRUE of a write flag or of the write access in a descriptor, is replaced by 1: the manuals
-/// document no error numbers, and every number except 0 is TRUE. The reply to a write of at most
-/// 992 bytes to the program stream is removed, because whether the CNC accepts the packet or
-/// rejects it as busy depends on the speed of the CNC.
+/// document no error numbers, and every number except 0 is TRUE. The result of a write of 1 to 992
+/// bytes to the program stream is removed, because whether the CNC accepts the packet or rejects it
+/// as busy depends on the speed of the CNC.
 fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     const ERROR: Range<usize> = 30..34;
     const DATA: usize = RESULT.end + 4;

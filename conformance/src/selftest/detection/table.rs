@@ -1,9 +1,10 @@
 //! The committed table: the detection of each seeded defect, in each mode.
 //!
 //! The first line of the table contains a hash of the inputs that all rows share. Then the table
-//! has one line for each defect and result, with fields separated by tabs: defect, hash of the
-//! defect, modes with this result, result, the request or witness, requirements that fail, cases
-//! that fail. A valid variant of the CNC is `quiet` if no requirement fails.
+//! has one line for each different measurement of a defect (result, requirements and cases), with
+//! fields separated by tabs: defect, hash of the defect, modes with this measurement, result, the
+//! request or witness, requirements that fail, cases that fail. A valid variant of the CNC is
+//! `quiet` if no requirement fails.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write as _};
@@ -12,9 +13,9 @@ use serde::Serialize;
 
 use super::detection_result::{Detection, DetectionResult, Mode};
 use crate::faults::{self, DefectKind, SeededDefect};
+use crate::number::digest;
 use crate::selftest::reasons;
 use crate::simulator::DEFAULT_MODEL;
-use crate::simulator::program::digest;
 use crate::suite;
 
 /// The table of this version, which `selftest --renew` writes.
@@ -48,7 +49,8 @@ pub struct Figures {
     pub elsewhere: usize,
     /// Defects with which no requirement fails, although the reply to a request shows the defect.
     pub missed: usize,
-    /// Defects with which no requirement fails, and which no reply shows.
+    /// Defects with which no requirement fails, and no reply distinguishes the CNC from a correct
+    /// CNC.
     pub undetectable: usize,
     /// Valid variants without a failed requirement.
     pub quiet: usize,

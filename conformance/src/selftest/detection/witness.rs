@@ -1,9 +1,10 @@
-//! Proves that a defect is undetectable in a mode: a correct CNC, the witness, sends the same replies as
-//! the CNC with the defect to every request that the mode may send.
+//! Finds out whether a defect is undetectable in a mode: a correct CNC, the witness, sends the same
+//! replies as the CNC with the defect to every generated request that the gate of the mode allows.
+//! Differences that `requests::meaning` removes do not count.
 //!
 //! The witness is the CNC without the defect, or a CNC with [another
 //! configuration](super::configured). In a mode with a profile, the witness must also match the
-//! profile.
+//! profile. A CNC with a defect that `is_right` finds is itself correct.
 
 use super::configured;
 use super::detection_result::{DetectionResult, Mode};
@@ -71,8 +72,8 @@ pub(super) fn is_right(defect: &SeededDefect) -> Option<&'static str> {
     free.map(|(.., why)| *why)
 }
 
-/// The witness if the defect is undetectable; otherwise the first request whose reply distinguishes the
-/// CNC with the defect from every correct CNC.
+/// The witness if the defect is undetectable; otherwise the first request whose reply differs from
+/// that of the CNC without the defect in more than configurable values.
 pub(super) fn of(
     defect: &SeededDefect,
     devices: &[&'static Device],

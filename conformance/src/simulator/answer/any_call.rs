@@ -1,5 +1,5 @@
-//! Tests that the CNC answers any call with data that decodes as the reply stream of the function,
-//! or with an error number.
+//! Tests that the CNC answers pseudo-random calls with data that decodes as the reply stream of the
+//! function, or with an error number.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -56,7 +56,7 @@ const NAMES: &[&[u8]] = &[
     b"\0\0\0\0\0\0\0\0",
 ];
 
-/// A random call at or near the address of a function, so that some calls succeed.
+/// A random call, mostly at or near the address of a function, so that some calls succeed.
 fn call<'a>(random: &mut PseudoRandom, data: &'a [u8]) -> Call<'a> {
     use AdsService::{Read, ReadWrite, Write};
     let axis = random.of(&[0, 0, 0, 0x1000, 0x1_0000, 0x2_0000, 0x6_0000, 0xFFFF_0000]);

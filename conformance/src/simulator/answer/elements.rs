@@ -171,7 +171,8 @@ const fn stride(class: Class, instance: u8) -> AxisStride {
 }
 
 fn text(text: &str) -> ReplyData {
-    // This does not fail: the names in a model were checked to be CP1252.
+    // This does not fail: the text is a constant, or the name of an instance, which was checked to
+    // be CP1252 when the model was built.
     encode_text(CncStr::new(text).map_err(|_| AdsError::INVALID_DATA)?)
 }
 

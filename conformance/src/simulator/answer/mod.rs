@@ -39,7 +39,7 @@ impl Cnc {
         Self { model, state, clock: Clock::running(), policy }
     }
 
-    /// Replaces the data model and resets the state.
+    /// Replaces the data model, and resets the state and the policy; the clock continues.
     pub(crate) fn with_model(self, model: Model) -> Self {
         Self { clock: self.clock, ..Self::new(model) }
     }
@@ -59,7 +59,7 @@ impl Cnc {
     }
 
     /// Stops the clock at 0. From then on, only [`pass`](Self::pass) advances the clock, so that
-    /// tests control the time.
+    /// the caller controls the time.
     ///
     /// ```
     /// use std::time::Duration;
@@ -94,7 +94,8 @@ impl Cnc {
         self
     }
 
-    /// Advances the clock by `time`: parameters are created and deleted, and programs continue.
+    /// Advances the clock by `time`. At the next access to the CNC, parameters are created and
+    /// deleted, and programs continue up to the new time.
     pub fn pass(&self, time: Duration) {
         self.clock.pass(time);
     }
@@ -116,7 +117,7 @@ impl Cnc {
         AnsweringCnc { model: &self.model, state, now }
     }
 
-    /// Time since the start of the CNC.
+    /// The time of the clock.
     pub(super) fn now(&self) -> Duration {
         self.clock.now()
     }
@@ -130,11 +131,11 @@ impl Cnc {
     /// |---|---|
     /// | 0x6 | no task has this port |
     /// | 0x701 | the function has another service |
-    /// | 0x702 | index group without functions; no such channel or spindle, or no such axis in the index group |
+    /// | 0x702 | index group without functions; no such channel, spindle or other instance, or no such axis in the index group |
     /// | 0x703 | index offset without a function; no such object or element, or no such axis in the index offset; 0x4C on a CNC that is too old |
     /// | 0x704 | write to a read-only value |
     /// | 0x705 | malformed data of a request; wrong size of a value; read length that is too small |
-    /// | 0x706 | index out of bounds, or wrong number of indices; a handle that no variable of the channel has; a request for the handle of a variable that is accessible by name only; write to a place without an axis; impossible axis exchange; NC text that does not fit into the buffer now |
+    /// | 0x706 | index out of bounds, or wrong number of indices; a handle that no variable of the channel has; a request for the handle of a variable that is accessible by name only; write to a place without an axis, except of an axis number; impossible axis exchange; NC text that does not fit into the buffer now |
     /// | 0x710 | no such name or kind; no such axis on the axis interface |
     pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
         self.answering().answer(call)
@@ -208,8 +209,8 @@ impl Responder for Cnc {
     }
 
     fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
-        // Lock the state, read the clock and advance the programs once for all frames, because
-        // these steps take longer than the answer to a request.
+        // Lock the state, read the clock and advance the programs once for all frames, which takes
+        // less time than once for each frame.
         let mut cnc = self.answering();
         while let Some(frame) = frames.next(answers) {
             respond(&mut |call| cnc.answer(call), net_id, &frame, answers);

@@ -34,8 +34,8 @@ impl AnsweringCnc<'_> {
         Ok(Vec::new())
     }
 
-    /// The objects of a list; the list of the first channel includes the objects of the platform
-    /// (COM-4).
+    /// The objects of a list; the list of the first active channel includes the objects of the
+    /// platform (COM-4).
     fn objects(&self, list: ObjectList) -> Result<DescriptorsRef<'_>, AdsError> {
         let parts = list.parts();
         let list = match (parts.table, parts.instance) {
@@ -56,7 +56,8 @@ impl AnsweringCnc<'_> {
 
     /// Owner and index of the object at an address.
     ///
-    /// For a platform axis, both forms are accepted: the axis in the group or in the offset (E-04).
+    /// For a platform axis, both forms are accepted: the axis either in the group or in the offset
+    /// (E-04).
     fn object(&self, (com, offset): (ComGroup, IndexOffset)) -> Result<(Owner, usize), AdsError> {
         let split = offset.axis_and_element(AxisStride::X10000);
         let (axis, element) = split.map_err(|_| AdsError::INVALID_OFFSET)?;

@@ -59,7 +59,7 @@ fn printed_examples() {
     }
     assert_eq!(ask(0x2_0004, b"V.A.WCS\0"), Ok(vec![0x1B, 0, 2, 1]));
     assert_eq!(ask(0x2_0005, b"V.A.WCS\0"), Ok(1234.2_f64.to_le_bytes().to_vec()));
-    // The axis of the first request does not exist; the name in the second request contains an
+    // The place of the first request does not exist; the name in the second request contains an
     // axis.
     assert_eq!(ask(0x4_0005, b"V.A.WCS\0"), Err(AdsError::SYMBOL_NOT_FOUND));
     assert_eq!(ask(0x2_0005, b"V.A.WCS.Y\0"), Err(AdsError::SYMBOL_NOT_FOUND));
@@ -156,7 +156,8 @@ fn a_rank_is_not_a_number() {
     for group in [0x12_2303, 0x12_2305, 0x12_23FF, 0x02_2304, 0x02_2306] {
         assert_eq!(channel(group), Err(AdsError::INVALID_GROUP), "{group:#x}");
     }
-    // Elements may exist in this group, but channel 0 has no variables.
+    // In this group, only elements may exist: there is no channel 0, so no function for variables
+    // has this address.
     assert_eq!(channel(0x12_2300), Err(AdsError::INVALID_OFFSET));
 }
 
@@ -234,7 +235,8 @@ fn wrong_lengths_are_errors() {
     }
 }
 
-/// The list of every channel contains the program stream of the channel (STM-1).
+/// In the default model, the list of every channel contains the program stream of the channel
+/// (STM-1).
 #[test]
 fn every_channel_lists_its_streaming_object() {
     for channel in [1, 2, 6] {
@@ -288,7 +290,8 @@ fn object_lists() {
     assert_eq!(axis[12..20], [0, 2, 0x12, 0, 1, 0, 1, 0]);
 }
 
-/// Each object can be read with the address and the length from its descriptor.
+/// Each object except the program streams can be read with the address and the length from its
+/// descriptor.
 #[test]
 fn every_object_matches_its_descriptor() {
     let cnc = cnc();
@@ -333,7 +336,7 @@ fn many_platform_axes() {
     }
 }
 
-/// The CNC accepts packets only for the program of an existing channel.
+/// The CNC accepts packets only for the program of an active channel.
 #[test]
 fn packets_of_the_program_stream() {
     let write = |group| {

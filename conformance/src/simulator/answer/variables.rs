@@ -218,7 +218,7 @@ impl AnsweringCnc<'_> {
                 values.and_then(|values| values.get_mut(variable))
             }
         };
-        // A place without an axis is not writable.
+        // The variables of a place without an axis cannot be written.
         copy_padded(
             value.and_then(|value| value.get_mut(part)).ok_or(AdsError::INVALID_DATA)?,
             bytes,

@@ -1,4 +1,4 @@
-//! The profile of a device with this model.
+//! The profile (the claims) of a device with a model.
 
 use std::collections::BTreeSet;
 
@@ -7,8 +7,9 @@ use crate::number::to_u32;
 use crate::profile::Profile;
 
 impl Model {
-    /// The complete profile of a device with this model. It does not claim that the device answers
-    /// the printed examples, because the model does not determine this.
+    /// The profile of a device with this model. It claims the channels, axes and spindles of the
+    /// model, and all sections of the manuals, but not that the device answers the printed examples
+    /// with the printed values.
     pub fn profile(&self) -> Profile {
         let active = || self.channels.iter().filter(|channel| channel.active);
         let is_absent = |number: &u8| !self.channels.iter().any(|one| one.number == *number);
@@ -22,7 +23,7 @@ impl Model {
         let elements = self.classes.iter();
         let elements =
             elements.flat_map(|class| class.channel.items.iter().chain(&class.axis.items));
-        // A write to these contents exchanges axes; writing the old number does not undo the
+        // A write to these contents exchanges axes; writing the old number does not always undo the
         // exchange.
         let exchange = self.channel_axis.items.iter().chain(elements);
         let exchange =

@@ -1,4 +1,4 @@
-//! The variables of a model in their initial state, for comparison with replies.
+//! The V.E and V.G variables of a model in their initial state, for comparison with replies.
 
 use ads_cnc::{CncString, ExtendedDescription, VariableAccess, VariableType};
 

@@ -42,16 +42,16 @@ pub(in crate::simulator) struct ChannelModel {
     pub(in crate::simulator) places: Vec<Option<usize>>,
     pub(in crate::simulator) objects: Objects,
     pub(in crate::simulator) variables: Variables,
-    /// Indices of the V.E variables in `variables`, in the order of the list of the CNC; `global`
-    /// for V.G.
+    /// The positions of the V.E variables in `variables`, in the order of their indices.
     pub(in crate::simulator) external: Vec<usize>,
+    /// The positions of the V.G variables in `variables`, in the order of their indices.
     pub(in crate::simulator) global: Vec<usize>,
     pub(in crate::simulator) by_handle: HashMap<u32, VariableRef>,
     pub(in crate::simulator) parameters: Vec<Parameter>,
     pub(in crate::simulator) program: ProgramConfig,
     /// The NC program that sends requests to services, if any.
     pub(in crate::simulator) script: Option<ScriptConfig>,
-    /// The descriptors of the channel's objects, and of the objects of its axes.
+    /// The descriptors of the channel's objects, and of the objects at each of its places.
     pub(in crate::simulator) list: Descriptors,
     /// The same list, followed by the descriptors of the platform's objects (COM-4).
     pub(in crate::simulator) list_of_first: Descriptors,
@@ -65,7 +65,7 @@ pub(in crate::simulator) struct AxisModel {
     pub(in crate::simulator) number: u32,
 }
 
-/// Settings that override those of a file.
+/// Settings that override those of a file; `None` keeps the setting of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Settings {
     /// The edition of the manual that the CNC follows.

@@ -1,4 +1,4 @@
-//! The structure of a model file, with the positions of its parts for error messages.
+//! The structure of a model file, with positions (`Spanned`) for error messages.
 
 use serde::Deserialize;
 use toml::{Spanned, Value};

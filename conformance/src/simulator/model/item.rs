@@ -25,17 +25,17 @@ impl Item {
 /// The source of a content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::simulator) enum ContentSource {
-    /// The last written value.
+    /// The initial value or, after a write, the last written value.
     Value,
     /// The logical number of the axis that owns the content; 0 at a place (axis index of a channel)
-    /// without an axis. A write at a place exchanges axes.
+    /// without an axis. If the content is writable, a write at a place exchanges axes.
     AxisNumber,
 }
 
 /// The initial values of an object, element or variable.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::simulator) struct Initial {
-    /// Size of each value in bytes.
+    /// Size in bytes of the value of an instance; for an array, of the whole array.
     pub(in crate::simulator) size: usize,
     pub(super) values: InitialValues,
 }
@@ -44,12 +44,12 @@ pub(in crate::simulator) struct Initial {
 pub(super) enum InitialValues {
     /// The same value for all instances.
     Same(Vec<u8>),
-    /// One value for each instance; zeros for further instances.
+    /// One value for each of the first instances; zeros for further instances.
     Each(Vec<Vec<u8>>),
 }
 
 impl Initial {
-    /// The value of an instance, counted from 0.
+    /// The value of an instance, such as an axis, a channel or a spindle, counted from 0.
     pub(in crate::simulator) fn of(&self, instance: usize) -> Vec<u8> {
         match &self.values {
             InitialValues::Same(value) => value.clone(),
@@ -79,14 +79,15 @@ impl Objects {
 /// The elements of each instance of a class.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::simulator) struct Elements {
-    /// Name of an instance; `{}` is replaced by the number of the instance.
+    /// Name of an instance; `{}` stands for the number of the channel, or the index of the axis or
+    /// spindle.
     pub(super) name: String,
     /// The elements from element 1 on.
     pub(in crate::simulator) items: Vec<Item>,
 }
 
 impl Elements {
-    /// The name of the instance with this number.
+    /// The name of the instance with this number or index.
     pub(in crate::simulator) fn name(&self, number: impl ToString) -> String {
         self.name.replace("{}", &number.to_string())
     }

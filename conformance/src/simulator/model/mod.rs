@@ -47,8 +47,8 @@ impl Model {
     /// Parses a model from TOML; `file` is the name of the file in errors.
     ///
     /// # Errors
-    /// [`ModelError`] for invalid TOML, unknown keys, and values that contradict each other or do
-    /// not fit into the streams.
+    /// [`ModelError`] for invalid TOML, unknown or missing keys, and invalid values, for example
+    /// values that contradict each other or do not fit into the streams.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, ModelError> {
         Self::with_settings(text, file, Settings::default())
     }
@@ -96,7 +96,7 @@ impl Model {
         channel.map(|channel| &channel.program)
     }
 
-    /// The elements that each instance of a class has.
+    /// The elements of the instances of a class.
     pub(super) fn class(&self, class: Class) -> Option<&ClassModel> {
         self.classes.get(class_place(class))
     }

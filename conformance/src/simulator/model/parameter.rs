@@ -29,7 +29,7 @@ pub(in crate::simulator) struct Times {
 
 impl Times {
     /// The times of a parameter that is created at `comes` and deleted at `goes`, repeated after
-    /// `period`.
+    /// `period`; an error message if the times contradict each other.
     pub(super) fn new(
         comes: Duration,
         goes: Option<Duration>,
@@ -48,7 +48,7 @@ impl Times {
         Ok(Self { comes, goes, period })
     }
 
-    /// Whether the parameter always exists.
+    /// Whether the parameter exists at all times.
     pub(in crate::simulator) fn is_always(&self) -> bool {
         *self == Self::default()
     }

@@ -6,7 +6,8 @@ use toml::Value;
 
 use crate::text::plural;
 
-/// The kinds of items, which have different names for the types.
+/// The kinds of items. Variables and elements allow only some of the types; COM objects have other
+/// names for the types.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum TypeNames {
     /// Variables (VAR-5).
@@ -87,7 +88,8 @@ fn one(data_type: DataType, size: usize, value: &Value) -> Result<Vec<u8>, Strin
             integer(*number, 0, unsigned_max(size), size)
         }
         (Sgn08 | Sgn16 | Sgn32 | Lint, Value::Integer(number)) => {
-            // A signed number has one bit less.
+            // The maximum of a signed number has one bit less; for 8 bytes, `unsigned_max` already
+            // returns this maximum.
             let max = unsigned_max(size) >> u32::from(size < 8);
             integer(*number, max.saturating_neg().saturating_sub(1), max, size)
         }
@@ -105,7 +107,7 @@ const fn unsigned_max(size: usize) -> i64 {
         1 => 0xFF,
         2 => 0xFFFF,
         4 => 0xFFFF_FFFF,
-        // Integers in TOML are at most `i64::MAX`.
+        // For 8 bytes; integers in TOML are at most `i64::MAX`.
         _ => i64::MAX,
     }
 }
@@ -117,7 +119,7 @@ fn integer(number: i64, min: i64, max: i64, size: usize) -> Result<Vec<u8>, Stri
     Ok(number.to_le_bytes().into_iter().take(size).collect())
 }
 
-/// Parses a number; Rust rounds to the nearest value.
+/// Converts a number to a type by way of its text; the parser rounds to the nearest value.
 fn parsed<T: std::str::FromStr>(number: impl ToString) -> Result<T, String> {
     let text = number.to_string();
     text.parse().map_err(|_| format!("{text} is not a number"))

@@ -76,12 +76,12 @@ impl Variables {
     }
 }
 
-/// A variable that a handle or name of a channel addresses, by its index in the model.
+/// A variable of a channel or of an axis of the channel, by its index in [`Variables::list`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::simulator) enum VariableRef {
     /// A variable of the channel.
     Channel(usize),
-    /// The variable of the axis at a place (axis index) of the channel, counted from 0 (VAR-10).
+    /// The variable of the axis at a place (axis index less 1) of the channel (VAR-10).
     Axis { place: usize, variable: usize },
 }
 

@@ -12,7 +12,7 @@ pub struct CompletedRequest {
     pub number: u64,
     /// Index of the request in the script.
     pub request: usize,
-    /// The time at which the program continued.
+    /// The time of the step that read the response, or after which the program stopped waiting.
     pub at: Duration,
     pub outcome: ServiceOutcome,
 }
@@ -28,7 +28,7 @@ pub enum ServiceOutcome {
     TimedOut,
 }
 
-/// The latest outcomes, and the number of all outcomes.
+/// The latest outcomes, the number of all outcomes, and the number of requests that timed out.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CompletedRequests {
     pub(super) stored: VecDeque<CompletedRequest>,

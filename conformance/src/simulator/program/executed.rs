@@ -1,12 +1,15 @@
 //! The executed lines of a program.
 
+use crate::number::{digest, digest_more};
+
 /// The executed lines of a program: the number and digest of all lines, and the text of the latest
 /// lines.
 ///
 /// ```
 /// use std::time::Duration;
 ///
-/// use ads_cnc_conformance::simulator::program::{Pace, StreamingProgram, ProgramConfig, digest};
+/// use ads_cnc_conformance::number::digest;
+/// use ads_cnc_conformance::simulator::program::{Pace, StreamingProgram, ProgramConfig};
 ///
 /// let config = ProgramConfig { pace: Pace::Fast, kept: 20, ..ProgramConfig::default() };
 /// let mut program = StreamingProgram::new(config);
@@ -26,14 +29,15 @@ pub struct Executed {
     /// The latest complete lines.
     kept: Vec<u8>,
     kept_lines: u64,
-    /// Number of bytes: when the stored lines would exceed twice this number, the oldest lines are
-    /// removed, as far as at least this number of bytes is left.
+    /// Number of bytes: when the stored lines with a new line would exceed twice this number, the
+    /// oldest lines are removed, as far as at least this number of bytes is left together with the
+    /// new line.
     room: usize,
 }
 
 impl Executed {
     pub(super) fn new(room: usize) -> Self {
-        Self { lines: 0, bytes: 0, digest: BASIS, kept: Vec::new(), kept_lines: 0, room }
+        Self { lines: 0, bytes: 0, digest: digest(b""), kept: Vec::new(), kept_lines: 0, room }
     }
 
     /// Number of lines.
@@ -61,7 +65,7 @@ impl Executed {
         self.lines.saturating_sub(self.kept_lines).saturating_add(1)
     }
 
-    /// The latest lines without their line ends.
+    /// The latest lines, which are stored, each without its CR LF.
     pub fn lines(&self) -> impl Iterator<Item = &[u8]> {
         lines(&self.kept).map(|line| line.strip_suffix(b"\r\n").unwrap_or(line))
     }
@@ -69,7 +73,7 @@ impl Executed {
     pub(super) fn push(&mut self, line: &[u8]) {
         self.lines = self.lines.saturating_add(1);
         self.bytes = self.bytes.saturating_add(u64::try_from(line.len()).unwrap_or(u64::MAX));
-        self.digest = fnv(self.digest, line);
+        self.digest = digest_more(self.digest, line);
         if self.kept.len().saturating_add(line.len()) > self.room.saturating_mul(2) {
             self.forget(line.len());
         }
@@ -93,28 +97,9 @@ impl Executed {
     }
 }
 
-/// Splits bytes from the streaming interface into lines with their line ends.
+/// Splits bytes from the streaming interface after each LF into lines with their line ends.
 pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split_inclusive(|&byte| byte == b'\n')
-}
-
-const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
-
-/// The FNV-1a hash of the bytes with 64 bits, which is not cryptographic.
-///
-/// ```
-/// use ads_cnc_conformance::simulator::program::digest;
-///
-/// assert_eq!(digest(b"foobar"), 0x85944171f73967e8);
-/// ```
-pub fn digest(bytes: &[u8]) -> u64 {
-    fnv(BASIS, bytes)
-}
-
-fn fnv(digest: u64, bytes: &[u8]) -> u64 {
-    bytes
-        .iter()
-        .fold(digest, |digest, &byte| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The CNC's side of data streaming.
+//! The buffer between the writes of a client and the decoder of the CNC.
 
 use std::fmt;
 
@@ -21,7 +21,7 @@ use ads_cnc::streaming::{Ack, LineError, check_line_ends};
 /// assert_eq!(interface.read()?, b"N10 G0 X0\r\nN20 M30\r\n");
 /// assert!(interface.is_empty());
 ///
-/// // The CNC detects a missing line end when it reads the line: error 21476.
+/// // The CNC detects a wrong line end when it reads the line: error 21476.
 /// assert_eq!(interface.write(b"N30 G0 X0\n"), Ack::Accepted);
 /// assert_eq!(
 ///     interface.read().unwrap_err().to_string(),
@@ -44,8 +44,8 @@ impl StreamingInterface {
     /// Appends all bytes of a write to the buffer, or none of them (STM-15).
     ///
     /// Returns [`Ack::Rejected`] for more than 992 bytes and for no bytes (STM-4), and
-    /// [`Ack::Busy`], with warning 11012 of the CNC, if the bytes do not fit now (STM-6). These
-    /// causes are assumed. The bytes are not checked here.
+    /// [`Ack::Busy`], for which a CNC issues warning 11012, if the bytes do not fit now (STM-6).
+    /// These causes are assumed. The line ends are not checked here.
     pub fn write(&mut self, data: &[u8]) -> Ack {
         if data.is_empty() || data.len() > STREAM_PACKET_MAX {
             return Ack::Rejected;
@@ -60,7 +60,7 @@ impl StreamingInterface {
     }
 
     /// Removes and returns all buffered bytes in the order of the writes, without the boundaries of
-    /// the writes (STM-12). If the buffer is empty, motion stops until the next write (STM-16).
+    /// the writes (STM-12).
     ///
     /// # Errors
     /// The first line in the buffer that does not end in CR LF: CNC error 21476 (STM-5). This also

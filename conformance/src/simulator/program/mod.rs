@@ -44,8 +44,8 @@ mod state;
 mod streaming_program;
 
 pub use completed_request::{CompletedRequest, ServiceOutcome};
+pub use executed::Executed;
 pub(crate) use executed::lines;
-pub use executed::{Executed, digest};
 pub use interface::StreamingInterface;
 pub use pace::{Pace, ParsePaceError};
 pub(crate) use policy::{Buffer, Policy, ProgramEvent};

@@ -40,8 +40,8 @@ impl Pace {
 #[error("expected a number of lines per second from 1, `4000 bytes/s`, `fast` or `hold`")]
 pub struct ParsePaceError;
 
-/// Parses a number of lines with or without `lines/s`, a number of bytes with `bytes/s`, `fast` or
-/// `hold`.
+/// Parses a number of lines per second, with or without `lines/s`, a number of bytes per second
+/// with `bytes/s`, `fast` or `hold`.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::program::Pace;
@@ -56,7 +56,7 @@ impl std::str::FromStr for Pace {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let (number, unit) = text.split_once(' ').unwrap_or((text, "lines/s"));
-        // The parser of numbers would accept a sign.
+        // The parser of numbers would accept a plus sign.
         let number = Some(number).filter(|number| !number.starts_with('+'));
         let number = number.and_then(|number| number.parse().ok());
         let pace = match (text, unit) {
@@ -81,8 +81,8 @@ impl std::fmt::Display for Pace {
     }
 }
 
-/// Calculates the time at which a line has been executed, always from the start, so that rounding
-/// errors do not accumulate.
+/// Calculates the time at which a line has been executed, always from the start of this clock, so
+/// that rounding errors do not accumulate.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LineClock {
     since: Duration,
@@ -96,7 +96,7 @@ impl LineClock {
         Self { since: now, units: 0 }
     }
 
-    /// Counts a line if it has been executed by now.
+    /// Returns whether a line has been executed by `now`, and counts the line in this case.
     pub(super) fn pass(&mut self, pace: Pace, line: &[u8], now: Duration) -> bool {
         let (rate, cost) = match pace {
             Pace::Fast => return true,

@@ -1,5 +1,4 @@
-//! The behaviour of NC programs and of the streaming interface that seeded defects and valid
-//! variants can change.
+//! The behaviour of NC programs and of the streaming interface that seeded defects can change.
 
 use std::fmt;
 
@@ -13,18 +12,19 @@ use super::segment::ProgramSegment;
 pub(crate) struct Policy {
     /// Creates a streaming interface.
     pub(crate) buffer: fn() -> Box<dyn Buffer>,
-    /// Checks lines that were read together.
+    /// Checks lines that were read together, and makes a segment of them.
     pub(crate) segment: fn(&mut Checker, &[u8]) -> ProgramSegment,
     /// Events that start the streaming program, in addition to an explicit start and to the events
-    /// that [`Start`](super::Start) names.
+    /// that [`Start`](super::Start) names: power-on or an NC reset.
     pub(crate) starts: &'static [ProgramEvent],
-    /// Events that end the streaming program, in addition to a program end and an error.
+    /// Events that end the streaming program, in addition to a program end and an error: an NC
+    /// reset or the execution of all lines.
     pub(crate) ends: &'static [ProgramEvent],
-    /// Events that empty the streaming interface.
+    /// Events that empty the streaming interface: a start, an NC reset or a program end.
     pub(crate) clears: &'static [ProgramEvent],
     /// Error number for a line without CR LF.
     pub(crate) line_end_error: u32,
-    /// Whether a script also writes REQUEST_STATE before all other variables.
+    /// Whether a script, for each request, also writes REQUEST_STATE before all other variables.
     pub(crate) state_first: bool,
     /// Whether a script waits for RESPONSE_STATE before it reads RESPONSE.
     pub(crate) awaits_response: bool,
@@ -40,12 +40,12 @@ pub(crate) enum ProgramEvent {
     Start,
     Reset,
     End,
-    /// All lines were executed.
+    /// All lines that were written have been executed.
     Dry,
 }
 
 impl Policy {
-    /// The behaviour that the manuals document.
+    /// The correct behaviour, which the manuals document, or which is assumed.
     pub(crate) const DEFAULT: Self = Self {
         buffer: || Box::new(StreamingInterface::new()),
         segment: ProgramSegment::new,
@@ -59,7 +59,9 @@ impl Policy {
     };
 }
 
-/// A streaming interface, which buffers written data until it is read.
+/// A streaming interface, which buffers written data until it is read. Apart from
+/// [`StreamingInterface`], only seeded defects implement this trait; they may deviate from the
+/// descriptions of its functions.
 pub(crate) trait Buffer: fmt::Debug + Send {
     /// Accepts all bytes of a write, or none.
     fn write(&mut self, data: &[u8]) -> Ack;

@@ -17,7 +17,7 @@ pub struct ScriptConfig {
     pub requests: Vec<ServiceRequest>,
     /// The number of times that the list of requests is executed.
     pub repeat: Repeat,
-    /// The pause between a response and the next request.
+    /// The pause between a response, or the end of the maximum wait, and the next request.
     pub pause: Duration,
     /// The time between two steps, each of which writes or reads a variable; a time of less than a
     /// microsecond counts as a microsecond.
@@ -64,8 +64,8 @@ pub enum Repeat {
 
 impl ScriptConfig {
     /// The manual's example: in turn, a request for the square root of 3 and of a negative number
-    /// to the manual's square root service, each a second after the response to the request before
-    /// it.
+    /// to the manual's square root service, each a second after the response to the previous
+    /// request.
     ///
     /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). The manuals do not print that
     /// a program requests both, or the interval.
@@ -103,9 +103,10 @@ pub enum ScriptState {
     Asking(usize),
     /// The script waits for the response to this request, or reads the response.
     Waiting(usize),
-    /// The script has read the response and pauses before the next request.
+    /// The script has read the response, or has stopped waiting, and pauses before the next
+    /// request.
     Pausing,
-    /// The script has sent all requests.
+    /// The script has no more requests to send.
     Finished,
 }
 
@@ -113,11 +114,11 @@ pub enum ScriptState {
 ///
 /// The script executes one step per cycle, so that a service sees the intermediate states: it
 /// writes UUID, REQUEST and REQUEST_STATE, reads RESPONSE_STATE in each cycle until a response
-/// exists, and then reads RESPONSE.
+/// exists or the maximum wait has ended, and reads RESPONSE if a response exists.
 ///
 /// [Advance](Self::advance) the script before anything else accesses the interface; then the result
-/// is the same as if the script ran continuously. The number of steps executed at a time is
-/// limited: after a long time, the remaining steps are executed later than they were due.
+/// is the same as if the script ran continuously. The number of steps in one call is limited: after
+/// a long time, the remaining steps are executed later than they were due.
 ///
 /// ```
 /// use std::time::Duration;
@@ -176,8 +177,8 @@ impl Script {
     /// Maximum number of stored outcomes.
     pub const ANSWERS_MAX: usize = CompletedRequests::STORED_MAX;
 
-    /// Maximum number of overdue steps executed at a time. Consecutive reads of RESPONSE_STATE
-    /// without a response count as one step.
+    /// Maximum number of steps that one call of [`advance`](Self::advance) executes. It skips reads
+    /// of RESPONSE_STATE that cannot find a response.
     const STEPS: u32 = 100_000;
 
     /// Creates a program that begins when it is first [advanced](Self::advance).
@@ -281,7 +282,7 @@ impl Script {
         self.present.as_ref().map(|(_, call)| call.step())
     }
 
-    /// The state after the last `advance`.
+    /// The state after the last call of `advance`, `step` or `restart`.
     pub fn state(&self) -> ScriptState {
         match (&self.present, self.next_step()) {
             (Some(_), _) if self.pausing => ScriptState::Pausing,
@@ -306,7 +307,8 @@ impl Script {
         self.answers.timed_out
     }
 
-    /// Continues with the next request.
+    /// Continues with the request after the one with the index `at`; of the last request, with the
+    /// first one, unless the list has been executed as often as configured.
     fn go_on(&mut self, at: usize, now: Duration) {
         let mut next = at.saturating_add(1);
         if next >= self.requests.len() {

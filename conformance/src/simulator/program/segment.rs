@@ -4,7 +4,7 @@ use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, ProgramEnd};
 
 use super::executed::lines;
 
-/// Lines that were read together, and the line where execution stops.
+/// Lines that were read together, and the line where execution stops, if any.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ProgramSegment {
     lines: Vec<u8>,

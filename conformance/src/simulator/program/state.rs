@@ -11,15 +11,17 @@ pub enum ProgramState {
     Stopped,
     /// The program has started, and has lines to read or execute.
     Running,
-    /// The program has executed all lines. Motion stops until the next write (STM-16).
+    /// The program has executed all lines that were written. A real CNC stops motion until the next
+    /// write (STM-16).
     Dry,
     /// The program has ended, and with it streaming mode (STM-10).
     Ended(ProgramEnd),
-    /// An error aborted streaming mode (STM-5, STM-8). Only an NC reset ends this state.
+    /// An error aborted streaming mode (STM-5, STM-8). Of the functions of the program, only an NC
+    /// reset ends this state.
     Aborted(Message),
 }
 
-/// An error that the CNC reports: `streaming.nc:4:5: error 21476: …`.
+/// An error that the CNC reports, such as `streaming.nc:4:5: error 21476: …`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
     /// Error number; `None` for loops and backward jumps, whose numbers are not documented.

@@ -22,7 +22,8 @@ pub struct ProgramConfig {
     /// Speed of execution; 1000 lines/s by default (assumed).
     pub pace: Pace,
     /// Number of bytes; 1 MiB by default. When the stored executed lines would exceed twice this
-    /// number, the oldest lines are removed, as far as at least this number of bytes is left.
+    /// number, the oldest lines are removed, as far as at least this number of bytes is left
+    /// together with the newly executed line.
     pub kept: usize,
 }
 
@@ -53,9 +54,10 @@ impl Default for ProgramConfig {
 ///   not fit now is rejected with warning 11012 (STM-3, STM-6).
 /// - When the decoder has executed all its lines, it reads all bytes of the interface at once
 ///   (STM-12) and executes them line by line. A line counts as executed when its time at the
-///   [`Pace`] is over. Before its start, and after an end or an error, the decoder reads nothing,
-///   so writes fill the interface (assumed).
-/// - If the interface is empty, motion stops until the next write (STM-16).
+///   [`Pace`] is over. Before the start of the program, and after an end without a restart, an NC
+///   reset or an error, the decoder reads nothing, so writes fill the interface (assumed).
+/// - If all lines are executed and the interface is empty, the program waits for the next write; a
+///   real CNC also stops motion (STM-16).
 /// - A line without CR LF aborts streaming when it is read; no line that was read with it is
 ///   executed (assumed). A loop or a backward jump aborts streaming instead of executing its line;
 ///   the lines before it are executed (STM-8; the time is assumed). [`Checker`] defines these
@@ -65,8 +67,8 @@ impl Default for ProgramConfig {
 /// - An NC reset ends streaming mode and empties the interface (STM-11).
 ///
 /// The lines are not interpreted: each line is executed once, in order, without branches and jumps.
-/// `L` calls a subroutine, which is a file with its own M17 or M29; the call returns at once and
-/// the stream continues (STM-18).
+/// A line with `L`, which calls a subroutine in another file, is executed like any other line: the
+/// M17 or M29 of the subroutine is in that file and does not end the stream (STM-18).
 ///
 /// The program needs memory for the interface, the same amount for read lines, the labels of the
 /// [`Checker`], and the stored executed lines.
@@ -88,7 +90,7 @@ pub struct StreamingProgram {
 #[derive(Debug)]
 enum ProgramPhase {
     Started(ProgramSegment),
-    /// Streaming mode is not active; the state contains the reason.
+    /// Streaming mode is not active; the state is the reason.
     Over(ProgramState),
 }
 

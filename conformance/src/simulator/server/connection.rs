@@ -1,5 +1,5 @@
-//! A connection: receives frames in pieces of any size, and sends the replies to all complete
-//! requests together.
+//! A connection: receives frames in pieces of any size, gathers the replies to the complete
+//! requests up to a limit, and sends these replies together.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
@@ -18,7 +18,7 @@ const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
 /// Maximum number of bytes that a connection buffers: received bytes and gathered replies.
 pub(super) const BUFFERED_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 
-/// The buffer of a connection, with received bytes that are not yet answered.
+/// The buffers of a connection: received bytes that are not yet answered, and gathered replies.
 ///
 /// ```
 /// use ads_cnc_conformance::simulator::{Cnc, NET_ID, ReceiveBuffer};
@@ -53,7 +53,7 @@ impl Default for ReceiveBuffer {
 
 impl ReceiveBuffer {
     pub fn new() -> Self {
-        // The system allocates pages of zeros at the first write to them.
+        // Most systems allocate pages of zeros at the first write to them.
         Self {
             bytes: vec![0; RECEIVED_MAX],
             buffered: 0,
@@ -61,12 +61,14 @@ impl ReceiveBuffer {
         }
     }
 
-    /// The free part of the buffer for the next bytes; never empty.
+    /// The free part of the buffer for the next bytes; not empty, unless [`take`](Self::take) has
+    /// failed.
     pub fn room(&mut self) -> &mut [u8] {
         self.bytes.get_mut(self.buffered..).unwrap_or_default()
     }
 
-    /// Number of bytes of an incomplete frame.
+    /// Number of received bytes in the buffer; after a successful [`take`](Self::take), these are
+    /// the bytes of an incomplete frame.
     pub const fn buffered(&self) -> usize {
         self.buffered
     }
@@ -112,8 +114,8 @@ impl ReceiveBuffer {
     }
 }
 
-/// Answers frames in order until the client closes the connection, is idle for too long, or sends
-/// an invalid frame, after which the beginning of the next frame is unknown.
+/// Answers frames in order until the connection fails, or the client closes it, exceeds a time
+/// limit or sends an invalid frame, after which the beginning of the next frame is unknown.
 pub(super) fn serve(
     cnc: &dyn Responder,
     options: &ServerOptions,
@@ -159,7 +161,7 @@ fn send(cnc: &dyn Responder, mut stream: &TcpStream, answers: &[u8]) -> io::Resu
 struct Limit<'a> {
     options: &'a ServerOptions,
     awaited: Awaited,
-    /// The time at which the limit began.
+    /// The time at which the limit for the first frame, or for the rest of a frame, began.
     since: Instant,
     /// The timeout that was set on the stream; `None` if none was set yet.
     set: Option<Option<Duration>>,
@@ -189,7 +191,8 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// Notes that bytes of an incomplete frame were received, which do not extend the limit.
+    /// Notes that bytes of an incomplete frame were received. The limit begins with the first bytes
+    /// of a frame (for the first frame, with the connection); further bytes do not extend it.
     fn received(&mut self) {
         if self.awaited == Awaited::Next {
             self.request_received(true);

@@ -9,13 +9,14 @@ use crate::gate::NET_ID;
 #[derive(Clone, Copy, Debug)]
 pub struct ServerOptions {
     pub net_id: AmsNetId,
-    /// Time without a complete request after which a connection is closed; `None` for no limit.
-    /// Without a limit, vanished clients occupy connections.
+    /// Time without bytes, after a complete request, after which a connection is closed; `None` for
+    /// no limit. If this time is shorter than `frame`, it replaces `frame`. Without a limit,
+    /// vanished clients occupy connections.
     pub idle: Option<Duration>,
     /// Time without the first complete request, or with an incomplete request, after which a
-    /// connection is closed; `None` for no limit. This limits the time for which clients that only
-    /// connect, or send a part of a request, occupy connections. Between complete requests, only
-    /// `idle` applies.
+    /// connection is closed; with `None`, `idle` is the limit. This limits the time for which
+    /// clients that only connect, or send a part of a request, occupy connections. Between complete
+    /// requests, only `idle` applies.
     pub frame: Option<Duration>,
 }
 
@@ -23,7 +24,7 @@ impl ServerOptions {
     /// The default of `idle`: ten minutes, long enough for a user who enters requests by hand.
     pub const IDLE: Duration = Duration::from_secs(600);
 
-    /// The default of `frame`: ten seconds, because a client sends a whole frame at once.
+    /// The default of `frame`: ten seconds, because clients usually send a whole frame at once.
     pub const FRAME: Duration = Duration::from_secs(10);
 }
 

@@ -98,7 +98,8 @@ fn pipelined_requests_are_answered_in_order() {
     expect(&stream, &ids().flat_map(|id| with_id(ANSWER, id)).collect::<Vec<_>>());
 }
 
-/// An invalid frame in the same segment does not prevent the replies to the requests before it.
+/// An invalid frame does not prevent the replies to the requests that were received together with
+/// it, before it.
 #[test]
 fn requests_before_a_malformed_frame_are_answered() {
     let cnc = Cnc::with_default_model().unwrap();
@@ -207,7 +208,7 @@ fn frames_up_to_the_maximum_length_are_accepted() {
         frame
     };
     let mut stream = client(&server);
-    // The frames are sent together, in pieces that end anywhere.
+    // The frames are sent together, in pieces that do not end where a frame ends.
     let longest = [frame(0x1_0000), frame(0x1_0000), COUNT.to_vec()].concat();
     for piece in longest.chunks(50_000) {
         stream.write_all(piece).unwrap();

@@ -1,4 +1,4 @@
-//! Lengths of replies, and splitting of frames.
+//! Cases of the lengths of replies, and of requests that are sent in pieces.
 
 use ads_cnc::address::Class;
 use ads_cnc::operation::{
@@ -37,12 +37,12 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target claims no function that can be requested")
 }
 
-/// Whether the length of the data of a reply is fixed.
+/// Whether a requirement fixes the length of the data of a reply.
 #[derive(Clone, Copy)]
 enum LengthRule {
     /// The length is fixed by this requirement.
     Fixed(Rule),
-    /// The length may depend on the length of a text.
+    /// No requirement fixes the length; it may depend on the length of a text.
     Open,
 }
 
@@ -75,7 +75,8 @@ pub(super) fn read_length(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Whether a requirement fixes the length of the reply to a request. The length of a variable's
-/// value is `Open`, because the variable may be a text.
+/// value is `Open` here, because the variable may be a text. The callers leave out objects and
+/// elements that are texts.
 fn length_rule(request: &Request<'_>) -> LengthRule {
     let spec = request.function().spec();
     let is_number = spec.reply.is_some_and(|stream| stream.layout().is_fixed());
@@ -120,8 +121,8 @@ fn lengths(
     let shown = |found: Option<usize>| {
         move || found.map_or_else(|| "an error".to_owned(), |len| plural(len, "byte"))
     };
-    // This is checked only for fixed lengths: for a text at the end of a reply, the CNC may require
-    // space for a NUL.
+    // A read length that equals the length of the data is checked only for fixed lengths: for a
+    // text at the end of a reply, the CNC may require space for a NUL.
     if let Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
@@ -146,8 +147,8 @@ fn lengths(
         let rules = [rule.into(), own];
         probe.check(&rules[..], fits, expected, shown(found));
     }
-    // If a large read length is accepted, a read length that is one byte smaller must return the same
-    // number of bytes.
+    // If a large read length is accepted, a read length that is one byte smaller must return the
+    // same number of bytes.
     let is_number =
         request.function().spec().reply.is_some_and(|stream| stream.layout().is_fixed());
     let much = there.saturating_add(0x1_0000);

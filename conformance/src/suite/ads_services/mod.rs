@@ -44,12 +44,12 @@ pub(super) const CASES: &[CaseRow] = &[
         "Another service reads an acknowledged value, and the value written before is unchanged"),
 ];
 
-/// Maximum number of items that are requested of a list.
+/// Maximum number of items that the cases in this module request of a list.
 const ITEMS_MAX: u32 = 8;
 
 /// Sends a request to a function that the target must have, and checks that it succeeds. Returns
-/// the data of the reply; `None` if the function is not claimed or optional, or if the check
-/// failed.
+/// the data of the reply; `None` if the check failed, or, without a request, if the function is
+/// optional or not claimed.
 fn ask_for_data<'a>(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -70,12 +70,12 @@ fn number(data: &[u8]) -> u32 {
     ObjectCount::decode(data).map_or(0, |count| count.0)
 }
 
-/// Checks that a Read returns a different descriptor at each index offset, the same descriptors if
-/// several are read at once, and numbers of objects and parameters.
+/// Checks that a Read returns a different descriptor at each of the first index offsets, the same
+/// descriptors if several are read at once, and the numbers of objects and parameters.
 fn read_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_1;
     for list in probe.lists()? {
-        // That platform axes have their own lists is assumed, so a missing list is not judged.
+        // That platform axes have their own lists is assumed, so a missing list is not judged here.
         let Some(data) = ask_if_claimed(probe, CountObjects::new(list))? else { continue };
         let count = number(&data).min(ITEMS_MAX);
         let mut all: Vec<Vec<u8>> = Vec::new();
@@ -108,8 +108,8 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that a ReadWrite returns the numbers of variables, a different variable at each index,
-/// and the same value by handle and by name.
+/// Checks that a ReadWrite returns the numbers of variables, a different variable at each of the
+/// first indices, and the same value by handle and by name.
 fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_3;
     let mut steady = Steady::default();

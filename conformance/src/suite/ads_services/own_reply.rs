@@ -45,8 +45,8 @@ pub(super) fn own_reply(probe: &mut Probe<'_>) -> Step {
     probe.finish("no function has two different replies")
 }
 
-/// Requests of each function that the profile does not exclude, at most [`CALLS_MAX`] of a
-/// function.
+/// Queries about the lists and the first items of the claimed channels, by function: at most
+/// [`CALLS_MAX`] of a function, and none of a function that the profile does not claim.
 fn calls_by_function(probe: &mut Probe<'_>) -> Step<BTreeMap<Function, Vec<RawCall>>> {
     let mut all: BTreeMap<Function, Vec<RawCall>> = BTreeMap::new();
     for channel in probe.channels()? {

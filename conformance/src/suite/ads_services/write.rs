@@ -13,8 +13,8 @@ const ITEMS_MAX: usize = 3;
 
 const RULE: ClauseId = ADS_2;
 
-/// Checks that another service reads the written value, and that a write to a variable does not
-/// change the variable that was written before it.
+/// Checks that another service (Read or ReadWrite) reads the written value, and that a write to a
+/// variable does not change the variable on which the case made its previous write.
 pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
@@ -44,8 +44,8 @@ fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     for object in objects.iter().filter(|one| one.is_writable() && !one.is_text()) {
         let address = &object.address;
         let name = object.name.to_string();
-        // At an axis index without an axis, a written value may be lost. The contents there are
-        // zero, so objects of axes whose content is zero are skipped.
+        // At an axis index without an axis, a written value may be lost. The contents there should
+        // be zero, so objects of axes whose content is zero are skipped.
         let of_axis = address.content().is_some_and(|(_, offset)| offset.get() >= 0x1000);
         let filled = match address.read() {
             Ok(read) if !probe.is_blank(object) && probe.may(read)? => {

@@ -32,8 +32,8 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
             probe.check(rules, plausible, "a number of parameters", || format!("{count:?}"));
         }
-        // The numbers of variables, which are functions at other offsets of the same index group,
-        // must be available, too.
+        // The numbers of variables, which a function at another offset of the same index group
+        // returns, must be available, too.
         if probe.claims(Function::CountVariables) == Claim::Yes {
             for (_, kind) in KINDS {
                 let kind = CountVariables::new(channel, kind);
@@ -65,14 +65,16 @@ fn ask_name(
     Ok(NameReply { index, data, result: exchange.result(), evidence: probe.evidence() })
 }
 
-/// The names of a kind, read while the number of parameters did not change.
+/// The names of the parameters of a kind, read while the number of parameters did not change.
 struct ParameterList {
     count: u32,
-    /// The replies in the order of their indices, up to and including that for the first rejected
-    /// index.
+    /// The replies for the indices 1 to `count` (at most [`PARAMETERS_MAX`]), up to and including
+    /// that for the first rejected index.
     names: Vec<NameReply>,
+    /// The reply for the index after the last.
     beyond: NameReply,
-    /// The reply for the first index whose name depends on the order of the requests.
+    /// The reply, in descending order of the requests, for the first index whose reply depends on
+    /// the order of the requests; `None` if no reply does.
     unsteady: Option<NameReply>,
 }
 
@@ -88,7 +90,7 @@ impl ParameterList {
     }
 }
 
-/// Maximum number of attempts to read a list that changes meanwhile.
+/// Maximum number of attempts to read a list that changes meanwhile or has a fault.
 const TRIES: usize = 5;
 
 fn names_ascending(
@@ -128,7 +130,7 @@ fn same(one: &[NameReply], other: &[NameReply]) -> bool {
 }
 
 /// The list of a kind, read while it did not change. A list with a fault is returned only if two
-/// attempts read the same list. `None` if no attempt succeeds.
+/// such attempts in succession read the same list. `None` if [`TRIES`] attempts give no such list.
 fn steady_list(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -148,7 +150,8 @@ fn steady_list(
     Ok(None)
 }
 
-/// The list of a kind with `count` parameters; `None` if its names changed meanwhile.
+/// The list of a kind with `count` parameters, read in ascending and in descending order of the
+/// indices; `None` if its names changed meanwhile.
 fn listed(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -199,8 +202,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
     for reply in names {
         probe.set_evidence(reply.evidence.clone());
         let expected = || format!("a name for index {} of {count} {}", reply.index, prefix(kind));
-        // If there is no name, the count or the range of indices is wrong; at index 1, the function
-        // that returns names may be wrong, too.
+        // If there is no name, the count, the range of indices or the offset of the function may be
+        // wrong; at index 1, the function that returns names may be wrong, too.
         let rules: &[ClauseId] = match reply.index {
             1 => &[DYN_1, DYN_5, SDA_12, DYN_2],
             _ => &[DYN_1, DYN_5, SDA_12],

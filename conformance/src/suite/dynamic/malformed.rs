@@ -1,4 +1,4 @@
-//! Malformed requests about dynamic parameters.
+//! Malformed and unusual requests about dynamic parameters.
 
 use ads_cnc::TextRef;
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
@@ -35,7 +35,8 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
             let valid = RawCall::new(request)?;
-            // These names begin with an existing name and have 1, 2 or 160 characters more than 96.
+            // These names begin with an existing name and have 97, 98 or 256 characters: more than
+            // the maximum of 96.
             let room = DYNAMIC_NAME_MAX.saturating_sub(known.as_bytes().len());
             for more in [1, 2, 160] {
                 let rest = vec![b'x'; room.saturating_add(more)];
@@ -57,7 +58,8 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Sends names without a NUL, and names padded with NULs: whether a name needs a NUL is not specified.
+/// Sends names without a NUL, and names padded with NULs: whether a name needs a NUL is not
+/// specified.
 pub(super) fn forms(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, _| {
         let known = first(probe, channel, kind)?;

@@ -28,8 +28,8 @@ pub(super) fn number(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind)
     Ok(count.map_or(0, |count| count.0))
 }
 
-/// Calls a function for every kind of which a channel has a parameter, with the number of
-/// parameters, at most [`PARAMETERS_MAX`].
+/// Calls a function for every kind of which a claimed channel has a parameter, with the number of
+/// parameters, at most [`PARAMETERS_MAX`]. Ends the case as not applicable if there are none.
 pub(super) fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, DynamicKind, u32) -> Step,
@@ -52,7 +52,7 @@ pub(super) fn nothing() -> Stop {
 }
 
 /// The indices and names of the first `count` parameters of a kind, up to the first index that is
-/// rejected; other cases judge the rejection.
+/// rejected; other cases judge the rejection. A name that no request can contain is left out.
 pub(super) fn names_of(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -72,8 +72,8 @@ pub(super) fn names_of(
     Ok(all)
 }
 
-/// The name at index 1 of a kind. The case is inconclusive if index 1 has no name, because an NC
-/// program may have deleted the parameter meanwhile.
+/// The name at index 1 of a kind. The case is inconclusive if index 1 has no name that a request
+/// can contain, because an NC program may have deleted the parameter meanwhile.
 pub(super) fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<CncString> {
     let first = names_of(probe, channel, kind, 1)?.into_iter().next();
     let lacks = || Stop::Inconclusive(format!("{}: index 1 has no name", prefix(kind)));
@@ -81,7 +81,7 @@ pub(super) fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) 
 }
 
 /// Checks that a request is rejected while `valid`, the same request without the fault, succeeds
-/// and the number of parameters does not change.
+/// and returns the same data before and after it, and the number of parameters does not change.
 pub(super) fn rejects_steadily<'a>(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,

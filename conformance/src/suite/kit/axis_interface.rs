@@ -9,14 +9,16 @@ use crate::judge::Step;
 use crate::objects::ValueAddress;
 use crate::suite::kit::Probe;
 
-/// The highest axis index of a channel that a search for handles requests.
+/// The highest axis index of a channel that the cases request on the axis interface to find the
+/// indices with a handle. A run without a profile treats the axis indices up to this one, in all
+/// channels but the first, as possibly without an axis.
 pub(crate) const PLACES_MAX: u32 = 64;
 /// Maximum number of consecutive axis indices without a handle after which a search continues: at
 /// an axis index without an axis, the CNC need not return a handle.
-const GAP_MAX: u32 = 4;
+pub(crate) const GAP_MAX: u32 = 4;
 
-/// Maximum number of names of a channel in a sample, because each name is requested at every axis
-/// index.
+/// Maximum number of names of axis variables of a channel in a sample, because each name is
+/// requested at many axis indices.
 const NAMES_MAX: u32 = 32;
 
 /// An axis index at which a name has a handle, and this handle.
@@ -25,8 +27,9 @@ pub(crate) struct AxisHandle {
     pub(crate) handle: Handle,
 }
 
-/// The axis indices of a channel at which a name has a handle, in ascending order. The search ends
-/// at [`PLACES_MAX`], or after more than [`GAP_MAX`] consecutive indices without a handle.
+/// The axis indices of a channel at which a name has a handle, in ascending order, each with this
+/// handle. The search ends at [`PLACES_MAX`], or after more than [`GAP_MAX`] consecutive indices
+/// without a handle.
 pub(crate) fn answering_places(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -51,8 +54,9 @@ pub(crate) fn answering_places(
     Ok(all)
 }
 
-/// The address of a variable on the axis interface, with the axis index that returns the handle in
-/// its description; `None` if no index returns this handle, or if the name has no axis.
+/// The address of a variable on the axis interface, with the first axis index that returns the
+/// handle in the variable's description. `None` if no requested index returns this handle, or if
+/// the name does not end with an axis.
 pub(crate) fn axis_address(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -95,8 +99,8 @@ pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncStri
     names
 }
 
-/// The name of the first axis variable on the axis interface; `None` if no variable is an axis
-/// variable.
+/// The name on the axis interface (without the axis) of the first axis variable; `None` if no
+/// variable is an axis variable.
 pub(crate) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
     variables.iter().find_map(|variable| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;

@@ -1,4 +1,4 @@
-//! Values that cases have changed and not yet restored.
+//! Values that cases have changed and not restored.
 
 #![cfg_attr(
     not(test),
@@ -19,35 +19,40 @@ use crate::objects::ValueAddress;
 use crate::text::escape;
 
 /// Changed values that have not been restored yet, or that could not be restored. Clones share the
-/// list, because an interrupt handler reads it, too.
+/// list, because the handler of an interrupt reads it, too.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
     all: Arc<Mutex<Vec<Change>>>,
-    /// Names of all values that have been changed so far.
+    /// Names of all values of which a change was begun so far.
     written: Arc<Mutex<BTreeSet<String>>>,
 }
 
-/// A value that was changed.
+/// A value that may have been changed.
 #[derive(Clone, Debug)]
 pub(super) struct Change {
     pub(super) address: ValueAddress,
-    /// The name by which the handle of a variable was requested.
+    /// The name of a variable, by which its handle can be requested again; `None` if the case did
+    /// not state it.
     pub(super) name: Option<CncString>,
-    /// The address by name of a variable that is written by handle.
+    /// The address by name of a variable that is written by handle, if its name is known.
     pub(super) by_name: Option<ValueAddress>,
+    /// The name of the value in messages.
     pub(super) what: String,
     pub(super) is_text: bool,
+    /// The original value.
     pub(super) was: Vec<u8>,
-    /// The value as last written or read; `None` if it is unknown.
+    /// The current value as last set by [`Changes::is_now`]; `None` if it is unknown.
     pub(super) is: Option<Vec<u8>>,
-    /// Why the gate rejected the last write that restores the value.
+    /// Why the [gate](crate::gate) rejected the last write that was to restore the value; `None` if
+    /// it did not reject this write.
     pub(super) rejected: Option<String>,
-    /// Whether restoring the value was given up, because all attempts failed.
+    /// Whether restoring the value was given up, because all attempts failed or a panic ended them.
     pub(super) given_up: bool,
 }
 
 impl Changes {
-    /// The values that are still changed, the first change first.
+    /// The values that have not been restored, including those that were given up, the first change
+    /// first.
     pub fn left(&self) -> Vec<UnrestoredValue> {
         let all = self.all();
         let left = all.iter().map(|change| UnrestoredValue {
@@ -59,7 +64,7 @@ impl Changes {
         left.collect()
     }
 
-    /// The names of all values that have been changed so far.
+    /// The names of all values of which a change was begun so far, without duplicates.
     pub fn written(&self) -> Vec<String> {
         let written = lock(&self.written);
         written.iter().cloned().collect()
@@ -70,12 +75,12 @@ impl Changes {
         self.last().is_some()
     }
 
-    /// Gives up restoring the changed values.
+    /// Gives up restoring all values in the list.
     pub(crate) fn give_up(&self) {
         self.all().iter_mut().for_each(|change| change.given_up = true);
     }
 
-    /// Whether a value could not be restored.
+    /// Whether restoring any value in the list was given up.
     pub(crate) fn any_given_up(&self) -> bool {
         self.all().iter().any(|change| change.given_up)
     }
@@ -85,14 +90,14 @@ impl Changes {
         self.all().iter().rfind(|change| !change.given_up).cloned()
     }
 
-    /// Records that the value may differ from the original one from now on.
+    /// Records that a value may differ from its original value from now on.
     pub(super) fn begin(&self, change: Change) {
         let mut written = lock(&self.written);
         written.insert(change.what.clone());
         self.all().push(change);
     }
 
-    /// Sets the current value at an address; `None` if it is unknown.
+    /// Sets the current value in all changes at an address; `None` if the value is unknown.
     pub(crate) fn is_now(&self, address: &ValueAddress, value: Option<&[u8]>) {
         for change in self.all().iter_mut().filter(|change| change.address == *address) {
             change.is = value.map(<[u8]>::to_vec);

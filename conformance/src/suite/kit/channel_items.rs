@@ -19,7 +19,7 @@ use crate::suite::kit::{
 /// The first variables and parameters of a channel.
 pub(crate) struct ChannelItems {
     /// The first variables, at most three. Axis variables are left out, because it is only assumed
-    /// that their handles can be read.
+    /// that they can be read by their handles.
     variables: Vec<Description>,
     /// The first axis variable: the first axis index at which it has a handle, and its name on the
     /// axis interface.
@@ -47,8 +47,9 @@ impl ChannelItems {
         Ok(Self { variables, of_axis: axis.zip(name), parameters })
     }
 
-    /// Queries about these items and the lists of the channel, sent to `channel`: the channel
-    /// itself, its rank or another channel.
+    /// Queries about these items and about the first entries of the lists of variables and
+    /// parameters. The queries address `channel`: the channel of the items by its number or by its
+    /// rank, or another channel.
     pub(crate) fn requests(&self, channel: Channel) -> Step<Vec<Request<'_>>> {
         let mut requests = Vec::new();
         for variable in &self.variables {
@@ -84,8 +85,9 @@ impl ChannelItems {
 /// requests.
 const CONTENTS_MAX: usize = 2;
 
-/// Queries about the first elements and objects of a channel. The contents of texts are left out,
-/// because the length of a reply with a text is not documented.
+/// Queries about the first elements of each instance of a channel, and about the first objects of
+/// the channel. The contents of texts are left out, because the length of a reply with a text is
+/// not documented.
 pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec<RawCall>> {
     let mut calls = Vec::new();
     for instance in probe.instances().if_applicable()?.unwrap_or_default() {
@@ -112,8 +114,8 @@ pub(crate) fn content_reads(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec
     Ok(calls)
 }
 
-/// The call with the channel in its index group replaced by `other`; `None` if the index group is
-/// not one of `channel`.
+/// The call with the channel number in its index group replaced by that of `other`; `None` if the
+/// index group is not one of `channel`.
 pub(crate) fn in_channel(call: &RawCall, channel: Channel, other: Channel) -> Option<RawCall> {
     let instance = other.number();
     let group = match call.index_group.parts()? {

@@ -29,7 +29,8 @@ impl std::fmt::Display for Counted {
 }
 
 impl Counted {
-    /// All claimed lists for which the target returns the number of items, each with that number.
+    /// All lists that the profile claims and for which the target returns the number of items, each
+    /// with that number.
     pub(crate) fn all(probe: &mut Probe<'_>) -> Step<Vec<(Self, u32)>> {
         let mut all: Vec<Self> = probe.lists()?.into_iter().map(Self::Objects).collect();
         for channel in probe.channels()? {
@@ -47,7 +48,7 @@ impl Counted {
         Ok(counted)
     }
 
-    /// The kind of the items; `None` for parameters, which programs create and delete at any time.
+    /// The kind of the items; `None` for parameters, of which the cases do not read a sample.
     pub(crate) const fn kind(&self) -> Option<ItemKind> {
         match self {
             Self::Objects(_) => Some(ItemKind::Object),
@@ -57,7 +58,7 @@ impl Counted {
         }
     }
 
-    /// The list, for a message that contains its name.
+    /// The list in the form of the tools, whose `Display` is the name of the list.
     pub(crate) fn list(&self) -> ValueList {
         match *self {
             Self::Objects(list) => list.into(),
@@ -92,7 +93,8 @@ impl Counted {
         })
     }
 
-    /// Whether the target has an item with this number.
+    /// Whether the target returns data for the item with this number: the descriptor of an object,
+    /// the description of a variable, or the name of a parameter or an element.
     pub(crate) fn has(&self, probe: &mut Probe<'_>, number: u32) -> Step<bool> {
         let request: Option<Request<'_>> = match self {
             Self::Objects(list) => ReadDescriptors::new(*list, number, 1).ok().map(Into::into),

@@ -1,4 +1,4 @@
-//! The descriptions of a list of variables, each read once.
+//! The stored descriptions of a list of variables.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ pub(crate) struct DescribedList {
 }
 
 impl DescribedList {
-    /// The descriptions that were read.
+    /// The descriptions that were read, except those whose name is too long for a request.
     pub(crate) fn descriptions(&self) -> impl Iterator<Item = &Description> {
         self.read.values().flatten()
     }

@@ -10,7 +10,8 @@ use crate::judge::{Step, Stop};
 use crate::profile::Claim;
 use crate::suite::kit::Probe;
 
-/// The V.P, V.L and V.S that exist in the first channel at the moment, at most 64 of each kind.
+/// The names of the V.P, V.L and V.S that exist in the first channel at the moment: of each kind
+/// those at the first 64 indices, as far as they can be read and requested.
 fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     let channel = probe.channel()?;
     let mut all = Vec::new();
@@ -27,8 +28,8 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     Ok(all)
 }
 
-/// Whether any V.P, V.L or V.S that exists at the moment can be read as a variable, as the German
-/// edition states.
+/// Whether any V.P, V.L or V.S of [`dynamic_names`] can be read by name as a variable, as the
+/// German edition states.
 pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     let (channel, all) = (probe.channel()?, dynamic_names(probe)?);
     for (_, name) in &all {
@@ -40,9 +41,10 @@ pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     Ok(false)
 }
 
-/// The V.P, V.L and V.S of the first channel that are also variables. Ends the case as not
-/// applicable if they are only parameters according to the edition and the version in the profile,
-/// or, if the version leaves this open, according to the target; also if none exists at the moment.
+/// The V.P, V.L and V.S of the first channel, if they are also variables. Ends the case as not
+/// applicable if none exists at the moment, or if they are only parameters: according to the
+/// edition or the version in the profile, or, if the version leaves this open, because the first
+/// of them cannot be read by name as a variable.
 pub(crate) fn dynamic_among_variables(
     probe: &mut Probe<'_>,
 ) -> Step<Vec<(DynamicKind, CncString)>> {

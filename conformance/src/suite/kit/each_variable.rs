@@ -7,7 +7,7 @@ use crate::judge::{Step, applicable};
 use crate::suite::kit::{Probe, element_size};
 
 /// Calls a function for every variable that the cases read and whose whole value fits into a reply,
-/// in every channel.
+/// in every claimed channel.
 pub(crate) fn each_variable(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
@@ -22,12 +22,13 @@ pub(crate) fn each_variable(
     Ok(())
 }
 
-/// Maximum number of arrays of all channels in a sample, because each array is read element by
-/// element.
+/// Maximum number of arrays of all channels in a sample, because several elements of each array are
+/// read separately.
 const ARRAYS_MAX: u32 = 64;
 
-/// Calls a function for every array that the cases read; its last argument is the size of an
-/// element in bytes.
+/// Calls a function for the arrays among the variables of [`each_variable`]; in a sample, for at
+/// most [`ARRAYS_MAX`] arrays. The last argument of the function is the size of an element in
+/// bytes. An array whose elements have no known size is left out.
 pub(crate) fn each_array(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, usize) -> Step,

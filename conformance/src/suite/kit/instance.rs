@@ -1,4 +1,4 @@
-//! An instance of SDA or GEO.
+//! An instance of a class of SDA or GEO.
 
 use ads_cnc::address::{Class, ElementAddress};
 
@@ -9,12 +9,12 @@ pub(crate) struct Instance {
     pub(crate) channel: u32,
     pub(crate) axis: u32,
     pub(crate) first: ElementAddress,
-    /// The number of elements that the target reports.
+    /// The number of elements that the target reports; 0 if it does not return this number.
     pub(crate) reported: u32,
-    /// The number of elements after element 0. The content of element 0 is the reported number; whether
-    /// the reported number includes element 0 is not documented.
+    /// The number of elements after element 0. The content of element 0 is the reported number;
+    /// whether the reported number includes element 0 is not documented.
     pub(crate) count: u32,
-    /// The number of the last element that has a name, at most `OBJECTS_MAX`; 0 if no such element
+    /// The number of the last element for which a name was found, at most `OBJECTS_MAX`; 0 if none
     /// was found.
     pub(crate) reached: u32,
     /// The numbers of the elements that the cases read; the numbers start at 1.
@@ -22,7 +22,7 @@ pub(crate) struct Instance {
 }
 
 impl Instance {
-    /// Whether the reported number includes element 0.
+    /// Whether the reported number was found to include element 0.
     pub(crate) const fn counts_itself(&self) -> bool {
         self.reported > self.count
     }

@@ -1,4 +1,5 @@
-//! The lists of a target, read once: objects of the COM task, instances of SDA and GEO.
+//! The lists of a target, which are stored when a case first reads them: objects of the COM task,
+//! instances of the classes of SDA and GEO, and descriptions of variables.
 
 mod variables;
 
@@ -21,7 +22,8 @@ use crate::objects::{CLASSES, ListedValue, ValueAddress, ValueList, Walker};
 use crate::profile::Claim;
 use crate::suite::kit::{Instance, ItemKind, Probe};
 
-/// Maximum number of objects of a list, and of elements of an instance, that are read.
+/// Maximum number of objects of a list, and of elements of an instance, that a case reads without
+/// sampling.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
 /// The highest axis number and spindle index that the search for instances requests.
 pub(crate) const INSTANCES_MAX: u32 = 255;
@@ -57,7 +59,7 @@ impl Walker for Probe<'_> {
 }
 
 impl Probe<'_> {
-    /// Each claimed channel, addressed by its rank and by its number.
+    /// Each claimed channel, addressed by its rank among the claimed channels and by its number.
     pub(crate) fn ranks(&self) -> Step<Vec<(Channel, Channel)>> {
         let ranked = (1..).zip(self.channels()?);
         ranked.map(|(rank, channel)| Ok((Channel::by_index(rank)?, channel))).collect()
@@ -88,27 +90,27 @@ impl Probe<'_> {
         })
     }
 
-    /// Axis indices, each as channel and axis index: those without an axis according to the
-    /// profile, and those at which the run does not write, because it is unknown whether they have
-    /// an axis.
+    /// Axis indices, each as channel number and axis index: those without an axis according to the
+    /// profile, and those of `unwritten_places`, of which it is unknown whether they have an axis.
     fn empty_places(&self) -> impl Iterator<Item = &(u32, u32)> {
         self.target.profile.empty_places.iter().chain(&self.target.unwritten_places)
     }
 
-    /// Whether an object belongs to an axis index that has no axis, or may have none: a value that
-    /// is written there is lost.
+    /// Whether an object of a channel may belong to an axis index that has no axis, or may have
+    /// none. A value that is written at an axis index without an axis is lost.
     pub(crate) fn is_blank(&self, object: &ListedValue) -> bool {
         let ValueList::Channel(number) = object.list else { return false };
         self.empty_places().filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
     }
 
-    /// The length of an element in bytes, from its attribute; `None` if it cannot be read.
+    /// The length of an element in bytes, read from its length attribute; `None` if it cannot be
+    /// read.
     pub(crate) fn length_of(&mut self, element: ElementAddress) -> Step<Option<u32>> {
         let length: Option<ElementLength> = self.try_read(ReadElementLength::new(element))?;
         Ok(length.map(ElementLength::get))
     }
 
-    /// The object lists of the platform, the channels and the platform axes that are claimed.
+    /// The object lists of the platform, of the claimed channels and of the claimed platform axes.
     pub(crate) fn lists(&self) -> Step<Vec<ObjectList>> {
         let channels = self.channels()?.into_iter().map(ObjectList::from);
         let axes = (1..=self.target.profile.platform_axes).map(PlatformAxis::new);
@@ -117,7 +119,7 @@ impl Probe<'_> {
         Ok(platform.chain(channels).chain(axes?).collect())
     }
 
-    /// Selects the items of a list that the cases read, in ascending order.
+    /// The numbers or indices in the range `items` that the cases read, in ascending order.
     pub(crate) fn sample(&self, kind: ItemKind, items: Range<u32>) -> Vec<u32> {
         self.target.sample.of(items, self.target.sample_sizes.of(kind))
     }
@@ -128,8 +130,8 @@ impl Probe<'_> {
         self.sample(ItemKind::Object, 1..count.saturating_add(1))
     }
 
-    /// The objects of all lists that the cases read. Other cases judge descriptors that cannot be
-    /// read.
+    /// The objects that the cases read, of all [`lists`](Self::lists). Ends the case as not
+    /// applicable if there are none. Other cases judge descriptors that cannot be read.
     pub(crate) fn objects(&mut self) -> Step<Vec<ListedValue>> {
         if self.target.objects.is_none() {
             let mut all = Vec::new();
@@ -160,8 +162,9 @@ impl Probe<'_> {
 
     /// The instances of the claimed channels, of the platform and of the spindles, for which the
     /// target returns an address. Axes and spindles are requested up to the first one for which the
-    /// target returns no address of an element, or the address of a known instance. Other cases
-    /// judge the addresses.
+    /// target returns no address of an element, or the address of a known instance of the same
+    /// class. Ends the case as not applicable if there are no instances, or if the profile does not
+    /// claim the request for their addresses. Other cases judge the addresses.
     pub(crate) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
@@ -196,8 +199,8 @@ impl Probe<'_> {
         }
         let reported = self.count_elements(first)?.unwrap_or_default();
         let reached = self.last_named(first, reported.min(OBJECTS_MAX))?;
-        // If the last element with a name is one before the reported number, that number includes
-        // element 0.
+        // If the number of the last element with a name is one less than the reported number, the
+        // reported number is taken to include element 0.
         let is_itself = reported > 0
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
@@ -207,7 +210,8 @@ impl Probe<'_> {
         Ok(true)
     }
 
-    /// Chooses the elements of each instance again, after the sample sizes have changed.
+    /// Chooses again the elements that the cases read of each known instance, after the sample
+    /// sizes have changed.
     pub(crate) fn choose_elements(&mut self) {
         let (sample, sizes) = (self.target.sample, self.target.sample_sizes);
         for one in self.target.instances.iter_mut().flatten() {
@@ -216,8 +220,9 @@ impl Probe<'_> {
         }
     }
 
-    /// The number of the last element that has a name, at most `count`; 0 if no element after
-    /// element 0 has a name. Several consecutive elements without a name end the search.
+    /// The number of the last element that has a name, at most `count`; 0 if no name of an element
+    /// after element 0 is found. Unless element `count` has a name, the search starts at element 1,
+    /// and [`GAP`](crate::objects::GAP) consecutive elements without a name end it.
     fn last_named(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
         if self.is_named(first, count)? {
             return Ok(count);
@@ -240,7 +245,7 @@ impl Probe<'_> {
         }
     }
 
-    /// The address of an instance; `None` if the reply is an error or not an address.
+    /// The address of an instance, which may be (0, 0); `None` unless the reply is an address.
     pub(crate) fn address_of(
         &mut self,
         class: Class,

@@ -20,19 +20,19 @@ pub(crate) fn element_size(variable: &Description) -> Option<usize> {
 /// Maximum number of elements at the start of an array that are read one by one.
 const ELEMENTS_MAX: usize = 64;
 
-/// Whether the element with this position, counted from 0, is read: the first 64 elements, those at
-/// the limit of an index of one byte (255 to 257), and the last two.
+/// Whether the element at this position, counted from 0, is read: the first 64 elements, those at
+/// the positions 255 to 257 (the limit of one byte), and the last two of `count` elements.
 fn is_tried(number: usize, count: usize) -> bool {
     number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
 }
 
-/// The elements of an array that are read: for each, its position in the array, counted from 0, and
-/// its indices.
+/// The elements of an array that are read one by one: for each, its position in the array, counted
+/// from 0, and its indices.
 pub(crate) fn places_tried(
     dimensions: &[u32],
 ) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
     let count = to_usize(element_count(dimensions));
-    // A value has at most 2048 bytes, so it has at most 2048 elements.
+    // The value that a reply returns has at most 2048 bytes, so it has at most 2048 elements.
     let all = places(dimensions).take(2048).enumerate();
     all.filter(move |(number, _)| is_tried(*number, count))
 }
@@ -57,21 +57,22 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
     })
 }
 
-/// The rule for the order of the elements in an array: the assumed order of VAR-21 for several
-/// dimensions and for texts, and otherwise VAR-14, which the manuals state.
+/// The rule for the order of the elements in an array: for several dimensions and for texts, the
+/// assumed order (VAR-21); otherwise the requirement on values, which the manuals state (VAR-14).
 pub(crate) fn order(variable: &Description) -> Rule {
     let texts = variable.var_type == VariableType::STRING;
     if variable.dimensions.len() > 1 || texts { assumed(VAR_21) } else { VAR_14.into() }
 }
 
 /// Returns a function that extracts one element from the bytes of the whole array. `number` is the
-/// position of the element, counted from 0; `size` is the size of an element in bytes.
+/// position of the element, counted from 0; `size` is the size of an element in bytes, not 0. The
+/// function returns no bytes if the array ends before the element.
 pub(crate) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
     move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
 }
 
-/// The rule for names with indices, VAR-20: assumed for several pairs of brackets, and for texts in
-/// an array.
+/// The rule for names with indices: assumed for several dimensions, and for texts in an array.
+/// VAR-20
 pub(crate) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
         Some(Level::Info) => assumed(VAR_20),
@@ -79,7 +80,7 @@ pub(crate) fn brackets(variable: &Description) -> Rule {
     }
 }
 
-/// The name of a variable with indices; `None` if it is too long for a request.
+/// The name of a variable, followed by indices in brackets; `None` if it is too long for a request.
 pub(crate) fn element_name(variable: &Description, indices: &[u32]) -> Step<Option<CncString>> {
     let mut name = variable.name.text.to_string();
     indices.iter().for_each(|index| name.push_str(&format!("[{index}]")));

@@ -24,7 +24,7 @@ mod undo;
 mod writable;
 
 pub(crate) use axis_interface::{
-    AxisHandle, PLACES_MAX, answering_places, axis_address, axis_names, axis_variables,
+    AxisHandle, GAP_MAX, PLACES_MAX, answering_places, axis_address, axis_names, axis_variables,
     name_on_axes,
 };
 pub use changes::Changes;

@@ -16,7 +16,8 @@ pub(crate) fn object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32>
     Ok(number)
 }
 
-/// Like [`object_count`], but records no check, because other cases judge the number.
+/// Like [`object_count`], but records no check, because other cases judge the number. If the number
+/// cannot be read, the case is inconclusive.
 pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     let exchange = probe.send(CountObjects::new(list))?;
     let data = exchange.success().unwrap_or_default();

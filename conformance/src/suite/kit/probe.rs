@@ -45,15 +45,15 @@ pub struct Probe<'s> {
     /// The functions called since the last comparison ended; the next check may compare their
     /// replies.
     compared: Vec<Function>,
-    /// The variable or object that the following checks are about.
+    /// The variable or object that the following exchanges are about, for their evidence.
     subject: Option<String>,
     requests: usize,
     /// Whether the case was stopped because the run is interrupted.
     pub(crate) interrupted: bool,
-    /// Why the [gate](crate::gate) rejected the write of a value that the file of `--allow-write`
-    /// names.
+    /// Why the [gate](crate::gate) first rejected a write as ambiguous: the file of `--allow-write`
+    /// names the value, but the handle or address of the write may also belong to another value.
     ambiguity: Option<String>,
-    /// Whether the target has an item that the case applies to.
+    /// Whether the case has noted that the target has an item that the case applies to.
     has_subject: bool,
     deadline: Option<Deadline>,
 }
@@ -114,8 +114,8 @@ impl<'s> Probe<'s> {
     }
 
     /// Returns the result of the case, given the result of its last step. A case that succeeded or
-    /// is not applicable ends as [`Stop::NotPermitted`] if the gate rejected the write of a value
-    /// that the file of `--allow-write` names.
+    /// is not applicable ends as [`Stop::NotPermitted`] if [`may`](Self::may) has found that the
+    /// gate rejects a write as ambiguous.
     pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.ambiguity.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::NotPermitted(why)),
@@ -130,8 +130,9 @@ impl<'s> Probe<'s> {
         self.has_subject = true;
     }
 
-    /// Ends a case that has tried all items: not applicable for the reason `why` if the target has no
-    /// item that the case applies to. A recorded check shows that the target has such an item.
+    /// Ends a case that has tried all items. The case is not applicable for the reason `why` unless
+    /// [`found_subject`](Self::found_subject) was called or a check was recorded, which shows that
+    /// the target has an item that the case applies to.
     pub(crate) fn finish(&self, why: &str) -> Step {
         applicable(self.has_subject || self.record.checks > 0, why)
     }
@@ -219,8 +220,8 @@ impl<'s> Probe<'s> {
             self.target.rules.reply(&exchange, cnc, &call, &exchange, &[]);
         }
         if let Some(fault @ ExchangeError::Malformed(_)) = fault {
-            // Without a valid frame, the reply data is unknown. The case `ads-every-frame` judges
-            // the frame.
+            // Without a valid reply, the data is unknown. The case `ads-every-frame` judges the
+            // frame.
             return Err(Stop::Inconclusive(format!("{exchange}: {fault}")));
         }
         if exchange.contradicts_itself() {
@@ -260,8 +261,9 @@ impl<'s> Probe<'s> {
         }
     }
 
-    /// Counts a request and records its result and the violations in its reply. Ends the case if
-    /// the gate rejected the request or the connection could not be opened.
+    /// Counts a request, stores its evidence for the following checks, and records the violations
+    /// in its reply. If the gate rejected the request or the connection could not be opened, ends
+    /// the case instead.
     pub(crate) fn record_exchange(
         &mut self,
         fault: Option<&ExchangeError>,
@@ -273,8 +275,8 @@ impl<'s> Probe<'s> {
         match fault {
             Some(ExchangeError::NotPermitted(rejection)) => {
                 let why = format!("{what}: {rejection}");
-                // If the file of `--allow-write` is not the reason, the request contains an address
-                // that the target returned, and the user cannot correct this address.
+                // If no file of `--allow-write` could allow the request, the usual cause is an
+                // address that the target returned, and the user cannot correct this address.
                 let is_of_user = rejection.reason.is_of_file();
                 return Err(if is_of_user {
                     Stop::NotPermitted(why)
@@ -313,7 +315,8 @@ impl<'s> Probe<'s> {
         Ok(())
     }
 
-    /// Sends a request.
+    /// Sends a request; before a write by handle, also the queries that confirm the handle to the
+    /// gate.
     pub fn send<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Exchange> {
         let request = request.into();
         self.confirm_handle(&request)?;
@@ -364,7 +367,8 @@ impl<'s> Probe<'s> {
         })
     }
 
-    /// Sets the variable or object that the last call and all following calls are about.
+    /// Sets the variable or object that the last call is about, and the following calls up to
+    /// [`end_subject`](Self::end_subject).
     pub(crate) fn set_subject(&mut self, subject: impl Display) {
         self.subject = Some(subject.to_string());
         if let Some(last) = &mut self.last {
@@ -419,8 +423,8 @@ impl Checks for Probe<'_> {
     }
 }
 
-/// Returns the exchange, or ends the case as inconclusive if no reply arrived: the target may or may
-/// not have executed the request, so later replies prove nothing.
+/// Returns the exchange, or ends the case as inconclusive if no valid reply arrived: the target may
+/// or may not have executed the request, so later replies prove nothing.
 pub(crate) fn with_reply(exchange: Exchange) -> Step<Exchange> {
     match &exchange.outcome {
         Err(fault) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
@@ -428,8 +432,8 @@ pub(crate) fn with_reply(exchange: Exchange) -> Step<Exchange> {
     }
 }
 
-/// The data of the reply to a request; `None` if the function is not claimed, or if the reply is
-/// not a success, which other cases judge.
+/// The data of the reply to a request. `None` if the profile does not claim the function, in which
+/// case nothing is sent, or if the reply is not a success, which other cases judge.
 pub(crate) fn ask_if_claimed<'a>(
     probe: &mut Probe<'_>,
     request: impl Into<Request<'a>>,

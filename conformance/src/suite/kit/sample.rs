@@ -5,14 +5,15 @@ use std::ops::Range;
 use crate::judge::order;
 use crate::number::to_u32;
 
-/// Maximum number of items of a list that are read.
+/// Maximum number of items that are selected from a list if no sample is taken.
 const ITEMS_MAX: u32 = 10_000;
 
 /// Which items of each list the cases read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
-    /// Items selected with this seed; how many items depends on the lengths of all lists of the
-    /// same kind.
+    /// All items of a short list, and a sample of a long list, which is selected with this seed.
+    /// For objects, variables and elements, the size of the sample depends on the lengths of all
+    /// lists of the same kind.
     BySeed(u32),
     /// The first 10,000 items of every list.
     All,
@@ -20,9 +21,10 @@ pub enum Sample {
 
 impl Sample {
     /// The selected items in ascending order. [`All`](Self::All) selects the first 10,000 items.
-    /// [`BySeed`](Self::BySeed) selects all items, or `most` items of a longer list: a quarter of
-    /// these are the first, a quarter the last, and the rest are spread over the items in between.
-    /// The same seed and the same `most` select the same positions in all lists of the same length.
+    /// [`BySeed`](Self::BySeed) selects all items, or `most` items of a list with more items: a
+    /// quarter of these (rounded down) are the first, a quarter the last, and the rest are spread
+    /// over the items in between. The same seed and the same `most` select the same positions in
+    /// all lists of the same length.
     ///
     /// ```
     /// use ads_cnc_conformance::suite::Sample;
@@ -78,7 +80,7 @@ pub(crate) enum ItemKind {
     Element,
 }
 
-/// Maximum number of items of a list that are read in a sample, for each kind.
+/// Maximum number of items of a list in a sample, for each kind of item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SampleSizes {
     objects: u32,
@@ -89,15 +91,16 @@ pub(crate) struct SampleSizes {
 impl SampleSizes {
     /// The largest size.
     const MOST: u32 = 256;
-    /// The smallest size, even for a very large number of lists.
+    /// The smallest size, also for a very large number of lists.
     const LEAST: u32 = 4;
-    /// The sizes until the lists are counted; they remain the same if the target has few items.
+    /// The sizes until the lists of a target are counted; they remain the same if the target has
+    /// few items.
     pub(crate) const DEFAULT: Self =
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 
-    /// The sizes for these lists, given by kind and number of items. If there are many lists, fewer
-    /// items of each are read, so that all cases together send about 50,000 requests to a CNC with
-    /// seven channels.
+    /// The sizes for these lists, given by kind and number of items. If the lists of a kind have
+    /// many items in total, the size for this kind is smaller, so that all cases together send
+    /// about 50,000 requests to a CNC with seven channels.
     pub(crate) fn new(lists: &[(ItemKind, u32)]) -> Self {
         let size = |kind, budget| {
             let counts = || lists.iter().filter(move |list| list.0 == kind).map(|list| list.1);
@@ -145,8 +148,8 @@ mod tests {
         assert_eq!(Sample::All.of(0..u32::MAX, 256).len(), 10_000);
     }
 
-    /// If there are few lists, a list of 256 items is read completely; if there are many, fewer
-    /// items of each list are read.
+    /// If the lists have few items in total, a list of 256 items is read completely; otherwise the
+    /// maximum number of items of each list is smaller.
     #[test]
     fn many_lists_share_the_requests() {
         let sizes = |lists: &[u32]| {

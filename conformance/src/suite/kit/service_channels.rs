@@ -9,9 +9,10 @@ use crate::judge::{Step, Stop};
 use crate::profile::{Claim, Section};
 use crate::suite::kit::Probe;
 
-/// The channels with the Service Interface: all channels if the version in the profile has it. If
-/// the profile leaves it open, those channels in which a variable of the Service Interface is
-/// described or REQUEST_STATE can be read. Ends the case as not applicable if no channel has it.
+/// The channels with the Service Interface: all claimed channels if the version in the profile has
+/// the Service Interface. If the profile leaves this open, those claimed channels in which a
+/// variable of the Service Interface is described or REQUEST_STATE can be read. Ends the case as
+/// not applicable if the profile does not claim the Service Interface, or if no channel has it.
 pub(crate) fn service_channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
     let profile = &probe.target.profile;
     let lacks = |why| Err(Stop::not_applicable(why));

@@ -15,8 +15,9 @@ use crate::suite::kit::{Probe, RawCall};
 /// Maximum number of attempts of a comparison whose two values differ.
 const TRIES: usize = 3;
 
-/// The result of a comparison: a value is read, then another reading is made. If the two do not
-/// agree, the value is read again, to find out whether it changes by itself; at most [`TRIES`] times.
+/// The result of [`compare`]: a value is read, then another reading is made. If the two do not
+/// agree, the value is read again, to find out whether it changes by itself; this is done at most
+/// [`TRIES`] times.
 pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
@@ -26,7 +27,8 @@ pub(crate) enum Compared<B, R> {
     /// In the last attempt, both reads of the value returned the same, and the other reading
     /// between them differed. The evidence is that of the other reading.
     Differs(B, R, Option<Box<Evidence>>),
-    /// In the last attempt, the two reads of the value returned different data.
+    /// In the last attempt, the second read of the value returned other data than the first, or no
+    /// data.
     Moved,
 }
 
@@ -68,8 +70,8 @@ impl Steady {
     /// Compares the value that the request `other` reads with the value that the request `one`
     /// reads.
     ///
-    /// `rules` fail if the values differ, or if only `one` returns a value. `what` names the value
-    /// in the message.
+    /// `rules` fail if the values differ although the value does not change by itself, or if only
+    /// `one` returns a value. `what` is the name of the value in the message.
     pub(crate) fn same<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -94,10 +96,11 @@ impl Steady {
         Ok(())
     }
 
-    /// Compares the value that the request `by_index` reads with the value that `logical` reads.
+    /// Compares the value that the request `by_index`, which contains the rank of a channel, reads
+    /// with the value that `logical`, the same request with the channel number, reads.
     ///
-    /// If the values differ, or if only `logical` returns a value, the clauses of
-    /// [`rules_by_index`] fail.
+    /// If the values differ although the value does not change by itself, or if only `logical`
+    /// returns a value, the clauses of [`rules_by_index`] fail.
     pub(crate) fn by_index<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -125,7 +128,7 @@ impl Steady {
         Ok(())
     }
 
-    /// Judges the result of a comparison; `differs` records a difference.
+    /// Judges the result of [`compare`]; `differs` records a difference.
     pub(crate) fn judge<B, R>(
         &mut self,
         probe: &mut Probe<'_>,
@@ -153,8 +156,8 @@ impl Steady {
         }
     }
 
-    /// Ends the comparisons. The case is inconclusive if no value could be judged and at least one
-    /// value changed by itself.
+    /// Ends the comparisons. The case is inconclusive if no comparison could be judged and at least
+    /// one value changed by itself.
     pub(crate) fn finish(self) -> Step {
         match (self.judged, self.moved) {
             (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
@@ -163,13 +166,13 @@ impl Steady {
     }
 }
 
-/// The clauses for which the reply to a request by index is judged. `found` is whether the reply is
-/// the expected one, or `None` for an error.
+/// The clauses for which the reply to a request by index (with the rank of a channel) is judged.
+/// `found` is whether the reply is the expected one, or `None` if it is not a success.
 ///
-/// A correct reply passes `clause` and ADR-12. A function that has returned an error although the
-/// index equals the logical number lacks the groups without the logical bit: its errors violate
-/// ADR-12 only. Any other wrong reply shows that the index addresses a wrong instance, which
-/// violates `clause`.
+/// A correct reply passes `clause` and ADR-12, the requirement that both forms of an address exist.
+/// A function that has returned an error although the index equals the logical number is taken to
+/// lack the groups without the logical bit: its errors violate ADR-12 only. Any other wrong reply
+/// is taken to come from a wrong instance, which violates `clause`.
 pub(crate) fn rules_by_index(
     probe: &mut Probe<'_>,
     clause: ClauseId,
@@ -196,7 +199,7 @@ pub(crate) fn rules_by_index(
 }
 
 /// Calls `guard`, `act` and `guard` again, and returns the result of `act`; `None` if the results
-/// of `guard` differ or are `None`.
+/// of `guard` differ. If the first result of `guard` is `None`, `act` is not called.
 pub(crate) fn between<G: PartialEq, T>(
     probe: &mut Probe<'_>,
     guard: impl Fn(&mut Probe<'_>) -> Step<Option<G>>,
@@ -207,11 +210,11 @@ pub(crate) fn between<G: PartialEq, T>(
     Ok((guard(probe)?.as_ref() == Some(&before)).then_some(found))
 }
 
-/// Maximum number of attempts of [`steadily`], because parameters may be created and deleted during
-/// an attempt.
+/// Maximum number of attempts of [`steadily`]: an attempt does not count if the data of its guards,
+/// such as the number of parameters, changes meanwhile.
 const TRIES_OF_PARAMETERS: usize = 5;
-/// Minimum number of failed attempts for which [`steadily`] records a failure, if no attempt has
-/// passed.
+/// Minimum number of failed attempts for which [`steadily`] records a failure, if no attempt
+/// passes.
 const FAILURES: usize = 3;
 
 /// A check before it is recorded.

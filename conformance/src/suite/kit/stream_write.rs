@@ -48,7 +48,8 @@ impl fmt::Display for StreamWrite {
     }
 }
 
-/// Sends bytes to the program stream, valid or not. Without a reply, the case is inconclusive.
+/// Sends bytes to the program stream, valid or not. Without a valid reply, the case is
+/// inconclusive.
 pub(crate) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<StreamWrite> {
     let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
     let exchange = with_reply(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;

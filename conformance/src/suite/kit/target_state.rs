@@ -21,29 +21,31 @@ pub struct TargetState {
     pub client: Client,
     /// The claims of the target.
     pub profile: Profile,
-    /// Axis indices (each as channel and axis index) at which the run does not write. Without a
-    /// profile, it is unknown whether they have an axis, and a value that is written without an
-    /// axis is lost.
+    /// Axis indices (each as channel number and axis index) that a run without a profile treats as
+    /// possibly without an axis, see [`Probe::is_blank`](crate::suite::Probe::is_blank). A value
+    /// that is written without an axis is lost.
     pub(in crate::suite) unwritten_places: Vec<(u32, u32)>,
     /// Which items of a long list the cases read.
     pub(in crate::suite) sample: Sample,
-    /// Maximum number of items that the cases read in each list of a sample, by kind of item.
+    /// Maximum number of items that the cases read in each list if they read a sample, by kind of
+    /// item.
     pub(in crate::suite) sample_sizes: SampleSizes,
-    /// Descriptions of variables, by the number of the channel and the kind.
+    /// The variables that were counted or described, by the number of the channel and the kind.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
     /// The objects, read when a case first needs them.
     pub(in crate::suite) objects: Option<Vec<ListedValue>>,
     /// The instances, read when a case first needs them.
     pub(in crate::suite) instances: Option<Vec<Instance>>,
-    /// Number of requests sent.
+    /// Number of requests sent, including all attempts to restore values.
     pub frames: usize,
-    /// Services to which the target has replied.
+    /// Services to which the target has sent a valid reply.
     pub(in crate::suite) answered: Vec<AdsService>,
-    /// The functions that the target rejects for the rank of a channel whose rank equals its
-    /// number, although it accepts the number: the target lacks the groups without the bit for
-    /// logical addressing (ADR-12).
+    /// The functions for which the target has returned no success for the rank of a channel whose
+    /// rank equals its number, although it accepts the number: the target is taken to lack the
+    /// groups without the bit for logical addressing.
+    /// ADR-12
     pub(in crate::suite) without_index_groups: HashSet<Function>,
-    /// Whether any reply was a success.
+    /// Whether any reply to a Read, Write or ReadWrite was a success.
     pub(in crate::suite) any_success: bool,
     /// The last error reply that contained data.
     pub(in crate::suite) error_with_data: Option<Evidence>,
@@ -52,28 +54,33 @@ pub struct TargetState {
     /// The reason why the target counts as no longer answering, after which only requests that
     /// restore values are sent; `None` while the target answers.
     pub(in crate::suite) disconnect_reason: Option<String>,
-    /// The text that names the case in which the target stopped answering, and the number of requests.
+    /// A text with the case in which the target stopped answering, the number of requests until
+    /// then, and the reason.
     pub(in crate::suite) ended: Option<String>,
-    /// Number of further failed cases after which the remaining cases are not run; `None` for no limit.
+    /// Number of further failed cases after which the remaining cases are not run, except those
+    /// that judge frames; `None` for no limit.
     pub(in crate::suite) failures_left: Option<usize>,
-    /// Violations of ADS-1 to ADS-5 in received frames, found by the client.
+    /// Violations in received frames, found by the client.
+    /// ADS-1 to ADS-5, ADS-8, ADS-9
     pub(in crate::suite) broken: Record,
-    /// The checks of all replies.
+    /// The checks of all valid replies without a violation, and what these replies have shown about
+    /// the target.
     pub(in crate::suite) rules: RuleBook,
     /// The deadline of the run. After it, only requests that restore values are sent.
     pub(in crate::suite) deadline: Option<Deadline>,
-    /// How the target rejects requests that must be rejected.
+    /// How the target rejects the requests of [`rejects`](crate::suite::Probe::rejects).
     pub(in crate::suite) rejections: Rejections,
-    /// Values that are changed at the moment.
+    /// Values that cases have changed and not restored.
     pub(in crate::suite) changes: Changes,
 }
 
-/// How a target rejects requests.
+/// How a target rejects the requests of [`Probe::rejects`](crate::suite::Probe::rejects).
 #[derive(Debug, Default)]
 pub(in crate::suite) struct Rejections {
     /// Number of rejections with an error number, in the AMS header or in the service.
     pub(in crate::suite) by_number: usize,
-    /// Failed checks of replies that are successes without data, in place of an error number.
+    /// Failed checks of replies that are successes without data, although a rule of the level
+    /// *must* requires a rejection.
     pub(in crate::suite) by_nothing: Record,
 }
 
@@ -119,23 +126,25 @@ impl TargetState {
         Self { changes, ..self }
     }
 
-    /// The values that are changed at the moment.
+    /// The values that cases have changed and not restored.
     pub const fn changes(&self) -> &Changes {
         &self.changes
     }
 
-    /// Sets the number of failed cases after which the remaining cases are not run.
+    /// Sets the number of failed cases after which the remaining cases are not run, except those
+    /// that judge frames.
     pub const fn stop_after(&mut self, failures: usize) {
         self.failures_left = Some(failures);
     }
 
-    /// Why no more requests were sent to the target, if it stopped answering.
+    /// If the target stopped answering, a text with the case in which it stopped, the number of
+    /// requests until then, and the reason.
     pub fn ended(&self) -> Option<&str> {
         self.ended.as_deref()
     }
 
-    /// If the target no longer answers, stores the case in which this was found; the first such
-    /// case remains stored.
+    /// If the target no longer answers, stores the text for [`ended`](Self::ended), unless it is
+    /// already stored for an earlier case.
     pub(in crate::suite) fn end_in(&mut self, case: &str) {
         if let (Some(why), None) = (&self.disconnect_reason, &self.ended) {
             let requests = plural(self.frames, "request");

@@ -1,4 +1,5 @@
-//! Writes of a case. A write sends another value, reads it back, and restores the original value.
+//! Writes of a case. [`Probe::try_write`] sends another value than the current one, reads it back,
+//! and restores the original value. [`Probe::write_rejected`] writes to a read-only address.
 
 #![cfg_attr(
     not(test),
@@ -26,8 +27,8 @@ pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
 }
 
 /// Returns a value that differs from `value` as little as possible: in one bit of the first byte. A
-/// text gets another first character; a text of a single byte has no space for a character, and is
-/// returned unchanged.
+/// text gets another first character; a text of less than two bytes has no space for a character,
+/// and is returned unchanged.
 pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
@@ -52,12 +53,13 @@ pub(crate) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
     one == other || is_text && until_nul(one) == until_nul(other)
 }
 
-/// The rules of a write, and the name of the value.
+/// The rules of a write, the name of the value (`what`), and whether the value is a text.
 pub(crate) struct WriteCheck<'t> {
     pub(crate) what: &'t str,
     pub(crate) rules: &'t [Rule],
     pub(crate) is_text: bool,
-    /// The name by which the handle of the variable was requested.
+    /// The name of the variable, by which its handle can be requested again; `None` if the case
+    /// does not state it.
     pub(crate) name: Option<&'t CncString>,
 }
 
@@ -91,7 +93,8 @@ impl Probe<'_> {
         Ok(self.value_at(address)?.is_some_and(|now| same(&now, was, is_text)))
     }
 
-    /// Whether the gate and the profile permit a write at this address.
+    /// Whether the [gate](crate::gate) and the profile permit a write at this address of the value
+    /// with this name.
     pub(crate) fn may_write(&mut self, address: &ValueAddress, name: &str) -> Step<bool> {
         let left = self.target.profile.leaves(name);
         match address.write(&[]) {
@@ -133,10 +136,14 @@ impl Probe<'_> {
         Ok(passed)
     }
 
-    /// Writes the current value and, if that is accepted, another value; reads it back, and
-    /// restores the original value in any case. Before the restoring, `then` is called with the
-    /// original and the written value, unless the write was rejected or the value changes by
-    /// itself.
+    /// Writes the current value and, if that is accepted, another value; reads it back, and then
+    /// restores the original value, also if a step fails. Writes nothing if the current value
+    /// cannot be read, is empty, or does not fit into a write.
+    ///
+    /// Before the restoring, `then` is called with the original and the written value, unless the
+    /// write was rejected, or the value changes by itself and was not read back as written. If the
+    /// gate allows malformed requests, a value that is not a text and was read back as written is
+    /// then also changed in every byte.
     pub(crate) fn try_write(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -151,7 +158,7 @@ impl Probe<'_> {
             return Ok(());
         }
         let other = changed_value(&before, write_check.is_text);
-        // The current value is written first, which changes nothing.
+        // The current value is written first, because this write should change nothing.
         if !self.write_checked(write_check, address, &before)? {
             return Ok(());
         }
@@ -190,10 +197,10 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Writes a value that differs from the original one in every byte. If the CNC accepts the
-    /// write, the value that is read back must not be the original one nor a mixture of the bytes
-    /// of both values. It may be another value than the written one, because the CNC may limit a
-    /// value to its range.
+    /// Writes a value of at least two bytes that differs from the original one in every byte. If
+    /// the CNC accepts the write, the value that is read back must have the same length, and must
+    /// not be the original one nor a mixture of the bytes of both values. It may be another value
+    /// than the written one, because the CNC may limit a value to its range.
     fn change_every_byte(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -236,8 +243,10 @@ impl Probe<'_> {
         Ok(passed)
     }
 
-    /// Checks that a write of the current value to a read-only address is rejected. `sibling` is a
-    /// writable address: if it rejects a write of its current value, too, the case is inconclusive.
+    /// Checks that a write of the current value to a read-only address is rejected. Before that,
+    /// the current value of `sibling`, a writable address, is written to `sibling`: if this write
+    /// is not accepted, the case is inconclusive. If a current value cannot be read, nothing is
+    /// checked.
     pub(crate) fn write_rejected(
         &mut self,
         write_check: &WriteCheck<'_>,

@@ -20,24 +20,27 @@ use crate::suite::kit::changes::Change;
 use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, WriteCheck, same};
 use crate::text::Moment;
 
-/// Maximum number of attempts to write a value back.
+/// Maximum number of attempts to write a value back, each time that its restoring is tried: at the
+/// end of the change, and again at the end of the run.
 const WRITES_MAX: u32 = 5;
 
 /// Pause before the third attempt; it doubles for each further attempt and for the read after the
 /// last attempt. There is no pause before the first two attempts.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// Maximum number of requests to restore a value, not counting lists of objects that are read again
-/// on a new connection.
+/// Assumed maximum number of requests to restore a value, not counting lists of objects that are
+/// read again on a new connection.
 const REQUESTS_MAX: u32 = 60;
 
-/// Upper limit of the sum of all pauses, in the attempts of a case and in those at the end of the run.
+/// Upper limit of the sum of all pauses to restore a value, in the attempts of a case and in those
+/// at the end of the run.
 const PAUSES: Duration = Duration::from_secs(8);
 
 impl Probe<'_> {
-    /// Runs a function that changes a value, and restores the value in any case. `restore` restores
-    /// it as a part of the case, and returns whether the value is restored; if it returns false or
-    /// an error, the original value is written back again.
+    /// Calls `change`, which changes a value, and then `restore`, even if `change` returns an
+    /// error. `restore` restores the value as a part of the case, and returns whether it is
+    /// restored; if it returns false or an error, restoring is tried again. Calls neither function
+    /// if the file of `--allow-write` would expire before the value could be restored.
     pub(crate) fn changing(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -79,8 +82,9 @@ impl Probe<'_> {
         changed.and(restored).and(restored_all)
     }
 
-    /// Rejects a change, and any further request of a case that has changed a value, if the file of
-    /// `--allow-write` would expire before the value could be restored.
+    /// Ends the case if the file of `--allow-write` would expire before a changed value could be
+    /// restored. Called before each change, and before each further request of a case while a
+    /// changed value is not restored.
     pub(crate) fn check_time_to_restore(&self) -> Step {
         let client = &self.target.client;
         let target = client.target();
@@ -94,8 +98,9 @@ impl Probe<'_> {
         })
     }
 
-    /// Restores all changed values that were not given up, the last change first, even if the run
-    /// is interrupted, the deadline has passed or the target no longer answers.
+    /// Tries to restore all changed values that were not given up, the last change first, even if
+    /// the run is interrupted, the deadline has passed or the target no longer answers. Values that
+    /// cannot be restored are given up.
     pub(crate) fn restore_all(&mut self) -> Step {
         let mut all = Ok(());
         while let Some(change) = self.target.changes.last() {
@@ -127,8 +132,8 @@ impl Probe<'_> {
             let now = self.present_value(&change);
             changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
-            // A value that changes by itself may never equal the original one; two reads detect
-            // this case.
+            // After an accepted write, a value that changes by itself may never equal the original
+            // one; two reads detect such a value.
             let moves = !is_same && written && now.is_some() && {
                 let values = now.as_ref().zip(self.present_value(&change));
                 values.is_some_and(|(now, next)| !same(now, &next, change.is_text))
@@ -162,7 +167,8 @@ impl Probe<'_> {
             .as_ref()
             .is_some_and(|sent| matches!(sent.outcome, Err(ExchangeError::NotPermitted(_))))
         {
-            // On a new connection the gate has observed no handle and no list of objects.
+            // On a new connection, the gate has not yet recorded the handle or the list of objects
+            // that allows this write.
             self.request_again(change);
             sent = send(self, change);
         }
@@ -173,8 +179,8 @@ impl Probe<'_> {
         sent.is_some_and(|sent| sent.success().is_some())
     }
 
-    /// Sends the queries whose replies show the gate that the address belongs to a name in the file
-    /// of `--allow-write`.
+    /// Sends the queries whose replies show the gate that a handle, or the address of an object,
+    /// belongs to a name in the file of `--allow-write`. Sends nothing for other addresses.
     fn request_again(&mut self, change: &mut Change) {
         match (&change.address, change.name.clone()) {
             (ValueAddress::Handle { channel, .. }, Some(name)) => {
@@ -202,8 +208,8 @@ impl Probe<'_> {
         }
     }
 
-    /// Sends a request even if the run is interrupted, the deadline has passed or the target no
-    /// longer answers. `None` if the request cannot be encoded.
+    /// Sends a request if the gate allows it, even if the run is interrupted, the deadline has
+    /// passed or the target no longer answers. `None` if the request cannot be encoded.
     fn send_anyway<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
         let request = RawCall::new(request).ok()?;
         self.target.frames = self.target.frames.saturating_add(1);

@@ -13,15 +13,15 @@ use crate::judge::{Rule, Step, Stop, applicable};
 use crate::objects::ValueAddress;
 use crate::suite::kit::{Instance, NOTHING_WRITABLE, Probe, WriteCheck, name_of};
 
-/// Whether a variable belongs to the Service Interface. Writes to these variables have side effects, so
-/// only the cases of the Service Interface write them.
+/// Whether a variable belongs to the Service Interface. Writes to these variables have side
+/// effects, so only the cases of the Service Interface write them.
 pub(crate) fn is_of_service(variable: &Description) -> bool {
     ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
 }
 
 /// Calls a function for every variable that the cases read and that has this access, in every
-/// channel, except the variables of the Service Interface. Afterwards, ends the case as not
-/// applicable if `judge` found no value that may be written.
+/// claimed channel, except the variables of the Service Interface. Afterwards, ends the case as not
+/// applicable if `judge` has neither noted a value that may be written nor recorded a check.
 pub(crate) fn each_of_access(
     probe: &mut Probe<'_>,
     access: VariableAccess,
@@ -47,7 +47,7 @@ pub(crate) fn write_check<'t>(
 }
 
 /// Requests the handle of a variable by its name, which also helps to confirm the handle to the
-/// gate. If the target returns no handle, this is the handle in the description.
+/// gate. If the target returns no handle, returns the handle in the description.
 pub(crate) fn handle_of(
     probe: &mut Probe<'_>,
     channel: Channel,
@@ -82,8 +82,9 @@ impl WritableNumber {
     }
 }
 
-/// The first variable of each type that is a single number, may be written, and can be read with
-/// the described size. Other cases judge the other variables.
+/// For each type, the first variable that is a single number, may be written, and can be read by
+/// name with the described size. Ends the case as not applicable if there are none. Other cases
+/// judge the other variables.
 pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
     let mut all: Vec<WritableNumber> = Vec::new();
     for channel in probe.channels()? {
@@ -126,7 +127,7 @@ pub(crate) fn is_taken(
 }
 
 /// Ends the case as inconclusive unless the target accepts `valid`: the request that the caller
-/// checks, but without the fault.
+/// checks, but without the fault. A missing reply fails `rule` and ends the case.
 pub(crate) fn require_taken(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
@@ -139,8 +140,8 @@ pub(crate) fn require_taken(
     }
 }
 
-/// An element that the gate and the profile permit to write, with its name and whether it is a
-/// text.
+/// An element that the [gate](crate::gate) and the profile permit to write, with its name and
+/// whether it is a text.
 pub(crate) struct WritableElement {
     pub(crate) instance: Instance,
     pub(crate) element: ElementAddress,
@@ -149,8 +150,9 @@ pub(crate) struct WritableElement {
     pub(crate) is_text: bool,
 }
 
-/// The elements with this write flag that the gate and the profile permit to write, except those at
-/// axis indices that have no axis, or may have none.
+/// Those elements among the ones that the cases read that have this write flag, and that the gate
+/// and the profile permit to write, except those at axis indices that have no axis, or may have
+/// none.
 pub(crate) fn elements_with_flag(
     probe: &mut Probe<'_>,
     is_writable: bool,

@@ -28,8 +28,8 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
         probe.check(SDA_13, own_axis.is_some(), expected, "no such instance");
         let Some(own_axis) = own_axis else { continue };
         if own_axis.count != axis.count {
-            // If both instances have the element after the smaller number, or neither has it, only a
-            // reported number is wrong, which SDA-4 judges.
+            // If both instances have the element after the smaller number, or neither has it, only
+            // a reported number is wrong, which SDA-4 judges.
             let next = own_axis.count.min(axis.count).saturating_add(1);
             let mut has_next = |one: &Instance| -> Step<bool> {
                 let Ok(element) = one.first.nth(next) else { return Ok(false) };

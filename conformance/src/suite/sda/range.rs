@@ -10,8 +10,8 @@ use ads_cnc_vectors::{ClauseId, Hex};
 use crate::judge::{Checks as _, OrStop as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe, attribute_reads};
 
-/// Requests an instance that must exist. Another task than SDA may serve a class, so an error is
-/// judged only for the decoder, which SDA serves.
+/// Requests an instance that must exist, and the number of its elements. Another task than SDA may
+/// serve a class, so an error is judged only for the decoder, which SDA serves.
 fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, axis: u32) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
     let exchange = probe.send(request)?;
@@ -59,8 +59,8 @@ fn of_axes(class: Class, id: ClauseId) -> Rule {
     if class == Class::PathPreparation { assumed(id) } else { id.into() }
 }
 
-/// Requests an instance that cannot exist. The reply must be (0, 0); if it is the address of an
-/// element, `rules` are violated, too.
+/// Requests an instance that cannot exist. The reply must be (0, 0); that an error is wrong, too,
+/// is only assumed. If the reply is the address of an element, `rules` are also violated.
 fn is_nowhere(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -184,16 +184,18 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     applicable(any, "no class has an axis")
 }
 
-/// Checks that the class has no axis `last + 1`, and no axis whose number has the lower 16 bits of
-/// `last`.
+/// Checks that the class has no axis `last + 1`, and no axis `last | 0x10000`, whose number has the
+/// lower 16 bits of `last`.
 fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Step {
     is_nowhere(probe, &[SDA_5], class, channel, last.saturating_add(1))?;
     is_nowhere(probe, &[SDA_5], class, channel, last | 0x1_0000)
 }
 
-/// Checks that no instance exists after the last instance of each class that the target has, and no
-/// instance in channels that the class cannot have. The numbers of axes and spindles in the profile
-/// are not used.
+/// Checks that no instance exists after the last one that was found: no axis of a channel
+/// (interpolator, decoder, path preparation), no axis of the platform (position controller, HLD),
+/// and no spindle. Also checks that the three classes with axes of a channel have no instance in
+/// channel 0, and the position controller none in the claimed channels. The numbers of axes and
+/// spindles in the profile are not used.
 pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let has = |class| all.iter().any(|one| one.class == class);
@@ -230,9 +232,9 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Requests instances whose channel or axis number does not fit into an address, but has the lower
-/// bits of an existing one: a group has 8 bits for the channel, and an offset has 16 bits for the
-/// axis.
+/// Requests instances whose channel, spindle or axis number does not fit into an address, but has
+/// the lower bits of an existing one: a group has 8 bits for the channel, and an offset has 16 bits
+/// for the axis.
 pub(super) fn far(probe: &mut Probe<'_>) -> Step {
     for one in probe.instances()? {
         let channels: &[u32] = match one.axis {

@@ -40,12 +40,12 @@ pub(super) const NONE: [u8; 4] = [0; 4];
 /// A value whose bytes all differ.
 pub(super) const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
-/// The texts of a request and its response.
+/// The variables that contain the texts of a request and its response.
 const TEXTS: [ServiceVariable; 2] = [ServiceVariable::Request, ServiceVariable::Response];
 
-/// Calls a function for each channel in which all these variables may be written, and then restores
-/// the variables, the last one first. The case is inconclusive if an NC program has requested a
-/// service.
+/// Calls a function for each channel with the Service Interface in which all these variables may be
+/// written, and then restores the variables, the last one first. The case is inconclusive unless
+/// REQUEST_STATE is 0, because another value shows that an NC program has requested a service.
 pub(super) fn in_each_channel(
     probe: &mut Probe<'_>,
     variables: &[ServiceVariable],
@@ -100,8 +100,8 @@ fn restoring(
     let address = ValueAddress::Name { channel, name: variable.name().parse()? };
     let is_text = variable.var_type() == VariableType::STRING;
     if is_text {
-        // The text is restored without its padding, because a device may reject more bytes than the text
-        // has.
+        // The text is restored without its padding, because a device may reject more bytes than the
+        // text has.
         was = [until_nul(&was), b"\0"].concat();
     }
     let write_check = WriteCheck { what: variable.name(), rules: &[], is_text, name: None };

@@ -90,8 +90,8 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
 /// The UUID of the square root service, an example in the manuals (SVC-9).
 const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
 
-/// Requests a service with a UUID that no service has, and checks that REQUEST and REQUEST_STATE
-/// keep the written values.
+/// Requests a service with a UUID that no service should have, and checks that REQUEST and
+/// REQUEST_STATE keep the written values.
 pub(super) fn request(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Uuid};
     const NO_SERVICE: &[u8] = b"00000000-0000-0000-0000-000000000000\0";
@@ -112,8 +112,8 @@ pub(super) fn request(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Checks that a write to one variable changes none of the variables written before. REQUEST_STATE
-/// is not written, so that no service is requested.
+/// Checks that a write to one variable changes none of the variables that were written before it.
+/// REQUEST_STATE is not written, so that no service is requested.
 pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, Response, ResponseState, Uuid};
     in_each_channel(probe, &[ResponseState, Response, Request, Uuid], |probe, channel| {

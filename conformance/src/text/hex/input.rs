@@ -26,7 +26,7 @@ impl fmt::Display for HexError {
 impl std::error::Error for HexError {}
 
 /// Parses hex: two digits for each byte. Bytes may be separated by white space, commas, semicolons,
-/// colons or hyphens; after a separator, `0x` may precede the digits.
+/// colons or hyphens; at the beginning and after a separator, `0x` may precede the digits.
 ///
 /// ```
 /// use ads_cnc_conformance::explain::parse_hex;

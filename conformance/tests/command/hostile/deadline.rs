@@ -1,4 +1,4 @@
-//! The option `--deadline` ends every command in time.
+//! The option `--deadline` ends runs and other commands in time.
 
 use std::fs;
 use std::thread;

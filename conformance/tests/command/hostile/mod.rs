@@ -1,5 +1,6 @@
 //! Limits of memory and time with hostile peers: the tests run the built command against servers,
-//! testees, clients and captures that send data without end.
+//! testees and clients that send wrong, long or endless data, and with large captures. Memory is
+//! measured only on Linux.
 
 mod captures;
 mod deadline;
@@ -32,7 +33,7 @@ struct Ended {
     time: Duration,
 }
 
-/// Runs the command to its end, and checks that it never uses more memory than `MEMORY_MAX`.
+/// Runs the command to its end, and checks that its peak memory is less than `MEMORY_MAX`.
 #[track_caller]
 fn run(args: &[&str]) -> Ended {
     run_beside(args, |_| ()).0
@@ -195,8 +196,8 @@ fn unsolicited_frames_before_every_reply_of_a_run() {
     assert!(ended.stdout.contains("a reply to invoke ID"), "{}", ended.stdout);
 }
 
-/// A run against a device that sends AMS/TCP frames, but wrong ones from the first on, fails. Exit code 3
-/// is only for a device that sends nothing.
+/// A run against a device that sends wrong or incomplete AMS/TCP frames from the first on fails
+/// with exit code 1, not 3 as for a device that sends nothing.
 #[test]
 fn broken_frames_from_the_first_one_on() {
     let whole = |frame: &FrameRef<'_>| frame.encode_to_vec().unwrap();
@@ -328,7 +329,7 @@ fn a_testee_with_long_answers() {
         (120_000, "a", r#"{"seq":%s,"reject":{"class":"%s","message":"%s"}}"#),
         (250_000, "a", r#"{"seq":%s,"ok":{"value":"%s"}}"#),
         (300_000, "a", r#"{"seq":%s,"error":{"message":"%s"}}"#),
-        // The JSON that occupies the most memory per byte when it is parsed.
+        // JSON that occupies much memory per byte when it is parsed.
         (4000, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
         (500, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
     ] {

@@ -14,7 +14,8 @@ fn real(value: f64) -> Result<Vec<u8>, u32> {
     Ok(value.to_le_bytes().to_vec())
 }
 
-/// Places 2 and 3 of channel 2 have no axis: reads return zeros, and writes are rejected.
+/// Places 2 and 3 of channel 2 have no axis: reads of contents return zeros, and writes are
+/// rejected, except those of the axis number.
 #[test]
 fn an_empty_place_is_blank() {
     let cnc = Cnc::start(&[]);
@@ -102,7 +103,7 @@ fn inactive_channels_have_no_rank() {
     let channel = |group| sda.ask(group, 0x48, b"V.E.channel\0");
     assert_eq!(channel(0x12_2301), Err(0x702));
     assert_eq!(channel(0x02_2301), Ok(vec![2, 0, 0, 0]));
-    // As in the printed example, the rank of channel 6 decreases when the preceding channel is
+    // As in the printed example, the rank of channel 6 decreases when a preceding channel is
     // deactivated.
     assert_eq!(channel(0x02_2302), Ok(vec![6, 0, 0, 0]));
     assert_eq!(channel(0x12_2306), Ok(vec![6, 0, 0, 0]));

@@ -145,8 +145,8 @@ fn contents_are_read_and_written() {
     assert_eq!(cnc.com().read(0x12_3301, 1, 1), Err(0x702));
 }
 
-/// Functions and elements of the decoder have the same index offsets (SDA-12): at the groups of
-/// attributes, the offset is an element; at the group of contents, it is the function.
+/// Functions and elements of the decoder may have the same index offset (SDA-12): at the groups of
+/// attributes, the offset is the element; at the group of contents, it is the function.
 #[test]
 fn functions_take_precedence_over_elements() {
     let cnc = Cnc::start(&[]);

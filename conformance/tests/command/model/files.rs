@@ -18,7 +18,7 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
     (run.status.code(), text(run.stdout), text(run.stderr))
 }
 
-/// An error in the encoding of a file has a line number like any other error.
+/// An error in the encoding of a file has a line number, as an error in its content has.
 #[test]
 fn a_file_in_another_encoding_has_a_line() {
     let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
@@ -45,7 +45,8 @@ fn the_printed_model_is_the_default_model() {
     assert_eq!(cnc.sda().ask(CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
 }
 
-/// Settings that a model omits are 0, empty or absent.
+/// A CNC whose model has only a channel has no variables except those of the Service Interface, and
+/// no objects, elements or axes.
 #[test]
 fn a_minimal_model_is_valid() {
     let file = TestFile::new(".toml", b"[[channel]]\nnumber = 3\n");

@@ -1,5 +1,5 @@
-//! The data model of the simulated CNC as read by the published crate `ads`, a client that is independent
-//! of this project. The expected bytes are literals.
+//! The data model of the simulated CNC, in most tests as read and written by the published crate
+//! `ads`, a client that is independent of this project. Most expected bytes are literals.
 
 mod axes;
 mod dynamic;

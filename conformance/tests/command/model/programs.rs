@@ -43,7 +43,8 @@ fn streaming_has_a_pace() {
     assert_eq!(lines_run("file = \"\""), [0, 0]);
 }
 
-/// Lines after a program end are executed or remain in the interface, depending on `start`.
+/// Lines that are written after a program end was executed are executed too, or remain in the
+/// interface, depending on `start`.
 #[test]
 fn streaming_starts_as_configured() {
     for (keys, lines, state) in [
@@ -201,7 +202,7 @@ fn the_commented_program_is_one() {
     assert_eq!(text(&cnc, "REQUEST"), "3");
 }
 
-/// Options of `serve` override the settings of the model.
+/// The options `--pace` and `--ask-square-roots` of `serve` override settings of the model.
 #[test]
 fn options_override_the_model() {
     let objects = r#"objects = [{ name = "s", type = "STRING", offset = 0x90, size = 4094, writable = true }]"#;

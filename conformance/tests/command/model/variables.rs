@@ -67,7 +67,7 @@ fn every_type_is_written() {
     assert_eq!(sda.ask(CHANNEL_1, 0x48, b"V.E.matrix\0"), Ok(matrix));
 }
 
-/// A text may be shorter than its declared size, but must contain a NUL.
+/// A text may be shorter than its declared size, which must have room for the text and a NUL.
 #[test]
 fn texts_are_written() {
     let cnc = Cnc::start(&[]);

@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 use super::{FORMS, TestFolder, VERBOSE, ads_cnc, elements, everything};
 use crate::common::Serve;
 
-/// Texts that a device sends are escaped on the console and in every format of a report.
+/// Texts that a device sends are escaped on the console and in the Markdown, HTML and JUnit
+/// reports.
 #[test]
 fn texts_of_a_device_are_escaped() {
     let folder = TestFolder::new();
@@ -60,7 +61,8 @@ fn texts_of_a_device_are_escaped() {
     assert_eq!(badge["schemaVersion"], 1);
 }
 
-/// Replaces each text of a report in turn by active content, which must be escaped in every format.
+/// Replaces one text of each kind in a report in turn by active content, which must be escaped in
+/// every format.
 #[test]
 fn all_texts_of_a_foreign_report_are_escaped() {
     let folder = TestFolder::new();

@@ -1,5 +1,5 @@
-//! The formats of a report: each is converted only from the JSON report, is well-formed, and contains the
-//! same facts.
+//! The formats of a report: each is converted only from the JSON report. The tests check that the
+//! formats are well-formed and contain certain facts.
 
 mod foreign;
 
@@ -23,7 +23,7 @@ const DEFECT: &str = "variable-description.size.flip";
 const VERBOSE: DisplayOptions =
     DisplayOptions { detail: Detail::Verbose, color: false, found_shown: false };
 
-/// A report with all parts: failures with bytes, waivers, a selection.
+/// A report with many parts, such as failures with bytes, waivers and a selection.
 fn everything(folder: &TestFolder) -> Value {
     let waivers = folder.file("waivers.toml");
     let entry = |test: &str, requirement: &str| {
@@ -310,7 +310,8 @@ fn long_rows_may_break_in_print() {
     assert!(html.contains("tr:not(.long), blockquote, .area { break-inside: avoid; }"));
 }
 
-/// The HTML report loads no resources, and contains the verdicts even without a script.
+/// The HTML report loads no resources, and contains the cases and the failures even without a
+/// script.
 #[test]
 fn html_is_self_contained() {
     let folder = TestFolder::new();
@@ -333,7 +334,7 @@ fn html_is_self_contained() {
     ] {
         assert!(before.contains(fact), "{fact}");
     }
-    // The report contains the wrong byte and the expected byte, and the clause in both editions.
+    // The report contains the wrong byte and the expected byte, and the section in both editions.
     for part in [
         "<mark>03</mark> 00 00 00",
         "<mark>02</mark> 00 00 00",

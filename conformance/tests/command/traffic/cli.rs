@@ -54,7 +54,7 @@ fn an_incomplete_capture_is_an_error() {
     }
 }
 
-/// Every form of the report states that a part of the conversation is missing.
+/// The console and the HTML and Markdown reports state that a part of the conversation is missing.
 #[test]
 fn every_report_states_missing_traffic() {
     let folder = TestFolder::new();

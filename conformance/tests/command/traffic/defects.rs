@@ -59,7 +59,7 @@ fn defects_of_a_cnc_fail_their_requirement() {
     }
 }
 
-/// The messages with the defect applied to the data of each request that has the field.
+/// The messages with the defect applied to each request that has the field.
 fn spoilt(all: &[Message], defect: &FieldDefect) -> Vec<Message> {
     let spoil = |bytes: &[u8]| -> Option<Vec<u8>> {
         let (frame, _) = FrameRef::split(bytes, u32::MAX).ok()??;

@@ -1,4 +1,5 @@
-//! Creates captures from messages, with several file formats, link types and lengths of segments.
+//! Reads messages from captures of the tools, and creates pcap files from messages, with several
+//! link types and lengths of segments.
 
 use ads_cnc_conformance::capture::{CaptureOptions, Checked, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
@@ -247,8 +248,8 @@ pub(crate) fn with(checked: &Checked, verdict: Verdict) -> Vec<String> {
     all.collect()
 }
 
-/// Checks that no requirement fails or is inconclusive, and returns the number of requirements that
-/// pass, summed over the cases.
+/// Checks that no requirement fails, differs, is inconclusive or has a warning, and returns the
+/// number of requirements that pass, summed over the cases.
 pub(crate) fn passes(checked: &Checked) -> usize {
     for verdict in [
         Verdict::Fail,

@@ -1,7 +1,7 @@
 //! Captures as ADS Monitor writes them: AMS frames in EtherCAT frames, and NetMon 2.x files.
 //!
-//! No file of the real ADS Monitor was available for these tests; `.ci/wireshark` uses a file that
-//! Wireshark writes.
+//! No file of the real ADS Monitor was available for these tests; `.ci/wireshark` converts a
+//! capture to such a file with a script and `editcap`.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc_conformance::capture::{CaptureOptions, FileEnd, FileError, check};

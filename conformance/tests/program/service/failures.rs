@@ -1,4 +1,4 @@
-//! Failed steps of hosts and late responses.
+//! Failed steps of hosts, late responses, calls in the wrong order, resets and restarts.
 
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;

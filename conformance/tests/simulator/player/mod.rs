@@ -11,7 +11,8 @@ use crate::target::{CheckResult, Failed, TestCnc};
 /// The class of an error and the ID of the step that caused it; `None` without an error.
 type Fault<'c> = Option<(&'static str, &'c str)>;
 
-/// Plays a sequence up to its expected error, or to its end.
+/// Plays a sequence up to the first error, or to its end, and compares the error with the expected
+/// one.
 pub(crate) fn play(target: &TestCnc, sequence: &Sequence) -> CheckResult {
     let found = match &sequence.given {
         SequenceInput::Streaming(given) => streaming::play(target, given)?,

@@ -131,8 +131,8 @@ impl Player<'_, '_> {
         Ok(program)
     }
 
-    /// The outcome of the program's request, after the program has polled once; `None` if the program
-    /// still waits.
+    /// The outcome of the program's request, after the program has executed two more steps; `None`
+    /// if the program still waits.
     fn outcome(&mut self, step: &ServiceStep) -> CheckResult<Option<ServiceOutcome>> {
         self.program_step(step)?;
         let answers = self.program_step(step)?.answers().next();

@@ -103,8 +103,8 @@ fn mutation(explanation: &mut Explanation, defect: Defect) {
     }
 }
 
-/// An explanation has a fault if and only if the codec rejects the bytes, or the stream is an NC
-/// text that cannot be streamed to its end.
+/// An explanation has a fault if the codec rejects the bytes, or if the stream is an NC text that
+/// cannot be streamed to its end; without a type in the input, only then.
 fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
     let rejected = common::check_bent(stream, bytes, &Mutation::NONE).is_err()
         || stream == Stream::ProgramStream && !is_nc(bytes);

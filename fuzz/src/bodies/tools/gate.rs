@@ -1,4 +1,4 @@
-//! The gate, compared with a rule that uses only the bytes of frames.
+//! The gate, compared with a rule that reads the bytes of frames and replies without the codec.
 
 use ads_cnc::CncString;
 use ads_cnc::address::{Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};

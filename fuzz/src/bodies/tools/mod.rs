@@ -1,5 +1,4 @@
-//! The bodies of the targets for the suite and the simulated CNC: they parse external bytes other
-//! than the streams of the codec.
+//! The bodies of the targets for the tools and the simulated CNC.
 
 pub(crate) mod calls;
 pub(crate) mod capture;

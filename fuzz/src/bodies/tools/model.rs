@@ -18,8 +18,9 @@ pub(crate) const DEFECTS: &[&str] = &[
     "the same requests get different answers as time passes",
 ];
 
-/// Any file is a model or an error. A CNC with this model gives only answers that the codec reads,
-/// gives the same answers to the same requests, and has as many objects in each list as it counts.
+/// Any file is a model or an error. The codec reads the answers of a CNC with this model. The CNC
+/// gives the same answers to the same requests, and returns no object after the number of objects
+/// that it counts in a list.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, "a file:", defect, |text| Model::from_toml(text, "a file"), Model::eq);
@@ -32,7 +33,8 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     Outcome::accepted(said)
 }
 
-/// The answers of a CNC with this model to the sample calls, and its first objects, at three times.
+/// The answers of a CNC with this model to the sample calls, and the first objects of four lists,
+/// at three times.
 fn serve(model: Model, defect: Defect, turn: usize) -> Vec<Option<Vec<u8>>> {
     let cnc = Cnc::new(model).with_stopped_clock();
     let mut said = Vec::new();

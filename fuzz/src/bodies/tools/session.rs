@@ -23,7 +23,7 @@ pub(crate) const DEFECTS: &[&str] = &[
     "the bytes of an incomplete frame are buffered a thousand times",
 ];
 
-/// A small model of a CNC with every kind of data.
+/// A small model of a CNC with many kinds of data.
 pub(crate) const MODEL: &str = include_str!("small.toml");
 
 fn cnc() -> Cnc {
@@ -32,8 +32,8 @@ fn cnc() -> Cnc {
     Cnc::new(model.clone()).with_stopped_clock()
 }
 
-/// A session: every valid frame gets one answer, which the codec reads; a malformed frame ends the
-/// session.
+/// A session: every valid request gets one answer, which the codec reads; a malformed frame ends
+/// the session.
 struct Session {
     cnc: Cnc,
     received: ReceiveBuffer,
@@ -142,7 +142,7 @@ impl Session {
         }
     }
 
-    /// Checks that the answers are those to the valid frames, in their order, and no others.
+    /// Checks that the answers are those to the valid requests, in their order, and no others.
     fn judge(&self) -> Outcome {
         let (mut sent, mut answers) = (&self.sent[..], &self.answers[..]);
         let mut count = 0_usize;

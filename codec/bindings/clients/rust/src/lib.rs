@@ -18,7 +18,7 @@ pub trait Transport {
     fn send(&self, call: Call<'_>) -> impl Future<Output = Result<Vec<u8>>>;
 }
 
-/// Sends an operation and returns the data of its reply, for `decode_reply`.
+/// Sends the request of an operation and returns the data of its reply, for `decode_reply`.
 async fn send(cnc: &impl Transport, operation: &impl Operation) -> Result<Vec<u8>> {
     let mut data = vec![0; operation.encoded_len()];
     cnc.send(operation.call(&mut data)?).await
@@ -72,12 +72,13 @@ async fn write(cnc: &impl Transport, channel: Channel, name: &str, value: &Value
     Ok(())
 }
 
-/// Reads and writes the simulated CNC, prints the values, and fails if a value is not the expected one.
+/// Reads and writes the simulated CNC, prints the values, and fails if a value is not the expected
+/// one.
 pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
     let channel = Channel::new(1)?;
 
-    // Describe all variables, by index. Over tokio, all requests are sent without waiting for
-    // replies.
+    // Describe all variables of the kind V.E, by index. Over tokio, all requests are sent without
+    // waiting for replies.
     let count = CountVariables::new(channel, Kind::V_E);
     let number = count.decode_reply(&send(cnc, &count).await?)?.0;
     let listed = try_join_all((0..number).map(async |index| -> Result<Value> {
@@ -100,8 +101,8 @@ pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
         shown(&format!("{name}, written"), &read(cnc, channel, name).await?, &value[1])?;
     }
 
-    // Find an element of SDA by its name: query the instance of the class, then read the names of its
-    // elements.
+    // Find an element of SDA by its name: query the instance of the class, then read the names of
+    // its elements.
     let find = FindInstance::new(Class::Hld, 1, 0);
     let found = find.decode_reply(&send(cnc, &find).await?)?;
     let first = found.first_element()?.ok_or("no HLD")?;
@@ -122,7 +123,7 @@ pub async fn show(cnc: &impl Transport, expected: &Value) -> Result<()> {
     let number = error.downcast_ref::<AdsError>().map(|error| error.0);
     shown("V.E.nothing, ADS error", &json!(number), &json!(0x710))?;
 
-    // Decode only the received bytes: zeros up to the read length are an error.
+    // Decode only the received bytes: in this reply, zeros up to the read length are an error.
     let describe = DescribeByIndex::new(channel, 0, Kind::V_E);
     let mut padded = send(cnc, &describe).await?;
     padded.resize(describe.read_length() as usize, 0);

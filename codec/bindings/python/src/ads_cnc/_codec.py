@@ -16,8 +16,9 @@ T = TypeVar("T")
 class AdsCncError(ValueError):
     """The error for invalid bytes or values.
 
-    `stream` and `field` are names, `offset` is the offset of the field in the stream. The meaning of
-    `expected` and `found` depends on `kind`.
+    `stream` is the name of the stream or of another subject, such as "call"; `field` is the name of the field or
+    argument, or empty; `offset` is the offset of the fault in the stream. The meaning of `expected` and `found`
+    depends on `kind`.
     """
 
     def __init__(self, error: _abi.Error) -> None:
@@ -230,12 +231,14 @@ def _write(row: FieldInfo, value: Any) -> bytes:
     return bytes(map(int, value.split(".")))
 
 
-# The class of the records of each stream, filled in by the generated module.
+# The classes of records, by the name of the stream, for the streams whose value is a record or a list of
+# records. The generated module `_functions` fills them in.
 RECORDS: dict[str, Any] = {}
 
 
 def _value(stream: Stream, found: list[Field]) -> Any:
-    """The value of a stream: its only field, or a record of its fields; None if the stream has no bytes."""
+    """The value of a stream: its only field, a record of its fields, or a list of records if the stream repeats.
+    None if no field was found."""
     rows = [row for row in stream.fields if not row.is_count]
     kinds = {row.name: row for row in rows}
     records: list[dict[str, Any]] = []
@@ -256,7 +259,8 @@ def _value(stream: Stream, found: list[Field]) -> Any:
 
 
 def decode(stream: str, data: bytes) -> Any:
-    """Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats."""
+    """Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to None if
+    it has no field."""
     return _value(STREAMS[stream], fields(stream, data))
 
 
@@ -372,7 +376,7 @@ def dispatch(call: Call) -> Dispatched:
         if isinstance(found, _abi.Bytes):
             found = found.get() if name == "value" else text_from_cp1252(found.get())
         arguments[name] = found
-    # `axis` is only set for lists of objects of a platform axis, `by_index` only for addressing by index.
+    # Optional arguments: `axis` is set for lists of objects of a platform axis, `by_index` for addressing by index.
     optional = {name: getattr(it, name) for name in ("axis", "by_index") if name not in arguments}
     arguments.update({name: value for name, value in optional.items() if value})
     return Dispatched(function, arguments)

@@ -113,5 +113,6 @@ class Host:
 
     @property
     def outcome(self) -> Optional[str]:
-        """The outcome of the last answer: "answered" or "abandoned"; None before the first and while one is written."""
+        """The outcome of the last answer: "answered" or "abandoned"; None before the first answer, and until the
+        outcome of an answer is known."""
         return (None, "answered", "abandoned")[_abi.function("host_outcome", UINT32)(ctypes.byref(self._it))]

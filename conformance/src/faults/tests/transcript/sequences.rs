@@ -1,4 +1,5 @@
-//! Requests whose replies depend on earlier requests, and requests at the ends of lists.
+//! Requests whose replies depend on earlier requests, requests at the ends of lists, and requests
+//! with unusual addresses.
 
 use std::time::Duration;
 
@@ -149,7 +150,7 @@ impl Transcript<'_> {
         }
     }
 
-    /// Fills the streaming interface, while another channel streams too.
+    /// Fills the streaming interface of channel 1, while the interface of channel 2 has data too.
     fn packets(&mut self) {
         let hold =
             ProgramConfig { pace: Pace::Fast, start: Start::ByHand, ..ProgramConfig::default() };

@@ -8,8 +8,8 @@ use super::{Transcript, number, numbers};
 use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
 
 impl Transcript<'_> {
-    /// Queries of channel 6, which has rank 3: by number and by rank, with unknown channels and axes,
-    /// and with other lengths.
+    /// Queries, mostly of channel 6, which has rank 3: by number and by rank, with unknown channels
+    /// and axes, and with several read lengths. At the end, accesses to elements of a large array.
     pub(super) fn queries(&mut self) {
         let by_name = [0x46_u32, 0x48, 0x4C, 0x1_0004, 0x1_0005].map(|at| (0x12_2306_u32, at));
         for (group, offset) in by_name {
@@ -60,7 +60,7 @@ impl Transcript<'_> {
         }
     }
 
-    /// Writes to unknown channels, axes and elements.
+    /// Writes, mostly to unknown channels, axes and elements.
     pub(super) fn unknown_writes(&mut self) {
         self.write(552, 0x12_2309, 0x4A, b"V.E.Variable_2[0]\0\x09");
         self.write(552, 0x12_2309, 0x49, &[numbers(&[0x200_0002, 0]), vec![1, 1]].concat());
@@ -159,7 +159,8 @@ impl Transcript<'_> {
         }
     }
 
-    /// Writes that are rejected or too short, and unknown names.
+    /// Writes of a wrong size or to a read-only variable, a shorter text after a longer one, and
+    /// requests with an unknown name or a wrong number of indices.
     fn odd_writes(&mut self) {
         for (name, value) in [
             ("V.E.vartest", &[7, 7, 7][..]),
@@ -314,7 +315,8 @@ impl Transcript<'_> {
         }
     }
 
-    /// Records the executed lines, the states and the buffered bytes of the programs of channels 1 and 2.
+    /// Records the executed lines, the states and the numbers of buffered bytes of the programs of
+    /// channels 1 and 2.
     pub(super) fn record_programs(&mut self) {
         for channel in [1, 2] {
             let reply = self.cnc.with_program(channel, |program| {

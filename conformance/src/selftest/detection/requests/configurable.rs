@@ -69,7 +69,7 @@ impl ConfigurableReplies {
         let group = by_number(call.index_group);
         let key = (request.function(), group, call.index_offset, call.data.to_vec());
         let known = self.known.entry(key).or_insert_with(|| data.to_vec());
-        // The read length may truncate one of the two replies.
+        // The two replies are compared up to the length of the shorter one.
         let len = known.len().min(data.len());
         (known.get(..len) == data.get(..len)).then_some(marker)
     }

@@ -1,4 +1,5 @@
-//! Queries of all values that the CNC lists, and queries with similar names, indices and addresses.
+//! Queries of the values that the CNC lists, at most `LISTED_MAX` of each list, and queries with
+//! similar names, indices and addresses.
 
 use ads_cnc::address::{
     Addressing, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
@@ -160,7 +161,7 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// The names of the V.A variables of a channel, with and without the axis, and an unknown name.
+    /// The names of the V.A variables of a channel, with and without the axis, and unknown names.
     pub(super) fn axis_names(&self, channel: Channel) -> Vec<String> {
         let mine = self.variables.iter().filter(|one| one.channel == channel);
         let full = mine.map(|one| one.name.to_string()).filter(|name| name.starts_with("V.A."));

@@ -1,5 +1,5 @@
-//! Writes of each writable value and of the Service Interface, each followed by reads, and writes
-//! of NC programs.
+//! Writes of the writable values and of the Service Interface, each followed by reads, and writes
+//! of NC programs, as far as the gate allows them.
 
 use std::time::Duration;
 

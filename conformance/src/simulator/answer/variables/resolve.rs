@@ -15,11 +15,12 @@ use crate::simulator::model::{ChannelModel, Variable, VariableRef, handle_at, pa
 /// The result of resolving a name on the channel interface.
 pub(super) enum Resolved {
     Variable(VariableRef),
-    /// A V.P, V.L or V.S parameter, in an edition that has these kinds of variables.
+    /// A V.P, V.L or V.S parameter, in an edition and a version that have these kinds of variables.
     Parameter,
 }
 
-/// The error for an unknown name.
+/// The error for an unknown name or kind, for a place on the axis interface that does not exist,
+/// and for the name of an element where only the name of a variable is allowed.
 pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
 
 impl AnsweringCnc<'_> {
@@ -80,8 +81,9 @@ impl AnsweringCnc<'_> {
         at.copied().ok_or(AdsError::INVALID_DATA)
     }
 
-    /// Resolves a name on the channel interface to a variable and the indices of an element. Fails
-    /// with an invalid offset if the version of the CNC does not have the function.
+    /// Resolves a name on the channel interface to a variable and the indices of an element, or to
+    /// a parameter. Fails with an invalid offset if the version of the CNC does not have the
+    /// function.
     pub(super) fn named<'n>(
         &self,
         function: Function,
@@ -157,7 +159,8 @@ impl AnsweringCnc<'_> {
         variable.ok_or(AdsError::INVALID_DATA)
     }
 
-    /// The name of a variable; the name of an axis variable ends with the name of the axis.
+    /// The name of a variable on the channel interface, where the name of an axis variable ends
+    /// with the name of the axis.
     pub(super) fn name(&self, channel: usize, at: VariableRef) -> Result<CncString, AdsError> {
         let variable = self.variable(channel, at)?;
         let VariableRef::Axis { place, .. } = at else { return Ok(variable.name.clone()) };
@@ -181,7 +184,8 @@ impl AnsweringCnc<'_> {
     }
 }
 
-/// Kind and name of a V.P, V.L or V.S parameter; an error for any other name.
+/// The kind and the name, if the name can be that of a V.P, V.L or V.S parameter; an error for any
+/// other name.
 pub(super) fn parameter(name: CncStr<'_>) -> Result<(DynamicKind, CncString), AdsError> {
     let name = CncString::from(name);
     match parameter_kind(&name) {

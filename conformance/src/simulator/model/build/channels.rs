@@ -13,8 +13,8 @@ use super::variables::{self, handle_span};
 use super::{items, parameters, programs};
 use crate::edition::{CncVersion, Feature};
 
-/// Maximum number of platform axes, of spindles and of places of a channel; larger numbers do not
-/// fit into index groups and handles.
+/// Maximum number of platform axes, of spindles and of places of a channel. The index of a further
+/// axis or place would not fit into index groups and handles.
 pub(super) const INSTANCES_MAX: usize = 255;
 
 /// The parts of the model that are needed to build and check channels.

@@ -16,8 +16,8 @@ use super::parse::text;
 use crate::number::to_usize;
 use crate::text::plural;
 
-/// Maximum size of a content in bytes, so that the content fits into a frame after result and
-/// length.
+/// Maximum size of a content in bytes, so that the content fits into a frame of the simulated CNC
+/// after result and length.
 const CONTENT_MAX: usize = 0xFFF8;
 
 /// Size in bytes of a STRING without a declared size (VAR-25).
@@ -119,7 +119,7 @@ fn meaning(
     }
 }
 
-/// Checks that the type of an item can hold axis numbers, if its content is an axis number.
+/// Checks that an item whose content is an axis number has an integer type of at least two bytes.
 fn holds_numbers(
     source: Source<'_>,
     item: &Item,

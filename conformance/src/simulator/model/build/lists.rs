@@ -108,8 +108,8 @@ fn descriptor(
         .with_content(group, offset))
 }
 
-/// Descriptors of the objects of a channel, without those of its axes; for channel 0, of the
-/// platform.
+/// Descriptors of the objects of a channel, without those at its places; for the number 0, those of
+/// the objects of the platform.
 fn own(
     objects: &Objects,
     number: u8,
@@ -126,7 +126,7 @@ fn own(
     Ok(list)
 }
 
-/// Descriptors of the objects of a channel, and then of the objects of its axes.
+/// Descriptors of the objects of a channel, and then of the objects at each of its places.
 fn of_channel(
     channel: &ChannelModel,
     of_places: &Objects,

@@ -1,4 +1,4 @@
-//! Builds the model from the file and checks every part.
+//! Builds the model from the file and checks it.
 
 mod channels;
 mod items;
@@ -30,7 +30,7 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
             }
             reason => &in_words(reason, "table"),
         };
-        // An error without a position, such as a missing table, is reported at line 1.
+        // An error without a position is reported at line 1.
         source.error(&error.span().unwrap_or_default(), reason)
     })?;
     let edition = match &document.edition {

@@ -55,7 +55,8 @@ fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
     })
 }
 
-/// The kind of the parameter with this name.
+/// The kind of the parameter with this name; an error message if the name is too long, or if no
+/// kind has such names.
 pub(in crate::simulator) fn kind(name: &CncString) -> Result<DynamicKind, String> {
     if name.as_bytes().len() >= DYNAMIC_NAME_MAX {
         return Err(format!(

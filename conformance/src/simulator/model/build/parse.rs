@@ -9,7 +9,7 @@ use crate::simulator::model::ModelError;
 use crate::simulator::model::error::Source;
 use crate::text::duration;
 
-/// Parses a text as CP1252.
+/// Encodes a text in CP1252.
 pub(super) fn text(source: Source<'_>, text: &Spanned<String>) -> Result<CncString, ModelError> {
     text.get_ref().parse().map_err(|error| source.error(&text.span(), error))
 }

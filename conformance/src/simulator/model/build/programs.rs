@@ -1,5 +1,5 @@
-//! Builds the NC programs of a channel: the streaming program, and the program that sends requests
-//! to services.
+//! Builds the configurations of the NC programs of a channel: of the streaming program, and of the
+//! program that sends requests to services.
 
 use std::time::Duration;
 
@@ -15,8 +15,8 @@ use crate::simulator::program::{
 };
 use crate::text::some_time;
 
-/// Builds the streaming program. By default, it restarts after each program end, because no ADS
-/// function can start it.
+/// Builds the configuration of the streaming program. By default, the program restarts after each
+/// program end, because no documented ADS function can start it.
 pub(super) fn streaming(
     source: Source<'_>,
     table: &StreamingTable,
@@ -50,7 +50,7 @@ fn pace(given: &Value) -> Result<Pace, ParsePaceError> {
     }
 }
 
-/// Builds the program that sends requests to services.
+/// Builds the configuration of the program that sends requests to services.
 pub(super) fn service(
     source: Source<'_>,
     table: &ServiceTable,

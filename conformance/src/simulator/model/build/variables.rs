@@ -197,8 +197,8 @@ pub(super) fn of_channel(
     Ok(variables)
 }
 
-/// The default handle of a V.G (`global`) or V.E variable, which is unique unless another variable
-/// declares the same handle.
+/// The default handle of a V.G (`global`) or V.E variable, which is unique in its channel unless
+/// another variable declares the same handle.
 fn handle(channel: u8, global: bool, index: u32) -> Handle {
     let kind: u32 = if global { 0x8000_0000 } else { 0x4000_0000 };
     Handle(kind | u32::from(channel) << 22 | index)
@@ -228,7 +228,8 @@ fn add(
     variable: Variable,
 ) -> Result<(), ModelError> {
     let size = variable.initial.size;
-    // A value without dimensions must be writable in one request, also in a request with the name.
+    // If a value without dimensions is writable, one request must be able to write it, also a
+    // request with the name.
     let most = NAME_VALUE_MAX.saturating_sub(variable.name.as_bytes().len()).min(HANDLE_VALUE_MAX);
     if row.writable && variable.dimensions.is_empty() && size > most {
         let why = format!("{} of value; at most {most} can be written", plural(size, "byte"));

@@ -12,8 +12,8 @@ use super::{NoTimer, SysServiceWait, WaitStep, Waiting, text_value, value_of};
 /// for RESPONSE_STATE (SVC-6, E-20), and reads RESPONSE.
 ///
 /// The step does not change until the caller reports it as done, so that a failed step can be
-/// repeated. But writing REQUEST_STATE twice sends the request twice and discards a response
-/// (SVC-3).
+/// repeated. But writing REQUEST_STATE twice sends the request twice, and discards a response that
+/// arrived in between (SVC-3).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -54,7 +54,7 @@ enum CallPhase {
     Done(u32),
 }
 
-/// The next step of a call; example at [`ServiceCall`].
+/// The next step of a call; for a longer example, see [`ServiceCall`].
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///

@@ -61,7 +61,7 @@ pub enum Clears {
     /// A write to RESPONSE_STATE, which completes the response of the service.
     #[default]
     OnResponseState,
-    /// Never: the service sets REQUEST_STATE to 0.
+    /// Never: the interface relies on the service to write 0 to REQUEST_STATE.
     Never,
 }
 

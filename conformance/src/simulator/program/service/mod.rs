@@ -1,4 +1,4 @@
-//! The CNC's side of the Service Interface: the interface, and the NC program that sends requests.
+//! The CNC's side of the Service Interface: the interface, and a request of an NC program.
 //!
 //! | item | type |
 //! |---|---|
@@ -6,8 +6,8 @@
 //! | a request of an NC program to a service | [`ServiceCall`] |
 //! | the wait for a response by the cycle SysServiceWait | [`SysServiceWait`] |
 //!
-//! The service's side is [`Host`](ads_cnc::service::Host). All types are state machines without I/O
-//! or clock.
+//! The service's side is [`Host`](ads_cnc::service::Host). None of these types performs I/O or has
+//! a clock.
 //!
 //! ```
 //! use std::time::Duration;

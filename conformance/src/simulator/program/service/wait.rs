@@ -163,7 +163,7 @@ pub enum WaitStep {
         /// the latest.
         until: Option<Duration>,
     },
-    /// A response with this state exists.
+    /// RESPONSE_STATE has this value, which is not the one for which the cycle keeps waiting.
     Done { state: u32 },
     /// No response arrived within the maximum wait.
     TimedOut,

@@ -1,4 +1,4 @@
-//! The descriptions of a channel's variables, each read once.
+//! The descriptions of a channel's variables, which are stored after they were read.
 
 use ads_cnc::address::Channel;
 use ads_cnc::limits::{TEXT_MAX, VARIABLE_MAX};
@@ -10,7 +10,7 @@ use crate::judge::{Step, Stop, applicable};
 use crate::objects::KINDS;
 use crate::suite::kit::{DescribedList, ItemKind, Probe};
 
-/// Maximum number of variables of a kind that are read in a channel.
+/// Maximum number of variables of a kind in a channel that a case reads without sampling.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
 
 /// The name of a described variable, for a request.
@@ -31,8 +31,9 @@ impl Probe<'_> {
         KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
     }
 
-    /// The descriptions of the variables of a channel that the cases read. A description that
-    /// another case has read is not requested again.
+    /// The descriptions of the variables of a channel that the cases read, except those whose name
+    /// is too long for a request. A stored description is not requested again. Ends the case as not
+    /// applicable if there are none.
     pub(crate) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
@@ -45,8 +46,9 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// All descriptions of a channel, for a case that must know which names do not exist; `None` if
-    /// the channel has more than [`VARIABLES_MAX`] variables of a kind.
+    /// All descriptions of a channel, except those whose name is too long for a request, for a case
+    /// that must know which names or handles do not exist. `None` if the channel has more than
+    /// [`VARIABLES_MAX`] variables of a kind.
     pub(crate) fn all_variables(&mut self, channel: Channel) -> Step<Option<Vec<Description>>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
@@ -68,7 +70,7 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// The number of variables of a kind in a channel, requested once.
+    /// The number of variables of a kind in a channel. A stored number is not requested again.
     fn count_described(
         &mut self,
         channel: Channel,
@@ -109,8 +111,8 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// Returns a description that the case judges. A request is sent only if the description is not
-    /// stored yet.
+    /// Returns a description that the case judges. A stored description is returned without a
+    /// request. A reply that is not a description violates `rule` and ends the case.
     pub(crate) fn judged_description(
         &mut self,
         rule: ClauseId,
@@ -130,7 +132,8 @@ impl Probe<'_> {
         Ok(variable)
     }
 
-    /// Reads and decodes a reply that other cases judge; a failure makes this case inconclusive.
+    /// Reads and decodes a reply that other cases judge. If the reply is not a success or cannot be
+    /// decoded, this case is inconclusive.
     fn read_unjudged<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<T>
     where
         T: for<'b> Decode<'b>,

@@ -10,10 +10,11 @@ use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
 
 impl Probe<'_> {
-    /// Confirms the handle of a write to the gate, which allows the write only after HandleByName
-    /// and a description have returned the handle for a name in the file of `--allow-write`. Sends
-    /// the missing queries: HandleByName, and descriptions if they were read on an earlier
-    /// connection. Sends nothing for other requests, nor if the gate already allows the write.
+    /// Confirms the handle of a write to the [gate](crate::gate), which allows the write only after
+    /// HandleByName and a description have returned the handle for a name in the file of
+    /// `--allow-write`. Sends the queries that are missing on the current connection: HandleByName
+    /// and descriptions. Sends nothing if the request is not a write by handle, or if the gate
+    /// already allows the write.
     pub(crate) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
         let Request::WriteByHandle(op) = request else { return Ok(()) };
         if self.check_gate(request)?.is_ok() {
@@ -24,7 +25,8 @@ impl Probe<'_> {
             *channel == number && all.descriptions().any(|variable| variable.handle == op.handle)
         });
         if is_described && !self.target.client.gate().knows_handle(op.channel, op.handle) {
-            // The descriptions were read on another connection, perhaps before a restart of the device.
+            // The descriptions were probably read on an earlier connection, perhaps before a
+            // restart of the device, so they are read again.
             self.target.variables.retain(|(channel, _), _| *channel != number);
             self.variables(op.channel)?;
         }
@@ -33,8 +35,8 @@ impl Probe<'_> {
         {
             self.try_ask(HandleByName { channel: op.channel, name: name.as_cnc_str().into() })?;
         }
-        // The handle is still not confirmed if the descriptions were read on an earlier connection, so
-        // the description of this variable is requested again.
+        // If the handle is still not confirmed, the gate may not have recorded the description of
+        // this variable on the current connection.
         if let Some(name) = self.unconfirmed(request)?
             && self.claims(Function::DescribeByName) != Claim::No
         {

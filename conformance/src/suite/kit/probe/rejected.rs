@@ -8,11 +8,11 @@ use crate::judge::{Checks as _, Rule, Rules, Step, Stop, Verdict};
 use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
-    /// Sends a request that must be rejected. `sibling` is the same request without the fault, which
-    /// must succeed.
+    /// Sends a request that must be rejected. `sibling` is the same request without the fault; it
+    /// is sent first, and must succeed.
     ///
-    /// A success without data counts as a rejection: it returns no value of an object that does not
-    /// exist.
+    /// A success without data counts as a rejection, because it returns no value of an object that
+    /// does not exist; the case `ads-every-refusal` judges it if a rule has the level *must*.
     pub(crate) fn rejects<'a, 'b>(
         &mut self,
         rules: impl Rules,
@@ -34,9 +34,9 @@ impl Probe<'_> {
                 let expected = || format!("{}, and a success without this fault", expected());
                 let found = || format!("an error also without the fault: {}", accepted.result());
                 for rule in rules {
-                    // The target may reject the sibling, too. A rule below the level *must* never
-                    // fails a run, but the verdict *vacuous* does, so such a rule counts as not
-                    // met.
+                    // The target did not accept the sibling. A violated rule below the level *must*
+                    // does not fail a run, but the verdict *vacuous* does, so such a rule counts as
+                    // not met instead.
                     let verdict = match rule.level {
                         Some(Level::Must) => Verdict::Vacuous,
                         Some(level) => Verdict::missed(level),
@@ -72,7 +72,8 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Like `rejects`, for an item of an empty list, for which no valid sibling exists.
+    /// Checks that a request for an item of an empty list, for which no valid sibling exists, is
+    /// rejected. A success without data counts as a rejection.
     pub fn rejects_alone<'a>(
         &mut self,
         rules: impl Rules,
@@ -86,9 +87,10 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// Invalid numbers, of which `first` is the smallest. Some are so large that they cannot become
-    /// valid meanwhile. Some have the lower bytes of the last valid number: a CNC that truncates
-    /// numbers would accept them. More numbers are returned if the gate allows malformed requests.
+    /// Invalid numbers, of which `first` is the smallest. Most others are the last valid number
+    /// (`first - 1`) with a higher bit set: a CNC that truncates numbers would accept them, and
+    /// they do not become valid if the list grows by a few items. If the gate allows malformed
+    /// requests, more numbers are returned, among them `first + 1` and `u32::MAX`.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
         let last = first.saturating_sub(1);
         let wide = |bits: &[u32]| -> Vec<u32> {

@@ -1,4 +1,5 @@
-//! The frames that may pass, by their bytes and the entries of a file, without the codec.
+//! The frames that may pass, by their bytes, the bytes of replies and the entries of a file. The
+//! bytes are read without the codec.
 
 use ads_cnc::address::{Addressing, Channel};
 use ads_cnc::operation::Call;
@@ -204,8 +205,8 @@ fn is_whole_call(frame: &[u8], command: u16) -> bool {
     }
 }
 
-/// Whether this is a write of a variable by name, or of the element at 0x123301, 1, at the port of
-/// its task.
+/// Whether this is a write of a variable by a short ASCII name, or of the element at 0x123301, 1,
+/// at the port of its task.
 fn is_write(frame: &[u8], command: u16) -> bool {
     let (group, offset, data) = (number(frame, 38), number(frame, 42), &frame[50..]);
     let port = u16::from_le_bytes([frame[12], frame[13]]);

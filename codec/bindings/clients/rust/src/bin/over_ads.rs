@@ -37,7 +37,8 @@ impl Transport for OverAds {
 #[tokio::main(flavor = "current_thread")]
 async fn main() -> Result<()> {
     let (address, expected) = arguments()?;
-    // The client uses the address of its socket as its NetId, to which the CNC needs a route.
+    // The client derives its NetId from the address of its socket; a CNC needs a route to this
+    // NetId.
     let timeouts = Timeouts::new(Duration::from_secs(5));
     let client = Client::new(&*address, timeouts, Source::Auto)?;
     let net_id = AmsNetId::new(127, 0, 0, 1, 1, 1);

@@ -1,5 +1,5 @@
-//! Sends the requests over a socket of tokio: several requests are in flight on one connection, and the
-//! invoke ID matches each reply to its request.
+//! Sends the requests over a socket of tokio: several requests are in flight on one connection, and
+//! the invoke ID matches each reply to its request.
 //!
 //!     over_tokio HOST:PORT EXPECTED.json
 
