@@ -1,5 +1,6 @@
-//! The tests of the codec in a program that ends at the first failure. The first pass of the script
-//! `run` skips tests that generate many cases; the second pass runs them on the survivors.
+//! The tests of `codec/tests/main.rs` in a program that ends at the first panic of a test. The
+//! first pass of the script `run` skips tests that generate many cases; the second pass runs them
+//! on the survivors.
 
 #[path = "../tests/main.rs"]
 mod tests;

@@ -1,15 +1,16 @@
 //! The declaration of a stream, in the form of a table like those in the manuals. The macro
-//! `stream!` generates the types of the stream, with trait implementations and documentation, from
-//! the declaration; for `packed`, only a type for the bytes of the stream.
+//! `stream!` generates the field table and the types of the stream, with trait implementations and
+//! documentation, from the declaration; for `packed`, only the table and a type for the bytes of
+//! the stream.
 
 #[cfg(feature = "arbitrary")]
 use crate::rows::Owned;
 
-/// The kinds of rows. A line that begins with `$q` defines the type of the row in a borrowed type
-/// (a view) and in an owned type, the implementation of `Row`, and the documented size and type.
-/// The lines before these define the size and the type of a row in its field table, and the rows of
-/// `packed` types. The lines that begin with `@` select one of these items; the last line rejects
-/// any other kind. `as` selects a Rust type for a number, or `Kind` for a text.
+/// The kinds of rows. A line that begins with `$q`, except the last, defines the type of the row in
+/// a borrowed type (a view) and in an owned type, the implementation of `Row`, and the documented
+/// size and type. The lines before these define the size and the type of a row in its field table,
+/// and the rows of `packed` types. The lines that begin with `@` select one of these items; the
+/// last line rejects any other kind. `as` selects a Rust type for a number, or `Kind` for a text.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
     (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
@@ -201,7 +202,7 @@ macro_rules! stream {
         $crate::declare::stream! { @to_bytes $kind $view $max [[$at [$row] 0]] }
     };
 
-    // `packed XLayout`: numbers and texts of fixed length, as the bytes on the wire.
+    // `packed XLayout`: numbers, NetIds and texts of fixed length, as the bytes on the wire.
     (@types packed $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]

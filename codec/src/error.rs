@@ -36,7 +36,8 @@ pub struct Error {
 }
 
 /// The class of an [`Error`]. It defines the meaning of the numbers [`Error::expected`] and
-/// [`Error::found`]: see each variant.
+/// [`Error::found`]: see each variant. A length of more than 32 bits is reported as `u32::MAX`.
+/// With [`content_error`](crate::value::content_error), the application chooses the numbers.
 ///
 /// ```
 /// use ads_cnc::{Decode, ErrorKind, Handle};
@@ -55,10 +56,10 @@ pub enum ErrorKind {
     /// to this end. Found: the length of the input.
     Trailing,
     /// The field, stream, value or name exceeds its maximum length. Expected: the maximum. Found:
-    /// the length.
+    /// the length, or that of the part that `BinRead` has read.
     TooLong,
     /// A count exceeds its maximum, or the number of items in the remaining bytes. Expected: the
-    /// smaller of these two limits. Found: the count.
+    /// smaller of these two limits; in an error of `BinRead` it may be 0. Found: the count.
     TooMany,
     /// No NUL ends the text within its maximum length. Expected: the maximum length including the
     /// NUL. Found: the number of bytes without a NUL, from the start of the text.
@@ -84,8 +85,8 @@ pub enum ErrorKind {
     /// example of it) and the value, or numbers of both, such as their lengths or the numbers of
     /// their types.
     Mismatch,
-    /// The index offset of a function, where the offset of content is required. Expected: 0. Found: the
-    /// offset.
+    /// The index offset of a function, where the offset of content or of the first element of an
+    /// instance is required. Expected: 0. Found: the offset.
     Function,
     /// The buffer is too small for the encoded stream, value or name, or the read length of a
     /// received request is too small for the reply. Expected: bytes needed. Found: bytes available.

@@ -1,7 +1,7 @@
 //! `BinRead` and `BinWrite`: reading and writing one row of a stream that `stream!` declares, and
-//! implementations for streams whose types are written by hand. A count is checked against its
-//! maximum before memory is allocated for its items. The offset of an error found while reading a
-//! row counts from the start of the reader.
+//! implementations for streams whose types are written by hand, except `NoData`. A count is checked
+//! against its maximum before memory is allocated for its items. The offset of an error found while
+//! reading a row counts from the start of the reader.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;

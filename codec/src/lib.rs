@@ -95,15 +95,15 @@
 //! accept the same bytes, reject all others with the same [`Error`], and encode to the bytes that
 //! they were decoded from. Some streams have a single type, such as [`Handle`]. [`sections`]
 //! maps the sections of the manuals to this crate; [`layout`] contains the field table of every
-//! stream. Where a manual contradicts itself or another manual, [`errata`] lists the reading that
-//! this crate implements.
+//! stream. [`errata`] lists contradictions in the manuals, and the readings that this crate
+//! implements.
 //!
 //! # Examples
 //! The folder `examples` of the package has four programs. They use the published client
 //! [`ads`](https://docs.rs/ads/0.4) as the transport:
 //!
 //! - `read_variable` reads a variable of any type by its name.
-//! - `list_objects` lists all objects of a CNC.
+//! - `list_objects` lists objects of the COM task and elements of the classes.
 //! - `stream_program` sends an NC program to a channel.
 //! - `square_root_service` is a host of the Service Interface.
 //!
@@ -129,7 +129,7 @@
 //!
 //! # IDs
 //! IDs such as ADR-1, GEN-6 or VAR-9 identify requirements. The crate `ads-cnc-vectors` contains
-//! their texts, with the sections of the manuals. IDs such as E-17 identify errata: see [`errata`].
+//! their texts, with their sources. IDs such as E-17 identify errata: see [`errata`].
 //! IDs such as `ads-en` identify manuals: see [`sections`].
 //!
 //! # Features
@@ -138,13 +138,15 @@
 //! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the
 //!   types of the streams that own their data, so your own structs can contain them. `read` accepts
 //!   the same streams as `decode`, and leaves the bytes after a stream in the reader. A stream that
-//!   ends in text, in data without a length or in records without a count extends to the end of
-//!   the reader.
-//! - `std`: enables `alloc`, and `std` in the dependencies. No other feature but `arbitrary`
-//!   requires it.
+//!   ends in text of variable length, in data without a length or in records without a count
+//!   extends to the end of the reader.
+//! - `std`: enables `alloc`, and the feature `std` of the dependencies that have one. No other
+//!   feature but `arbitrary` requires it.
 //! - `arbitrary`: `Arbitrary` for the types of the streams that own their data.
 //! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the types of
 //!   the streams that own their data.
+//!
+//! [`NoData`] implements none of the traits of these features.
 //!
 //! An example of the feature `binrw`:
 //!
@@ -180,10 +182,10 @@
 //!
 //! A text that ends in one NUL is a string, and so is a text in a field of fixed length if only
 //! NULs follow it. Any other text is a map of `text` and `tail`: the bytes after the NUL, or null
-//! without a NUL. To deserialise texts and dynamic values, the format must be self-describing, such
-//! as JSON (for exact REAL64, enable `float_roundtrip` of `serde_json`). The maximum lengths and
-//! counts of a stream are checked when the value is encoded; only the length of a text in a field
-//! of fixed length is checked when it is deserialised.
+//! without a NUL. To deserialise most texts and dynamic values, the format must be self-describing,
+//! such as JSON (for exact REAL64, enable `float_roundtrip` of `serde_json`). The maximum lengths
+//! and counts of a stream are checked when the value is encoded; only the length of a text in a
+//! field of fixed length is checked when it is deserialised.
 
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]

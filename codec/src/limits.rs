@@ -25,7 +25,7 @@ pub(crate) const fn most<T: Declared>(field: &str) -> usize {
 /// Maximum number of bytes of the name or kind of a variable in a request: 255 characters and the
 /// NUL (VAR-1, VAR-9).
 pub const TEXT_MAX: usize = length::<VariableNameRef<'_>>();
-/// Maximum number of characters of the name of a variable, without the NUL (VAR-9).
+/// Maximum number of characters of the name of a variable in a request, without the NUL (VAR-9).
 pub const NAME_MAX: usize = TEXT_MAX.saturating_sub(1);
 /// Maximum number of bytes of a request with index and kind (VAR-3).
 pub const INDEX_KIND_MAX: usize = length::<VariableIndexKindRef<'_>>();
@@ -43,7 +43,8 @@ pub const DIMENSIONS_MAX: usize = most::<DescriptionRef<'_>>("dimensions");
 pub const NAMELESS_DIMENSIONS_MAX: usize = most::<DescriptionByNameRef<'_>>("dimensions");
 /// Maximum number of indices after a handle (VAR-24).
 pub const INDICES_MAX: usize = most::<HandleReadRef<'_>>("indices");
-/// Maximum number of bytes of the name of a dynamic parameter, including the NUL (assumed, DYN-6).
+/// Maximum number of bytes of the name of a dynamic parameter, including the NUL if there is one
+/// (assumed, DYN-6).
 pub const DYNAMIC_NAME_MAX: usize = length::<DynamicNameRef<'_>>();
 /// Maximum number of bytes of a text of the Service Interface, including the NUL (assumed, SVC-1).
 pub const SERVICE_TEXT_MAX: usize = 128;

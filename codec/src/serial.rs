@@ -1,5 +1,5 @@
-//! serde implementations for texts, NetIds and dynamic values, which are not serialised as maps of
-//! their Rust fields.
+//! serde implementations for texts, NetIds and dynamic values. Their serialised forms can differ
+//! from those that serde derives from their Rust fields.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -95,8 +95,7 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
     type Error = &'static str;
 
     fn try_from(Text { text, tail }: Text) -> Result<Self, &'static str> {
-        // The NUL of a text without a tail is not copied: the rest of the field is 0, if there is
-        // any.
+        // The NUL before an empty tail is not copied: the rest of the field is 0, if there is any.
         let tail = tail.iter().filter(|tail| !tail.is_empty());
         let nul_and_tail = tail.flat_map(|tail| [0].iter().chain(tail));
         let mut all = text.as_bytes().iter().chain(nul_and_tail);

@@ -40,10 +40,11 @@ pub trait Decode<'a>: Sized {
     /// Decodes the stream at the front of the bytes, and returns the remaining bytes.
     ///
     /// A stream of fixed fields ends after its last field; a stream whose last field is a list, or
-    /// data with a length, ends after its counted items. A stream that ends in text, in data
-    /// without a length or in records without a count extends to the end of the bytes. An
-    /// [`ElementLength`](crate::sda::ElementLength) consists of the first four bytes, or of all
-    /// bytes if there are fewer.
+    /// data with a length, ends after its counted items. A stream that ends in text of variable
+    /// length, in data without a length or in records without a count extends to the end of the
+    /// bytes. An [`ElementLength`](crate::sda::ElementLength) consists of the first four bytes, or
+    /// of all bytes if there are fewer. An [`ExtendedReply`](crate::ExtendedReply) is empty, and an
+    /// ADS reply ends after its result, only if no bytes follow there.
     ///
     /// ```
     /// use ads_cnc::{Decode, Handle, HandleReadRef, U32List};
@@ -125,7 +126,8 @@ pub trait Encode {
     /// Encodes the stream into a new vector.
     ///
     /// # Errors
-    /// A value that the decoder would reject.
+    /// A value that the decoder would reject, or (only for an encoder of your own) a stream that is
+    /// longer than any frame of this crate.
     #[cfg(feature = "alloc")]
     fn encode_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
         // No encoder of this crate writes more than `LEN_MAX` bytes, so allocate at most this

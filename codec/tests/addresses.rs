@@ -94,8 +94,8 @@ fn groups_of_the_com_task() {
     assert_eq!(parts(0x12_0200), com(Logical, Access::Element, ComTable::Axis, 0));
 }
 
-/// The group of a class without a channel is 0x120300 plus the number of the class; that of
-/// spindles has no bit for logical addressing (ADR-5).
+/// The group of a class without a channel is 0x120300 plus 0x1000 times the number of the class;
+/// that of spindles, 0x25300, has no bit for logical addressing (ADR-5).
 #[test]
 fn bases_of_the_classes() {
     for (base, addressing, of) in [
@@ -107,8 +107,8 @@ fn bases_of_the_classes() {
         (0x2_5300, Index, Class::Spindle),
     ] {
         assert_eq!(parts(base), class(addressing, of, Attribute::Content, 0));
-        // The group of object addresses has no instance, and is 0x600 above the group of content
-        // (ADR-6).
+        // The group for queries of object addresses has no instance, and is 0x600 above the group
+        // of content (ADR-6).
         assert_eq!(ClassGroup::object_address(of).index_group().get(), base + 0x600);
     }
 }

@@ -39,7 +39,8 @@ fn own(error: &binrw::Error) -> &Error {
 
 const READ: [u8; 12] = [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0];
 
-/// A read is repeated after the error `Interrupted`; any other error of the reader is returned.
+/// A read is repeated after the error `Interrupted`; another error of the reader, here
+/// `ConnectionReset`, is returned.
 #[test]
 fn errors_of_a_reader_are_returned() {
     let broken = |bytes| {

@@ -66,8 +66,8 @@ const ALLOWED: [&str; 16] = [
 ];
 
 /// The requirement that permits bytes other than a text, in any number up to a maximum, at the end
-/// of the stream; `None` for a stream that does not end in such bytes. `ProgramStream` has at least
-/// one such byte.
+/// of the stream; `None` for a stream that does not end in such bytes, such as one with a field for
+/// their length. `ProgramStream` has at least one such byte.
 fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     match stream {
         Stream::VariableValue | Stream::VariableHandleWrite | Stream::VariableNameWrite => {

@@ -185,7 +185,8 @@ fn dispatch_reaches_the_same_functions() {
 }
 
 /// A read length of less than one descriptor, 84 bytes, is rejected. A read length of k × 84
-/// requests k descriptors; any other length requests one (COM-3).
+/// requests k descriptors, at most [`ReadDescriptors::COUNT_MAX`]; any other length from 84 on
+/// requests one (COM-3).
 #[test]
 fn read_lengths_of_descriptors() {
     let sample = CALLS.iter().find(|sample| sample.slug == "descriptor-printed").unwrap();

@@ -41,8 +41,8 @@ fn join_is_the_inverse_of_a_walk() {
                 *part = &part[..end];
             }
         }
-        // Samples with a count of 0 are skipped, because `join` does not add an omitted count if
-        // the stream may end before it.
+        // Samples with a count of 0 are skipped, because `join` does not add an omitted count
+        // without items if the stream may end before the count.
         if !parts.iter().any(|(field, part)| is_count(stream, *field) && **part == [0; 4]) {
             assert_eq!(join(stream, &short, bytes.len()).as_ref(), Ok(&bytes), "{}", sample.slug);
         }

@@ -61,8 +61,9 @@ fn shape<T: for<'a> Decode<'a> + Serialize>(bytes: &[u8]) -> Value {
     to_value(T::decode(bytes).unwrap()).unwrap()
 }
 
-/// A stream of several fields is serialised as a map of its fields with the names of its table,
-/// without counts. A stream of one number, such as a handle, is serialised as this number.
+/// Most streams of several fields are serialised as a map of their fields with the names of the
+/// table, without counts. Most streams of one number, such as a handle, are serialised as this
+/// number.
 #[test]
 fn streams_are_maps_of_their_fields() {
     let description = b"\x02\0\0\x20\x09\0\0\0\x01\0\0\0\x08\0\0\0\x01\0\0\0\x04\0\0\0L\xE4nge\0";

@@ -12,7 +12,7 @@ use ads_cnc::sda::*;
 use ads_cnc::streaming::Ack;
 use ads_cnc::*;
 
-/// The request to which a server dispatches this request of a client.
+/// The request to which a server dispatches the call that this request of a client encodes to.
 fn dispatched<'b>(request: Request<'_>, buf: &'b mut [u8]) -> Request<'b> {
     let call = request.encode(buf).unwrap();
     call.dispatch().unwrap_or_else(|error| panic!("{request:?}: {error}"))

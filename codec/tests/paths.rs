@@ -81,7 +81,7 @@ fn the_misprint_is_another_variable() {
     assert_ne!(printed, ruled);
 }
 
-/// Notations in the manuals that are not names are rejected. The empty index is from E-10.
+/// Three notations in the manuals that are not names are rejected. The empty index is from E-10.
 #[test]
 fn notations_of_the_manuals_are_rejected() {
     for (prose, wanted) in [
@@ -120,7 +120,7 @@ fn malformed_names_are_rejected_at_the_fault() {
         ("V.E.a[0]..b", unexpected("part", 9, '.')),
         ("V.E.[0]", unexpected("part", 4, '[')),
         ("V.E.a.[0]", unexpected("part", 6, '[')),
-        // These names have wrong brackets, or a wrong text in brackets.
+        // These names have wrong brackets, or a wrong text in brackets or after them.
         ("V.E.a[", cut("index", 6)),
         ("V.E.a[3", cut("index", 7)),
         ("V.E.a[3.b", unexpected("index", 7, '.')),

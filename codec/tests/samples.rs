@@ -7,8 +7,8 @@ use ads_cnc::layout::Stream;
 
 use super::common::{SAMPLES, SUBJECTS, check, each_sample};
 
-/// Every stream except `NoData` occurs exactly once in `SAMPLES` and once in `SUBJECTS`, and has at least one
-/// sample.
+/// Every stream except `NoData` occurs exactly once in `SAMPLES` and once in `SUBJECTS`, and has at
+/// least one sample.
 #[test]
 fn every_stream_has_samples_and_types() {
     let sampled: Vec<Stream> = SAMPLES.iter().map(|&(stream, _)| stream).collect();

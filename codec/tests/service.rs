@@ -160,9 +160,10 @@ fn answers_that_are_rejected() {
     assert_eq!((value.len(), &value[125..]), (128, &b"\xE4\xE4\0"[..]));
 }
 
-/// While a host looks for a request, a malformed state or request is an error, after which the host
-/// waits. If the host already has an answer, it reads a malformed state again, and treats a
-/// malformed request as a different request.
+/// When a host reads REQUEST_STATE and REQUEST for the first time, a malformed value is an error,
+/// after which the host waits. When it reads them again, for example to verify the request before
+/// it answers, it repeats the read of a malformed state, and takes a malformed REQUEST for a
+/// different request.
 #[test]
 fn malformed_values_are_rejected() {
     let ids = [id(ROOT)];

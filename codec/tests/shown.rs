@@ -51,7 +51,7 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
 }
 
 /// Codes are displayed by name (state flags also with their number), and undocumented codes as
-/// numbers. Only the access READ_WRITE permits writing.
+/// numbers. Of the accesses of variables, only READ_WRITE permits writing.
 #[test]
 fn codes_are_displayed_by_name() {
     shows(VariableType::REAL64, "REAL64");

@@ -232,8 +232,9 @@ proptest! {
         }
     }
 
-    /// For any acknowledgements, the packets that the sender returns are those of the text, in
-    /// order, and its progress, state and counts are the expected ones.
+    /// For random acknowledgements, the sender returns the packets of the text in order, the same
+    /// packet again while it is not accepted, and none after a rejection; its progress, state and
+    /// counts are the expected ones.
     #[test]
     fn a_sender_loses_and_repeats_nothing(text in text(), acks in vec(0..20_u8, 0..200), twice in any::<bool>()) {
         let mut sender = CheckedSender::new(&text, SenderMutation::NONE);

@@ -1,6 +1,6 @@
 //! Tests of `Checker`, which checks a text part by part. As long as the checker remembers all
-//! labels, the division of the text into parts only affects a jump whose label occurs before and
-//! after the jump.
+//! labels, the division of the text into parts of whole lines only affects the diagnostic of a jump
+//! whose label occurs before and after the jump.
 #![cfg(feature = "alloc")]
 
 use ads_cnc::streaming::{CheckEvent, Checker, ProgramEnd};
@@ -165,7 +165,7 @@ proptest! {
 #![proptest_config(kept::cases(2000, file!()))]
 
 /// The diagnostics of each part equal those of the text so far for the lines of the part, without
-/// an open comment block.
+/// the diagnostic of an open comment block.
 #[test]
 fn events_by_part_equal_those_of_the_text_so_far(lots in lots()) {
     let mut checked = CheckedLots::new(|_, _| ());

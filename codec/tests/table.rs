@@ -180,7 +180,8 @@ fn any_write_access_but_0_is_true() {
     assert_eq!(access, [false, true, true, true, true]);
 }
 
-/// The types of the COM task have these sizes; STRING and other names have no known size (GEN-5).
+/// The types of the COM task have these sizes; STRING and names that are not those of a type have
+/// no known size (GEN-5).
 #[test]
 fn types_of_com() {
     let sizes = [

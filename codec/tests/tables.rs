@@ -10,7 +10,7 @@ use ads_cnc::limits::*;
 use super::common::each_sample;
 
 /// Each file in `codec/doc` equals the documentation generated from the table of its stream. The
-/// documentation of handwritten types includes these files.
+/// documentation of the handwritten type of this stream includes the file.
 #[test]
 fn documentation_shows_the_tables() {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("doc");
@@ -197,8 +197,8 @@ fn the_write_flag_is_a_boolean() {
     assert_eq!(Stream::ElementWriteFlag.layout().fields[0].ty, Type::Boolean);
 }
 
-/// The constants of limits equal the numbers in the requirements, or, for `ADS_DATA_MAX`, the
-/// number that this project assumes.
+/// The constants of limits equal numbers that the requirements contain, or that follow from them,
+/// such as `NAMELESS_DIMENSIONS_MAX`. This project assumes `ADS_DATA_MAX`.
 #[test]
 fn limits_are_the_numbers_of_the_clauses() {
     assert_eq!([TEXT_MAX, NAME_MAX, INDEX_KIND_MAX], [256, 255, 260]);

@@ -1,4 +1,5 @@
-//! Tests of decoding values by their types: printed values, each type, and each access to elements.
+//! Tests of decoding values by their types, such as printed values, a value of each type, and the
+//! functions that access elements.
 
 use address::{Channel, ChannelAxis};
 use ads_cnc::ErrorKind::*;

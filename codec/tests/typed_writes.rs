@@ -123,7 +123,7 @@ fn requests_accept_values_up_to_their_limits() {
     assert!(content.value_to_vec().is_err() && content[1..].value_to_vec().is_ok());
 }
 
-/// A shape only encodes values of its type and number of elements; after an error, the buffer is
+/// A shape rejects values of another type or number of elements; after an error, the buffer is
 /// unchanged.
 #[test]
 fn writes_fit_the_description() {
@@ -149,8 +149,8 @@ fn writes_fit_the_description() {
     assert_eq!(array.element_shape().encode(&read.get(3).unwrap(), &mut buf).unwrap(), b"\x04\0");
 }
 
-/// A STRING is written with its NUL; a text that does not fit its size together with its NUL is
-/// rejected, not truncated.
+/// A `CncStr` is written with a NUL after it. If both do not fit the size of the STRING, the text
+/// is rejected, not truncated.
 #[test]
 fn texts_fit_their_size() {
     let mut buf = [0x55; 16];

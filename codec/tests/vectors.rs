@@ -282,8 +282,8 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     }
 }
 
-/// If a vector states a canonical form, the codec can encode the value in this form, for example a
-/// text with one NUL, or TRUE as 1.
+/// If a vector states a canonical form, and is neither a value nor a content, the codec can encode
+/// the decoded value in this form, for example a text with one NUL, or TRUE as 1.
 #[test]
 fn canonical_forms_are_written() {
     let mut seen = 0;
@@ -342,8 +342,8 @@ fn row_of(field: &str, row: &[&str]) -> String {
     format!("{:47}  |{}|", hex.join(" "), bytes.iter().map(seen).collect::<String>())
 }
 
-/// Every vector is accepted or rejected as it specifies, by both types of the stream, and an
-/// accepted vector encodes to the same bytes. The snapshots contain the decoded values and the
+/// Every vector is accepted or rejected as it specifies, a stream by both of its types. Accepted
+/// streams and frames encode to the same bytes. The snapshots contain the decoded values and the
 /// texts of errors.
 #[test]
 fn vectors_decode_as_they_did() {

@@ -157,7 +157,8 @@ fn malformed(addr: SocketAddr, frames: u64) -> Result<()> {
     if asked == 0 { Err("the other client was not answered".into()) } else { Ok(()) }
 }
 
-/// Sends `frames` malformed frames; returns the number of connections that this needs.
+/// Sends `frames` frames with random changes, which make nearly all of them malformed; returns the
+/// number of connections that this needs.
 fn disturb(addr: SocketAddr, frames: u64) -> Result<u64> {
     // The generator of Numerical Recipes, for the same frames each time.
     let mut state = 0x5EED_u32;

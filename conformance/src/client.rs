@@ -60,8 +60,8 @@ enum ConnectMethod {
 /// The pause after each piece of a frame that is sent in pieces.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// For each call, the maximum number of frames that are not taken for the reply, because of their
-/// invoke IDs, and are reported as separate violations; further such frames are only counted.
+/// For each request, the maximum number of frames that are not taken for the reply, because of
+/// their invoke IDs, and are reported as separate violations; further such frames are only counted.
 const STRAYS_MAX: u64 = 3;
 
 /// Maximum time to wait for the reply after a second frame that is not the reply.
@@ -210,7 +210,8 @@ impl Client {
         permit.map(drop).map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))
     }
 
-    /// Sends a call and waits for its reply, unless the gate rejects the call or this is a dry run.
+    /// Sends a call and waits for its reply. Sends nothing for example if the gate rejects the call
+    /// or this is a dry run.
     pub fn call(&mut self, call: &Call<'_>) -> Exchange {
         let mut exchange = Exchange::new(call);
         match self.sent(call, &mut exchange) {
@@ -315,8 +316,8 @@ impl Client {
         AmsHeader::request(target, source, command, self.invoke_id)
     }
 
-    /// Closes the connection. The gate forgets the names that allow writes, because another CNC may
-    /// answer on the next connection, or the same CNC after a restart.
+    /// Closes the connection. The gate forgets the observations that allow writes, because another
+    /// CNC may answer on the next connection, or the same CNC after a restart.
     fn disconnect(&mut self) {
         self.wire = None;
         if let Some(capture) = &mut self.capture {

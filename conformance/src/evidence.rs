@@ -29,7 +29,7 @@ pub struct Evidence {
     pub reply_stream: Option<&'static str>,
     /// Data of the request, or bytes that are not a request.
     pub sent: Vec<u8>,
-    /// Data of the reply; `None` for example without a valid reply, and for a reply to a Write.
+    /// Data of the reply; `None` for example for a reply to a Write.
     pub received: Option<Vec<u8>>,
     /// The expected data of the reply, if all of its bytes are known.
     pub expected: Option<Vec<u8>>,
@@ -44,8 +44,8 @@ pub struct Evidence {
     pub frame_received: Vec<u8>,
 }
 
-/// Maximum number of bytes that the evidence of an exchange has of each part: the data and the
-/// frame of the request, those of the reply, and the expected data.
+/// Maximum number of bytes that the evidence of an exchange with a CNC has of each part: the data
+/// and the frame of the request, those of the reply, and the expected data.
 const EVIDENCE_MAX: usize = 4096;
 
 impl Evidence {
@@ -81,8 +81,8 @@ impl Evidence {
     }
 }
 
-/// The expected or the actual result of a check. It is formatted only if the check fails: for a
-/// pass, no closure is called and no `format_args!` is formatted.
+/// The expected or the actual result of a check. It is not formatted if the check passes: then no
+/// closure is called and no `format_args!` is formatted.
 pub trait Describe {
     /// The text in a report.
     fn describe(self) -> String;

@@ -33,7 +33,7 @@ pub struct Exchange {
     pub received: Vec<u8>,
     /// The reply and its AMS header, or the reason why there is no valid reply.
     pub outcome: Result<(AdsReply, AmsHeader), ExchangeError>,
-    /// Violations of the rules of AMS/TCP in the received bytes.
+    /// Violations of the rules of AMS/TCP and of the ADS services in the received bytes.
     pub violations: Vec<Violation>,
 }
 
@@ -122,7 +122,7 @@ impl fmt::Display for ExchangeError {
     }
 }
 
-/// A violation of a rule of AMS/TCP that does not concern the data of a frame.
+/// A violation of a rule of AMS/TCP or of an ADS service, such as a wrong address or length.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     pub requirement: ClauseId,

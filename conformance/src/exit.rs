@@ -1,7 +1,7 @@
 //! The exit codes of all commands. `judge/tally.rs` determines the exit code of a run from its
 //! verdicts; `report/build.rs` and `cli/run.rs` replace it for rejected writes and for values that
-//! are left changed. After a second signal, a process that leaves no value changed ends with 130,
-//! which is not in [`Exit`] (`process/interrupt.rs`).
+//! are left changed. After a second signal, a process that catches signals and leaves no value
+//! changed ends with 130, which is not in [`Exit`] (`process/interrupt.rs`).
 
 use std::process::ExitCode;
 

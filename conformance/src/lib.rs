@@ -19,7 +19,7 @@
 //! | [`client`] | an AMS/TCP client of a target, which returns the bytes of each exchange |
 //! | [`faults`] | seeded defects of a codec or a CNC, and valid variants |
 //! | [`simulator`] | the simulated CNC: data model, replies, AMS/TCP server |
-//! | [`net`] | the only module that opens sockets |
+//! | [`net`] | the only module that opens sockets, except for tests |
 //! | [`rules`] | checks of requests and replies by the manuals' clauses, with the state of each CNC |
 //! | [`exchange`] | a request and its result |
 //! | [`gate`] | decides which frames may be sent to a target |

@@ -1,5 +1,5 @@
-//! The only module that opens sockets: the lint `clippy::disallowed_methods` forbids this in the
-//! other modules.
+//! The only module that opens sockets, except for tests: the lint `clippy::disallowed_methods`
+//! forbids this in the other modules.
 
 #![allow(clippy::disallowed_methods, reason = "this is the one place")]
 

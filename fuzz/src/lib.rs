@@ -1,9 +1,10 @@
 //! Fuzz targets of `ads-cnc`, and the replay of their corpora without a fuzzer.
 //!
 //! A target checks a law that holds for any bytes, or a few related laws. The bodies of the targets
-//! are in this library, so that `cargo test` replays the corpora on stable Rust; the binaries, which
-//! need libFuzzer, are one line each. The laws of the codec are in a module of the codec's tests,
-//! which apply them to other inputs, such as samples, truncated samples and random values.
+//! are in this library, so that `cargo test` replays the corpora on stable Rust; the binaries,
+//! which need libFuzzer, only call the library. The laws of the codec are in a module of the
+//! codec's tests, which apply them to other inputs, such as samples, truncated samples and random
+//! values.
 //!
 //! | module | contents |
 //! |---|---|

@@ -96,7 +96,7 @@ fn corpora_are_small() {
     assert!(sum <= 2 << 20, "{sum} bytes");
 }
 
-/// Every target has a binary of one line and a `[[bin]]` for `cargo fuzz`.
+/// Every target has a binary that calls it, and a `[[bin]]` for `cargo fuzz`.
 #[test]
 fn binaries_match_the_targets() {
     let manifest = include_str!("../Cargo.toml");

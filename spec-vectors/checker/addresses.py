@@ -82,7 +82,7 @@ def name(value):
 
 
 def group_split(group):
-    """The parts of an index group; empty for a group that is not documented."""
+    """The parts of an index group; empty for a group whose bits do not match the table in the README."""
     access = {0x2: "element", 0x3: "object"}.get(group >> 16 & 0xf)
     logical, table, cls = group >> 20, group >> 8 & 0xf, group >> 12 & 0xf
     if access is None or logical > 1:

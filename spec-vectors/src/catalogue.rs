@@ -118,7 +118,7 @@ pub struct Requirement {
     /// The reason why the requirement is binding although no manual states it: a ruling of this project.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ruling: Option<String>,
-    /// Statements that belong to the requirement but have another basis.
+    /// Statements that belong to the requirement; most of them have another basis.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<RequirementPart>,
     /// The ways in which the requirement can be judged; at least one.

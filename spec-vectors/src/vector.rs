@@ -266,7 +266,8 @@ pub struct Accept {
 pub struct Reject {
     /// Class of the fault. This is advisory, because a codec may classify faults differently.
     pub class: String,
-    /// Offset of the faulty field, or of the first extra byte. This is advisory.
+    /// Offset of the fault: the start of the faulty field, or for some classes a byte in it or after
+    /// it, such as the first extra byte. This is advisory.
     pub offset: usize,
     /// Name of the faulty field. This is advisory.
     pub field: String,

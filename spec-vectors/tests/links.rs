@@ -88,9 +88,9 @@ fn sources_name_known_editions() {
     }
 }
 
-/// The level of a clause is `must` if the documents state the clause or it follows from them, `should` if
-/// only the help pages state it, and `info` if it is assumed. A clause with a stricter level has a
-/// ruling; clauses with a weaker level are listed here.
+/// The level of a clause is `must` if the documents state the clause or it follows from them,
+/// `should` if only the help pages state it, and `info` if it is assumed. A requirement with a
+/// stricter level has a ruling; clauses with a weaker level are listed here.
 #[test]
 fn levels_follow_the_basis() {
     // For STM-17, the manual itself says "should". STM-6.1 only describes a sample program, which is not
@@ -229,8 +229,9 @@ fn streams_have_segments() {
     }
 }
 
-/// A requirement that can be judged from bytes has accepted vectors; it also has rejected vectors, unless
-/// it states why no bytes violate it. Only a pending requirement may lack vectors.
+/// A requirement that can be judged from bytes has accepted vectors or sequences; it also has
+/// rejected ones, unless it states why no bytes violate it. A pending or excluded requirement may
+/// lack them.
 #[test]
 fn requirements_about_bytes_have_both_verdicts() {
     let cited = |accepted: bool| -> BTreeSet<&str> {

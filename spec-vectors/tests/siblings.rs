@@ -1,4 +1,5 @@
-//! A rejected vector differs from its sibling only in the fault for which it is rejected.
+//! A rejected vector and its sibling have the same context for a decoder, and differ in one part of
+//! at most eight bytes, or one of them begins with the other.
 
 use ads_cnc_vectors::{Context, Vector, vector, vectors};
 

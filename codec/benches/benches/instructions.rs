@@ -1,5 +1,5 @@
-//! Counts the instructions of every case with callgrind. With the same toolchain, the counts are
-//! the same on every run.
+//! Counts the instructions of the cases with callgrind: those of `gate`, and in a separate group
+//! all others. Unlike times, the counts do not depend on the load of the machine.
 
 use ads_cnc_benches::{Case, Work, gate, others};
 use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};

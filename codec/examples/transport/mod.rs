@@ -7,8 +7,8 @@ use ads_cnc::operation::{AdsService, Operation};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Converts an ADS error of the CNC (a number from 0x700 on) to `None`. Returns any other error,
-/// such as an error of the network, of the ADS router (a number below 0x700) or of decoding.
+/// Converts an ADS error with a number from 0x700 on, such as a CNC returns, to `None`. Returns any
+/// other error, such as an error of the network, of decoding, or with a lower number.
 #[allow(dead_code, reason = "the examples that write need every error")]
 pub(crate) fn unless_rejected<T>(result: Result<T>) -> Result<Option<T>> {
     match result {
@@ -26,8 +26,8 @@ pub(crate) struct Cnc {
 }
 
 impl Cnc {
-    /// Connects to the CNC that the first two arguments name, such as `127.0.0.1:48898
-    /// 127.0.0.1.1.1`.
+    /// Connects to the address in the first argument, such as `127.0.0.1:48898`. The second
+    /// argument is the NetId of the CNC, such as `127.0.0.1.1.1`.
     pub(crate) fn from_args() -> Result<Self> {
         let argument = |place| env::args().nth(place).ok_or("arguments: HOST:PORT NET_ID …");
         let timeouts = Timeouts::new(Duration::from_secs(5));

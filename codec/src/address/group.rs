@@ -152,8 +152,8 @@ impl Addressing {
     }
 }
 
-/// Whether an index group of COM addresses the content or the descriptors of objects (ADR-4).
-/// Groups of SDA and GEO always have element access.
+/// Whether an index group of COM addresses the content of objects, or their number and descriptors
+/// (ADR-4). Groups of SDA and GEO always have element access.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1 and 2.1.2.
 ///
@@ -212,7 +212,7 @@ pub enum ComTable {
 pub struct ComGroup {
     /// Logical addressing, or addressing by index.
     pub addressing: Addressing,
-    /// Access to content, or to descriptions.
+    /// Access to the content of objects, or to their number and descriptors.
     pub access: Access,
     /// The table of channels, or of platform axes.
     pub table: ComTable,

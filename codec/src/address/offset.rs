@@ -27,7 +27,8 @@ use crate::layout::index_offset::{AXIS, ELEMENT};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndexOffset(u32);
 
-/// The largest axis number: an index offset has 16 bits for it (ADR-9).
+/// The largest axis number: with the stride 0x10000, an index offset has 16 bits for it (ADR-9).
+/// The same limit applies to the stride 0x1000.
 pub(super) const AXIS_MAX: u32 = 0xFFFF;
 
 /// The distance between the axes of a channel in index offsets.
@@ -43,7 +44,8 @@ pub(super) const AXIS_MAX: u32 = 0xFFFF;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum AxisStride {
-    /// 0x10000: for SDA and GEO (ADR-7), and for COM according to the examples of the manuals (ADR-8).
+    /// 0x10000: for SDA and GEO (ADR-7; assumed for all classes except the decoder), and for COM
+    /// according to the examples of the manuals (ADR-8).
     #[default]
     X10000,
     /// 0x1000: for COM according to a table of the manuals, and for the first platform axis of the HLD in a

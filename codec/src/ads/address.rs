@@ -104,7 +104,8 @@ impl From<AmsNetId> for [u8; 6] {
 
 /// An AMS port.
 ///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 1.
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 1. The numbers of the ports have other sources
+/// (GEN-4).
 ///
 /// ```
 /// use ads_cnc::ads::AmsPort;

@@ -127,7 +127,7 @@ impl Encode for FrameRef<'_> {
     }
 }
 
-/// The field with the length of a frame, for errors.
+/// The field with the number of bytes after the AMS/TCP header, for errors.
 const LENGTH: Field = Field::of::<AmsTcpHeader>("length");
 const LENGTH_AT: u32 = AmsTcpHeader::LAYOUT.offset("length");
 

@@ -41,8 +41,9 @@
 //! 0x8000. The target sends its replies to that NetId and port. With several requests in flight,
 //! match replies to requests by `invoke_id`.
 //!
-//! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (Read, Write, ReadWrite). The
-//! source of the headers, codes, ReadDeviceInfo and ReadState is the vendors' public help pages.
+//! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (a port for each task) and 5 (Read,
+//! Write, ReadWrite). The source of the headers, codes, ReadDeviceInfo and ReadState is the
+//! vendors' public help pages.
 
 mod address;
 mod codes;

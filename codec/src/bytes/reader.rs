@@ -78,7 +78,7 @@ impl<'a> Reader<'a> {
         Error::new(kind, field, self.at, expected, self.left())
     }
 
-    /// Reads the next `size` bytes, all of which belong to `field`.
+    /// Reads the next `size` bytes. If fewer remain, the error names `field`.
     #[inline]
     pub(crate) fn take(&mut self, field: Field, size: u32) -> Result<&'a [u8], Error> {
         let Some((head, rest)) = self.bytes.split_at_checked(to_usize(size)) else {

@@ -7,7 +7,7 @@ use crate::layout::{Field, Stream, Subject};
 use crate::stream::Encode;
 
 /// Writes to a buffer. Bytes that do not fit are dropped, so the length of the buffer must be
-/// checked before, as in [`run`](Self::run) and [`fill`](Self::fill).
+/// checked: [`run`](Self::run) and [`fill`](Self::fill) do so before they write.
 pub(crate) struct Writer<'b> {
     rest: &'b mut [u8],
 }

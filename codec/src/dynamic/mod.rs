@@ -1,4 +1,4 @@
-//! Dynamic parameters, which NC programs can create and delete: P, V.L, V.P and V.S
+//! Dynamic parameters, which can be created and deleted while the CNC runs: P, V.L, V.P and V.S
 //! (DYN-1 … DYN-7).
 //!
 //! The number and the indices of the parameters can change, so the manual recommends reading a

@@ -28,7 +28,7 @@ impl Stream {
     /// ```
     ///
     /// # Errors
-    /// Those of the stream's decoders; [`Mismatch`](ErrorKind::Mismatch), with the lengths of field
+    /// Those of [`walk`](Self::walk); [`Mismatch`](ErrorKind::Mismatch), with the lengths of field
     /// and part, at the first field whose bytes would differ from its part, for example because a part
     /// is missing or out of order; [`BufferTooSmall`](ErrorKind::BufferTooSmall). After an error, the
     /// contents of `buf` are unspecified.

@@ -89,8 +89,8 @@ impl Layout {
         u8::MAX
     }
 
-    /// Whether extra bytes are reported as `Trailing` and not as `TooLong`: for a stream of fixed
-    /// length, and for a number of one, two or four bytes.
+    /// Whether bytes beyond the maximum length are reported as `Trailing` and not as `TooLong`: for
+    /// a stream of fixed length, and for a number of one, two or four bytes.
     pub(crate) fn ends_itself(&self) -> bool {
         self.is_fixed() || self.fields.iter().any(|row| row.size == Size::Uns8To32)
     }

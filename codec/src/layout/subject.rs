@@ -3,7 +3,7 @@
 use super::Stream;
 use super::field::Field;
 
-/// Declares [`Subject`] and a constant for each part of each subject.
+/// Declares [`Subject`] and a constant for each part of each subject other than a stream.
 macro_rules! subjects {
     ($(
         $(#[$doc:meta])*
@@ -77,7 +77,7 @@ subjects! {
         PLATFORM_AXIS "instance",
         SPINDLE "instance",
     }
-    /// An index offset that is built from its parts or passed to a constructor.
+    /// An index offset that is built from its parts, divided into them or passed to a constructor.
     IndexOffset "index-offset", index_offset {
         AXIS "axis",
         CHANNEL_AXIS "axis",

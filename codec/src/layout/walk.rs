@@ -35,10 +35,12 @@ pub struct Segment<'a> {
 impl Stream {
     /// Calls `visit` for each field in order, up to the end or the first fault; for a list, calls
     /// it for each item instead. The fields that an ADS error or an empty extended description
-    /// omits are not visited.
+    /// omits are not visited. No field is visited if the error is
+    /// [`TooLong`](crate::ErrorKind::TooLong) for the stream as a whole.
     ///
     /// # Errors
-    /// Those of the stream's decoders.
+    /// Those of the stream's decoders; for an extended description, those of
+    /// [`ExtendedReply`](crate::ExtendedReply).
     pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
         let input = if self.layout().ends_itself() {
             Reader::without_limit(self, bytes)

@@ -87,7 +87,7 @@ impl<'a> IntoName<'a> for &'a Text {
     }
 }
 
-/// A value to write: a number, a `bool`, or the bytes of a value.
+/// A value to write: a number, a `bool` or `Boolean`, or the bytes of a value.
 ///
 /// **The Rust type determines the bytes.** The bytes do not contain the type, so neither an
 /// operation nor the CNC can detect a wrong type of the right size: `7_f32` for an SGN32 writes

@@ -198,9 +198,9 @@ macro_rules! documented {
         $($item)+
     };
     (DescribeByName $($item:tt)+) => {
-        /// Reads the description of a variable by its name. The name must not end in indices: for
+        /// Reads the description of a variable by its name. Use the name of the whole variable: for
         /// `V.E.test[4]`, read the description of the array `V.E.test`.
-        /// [`VariablePath::variable`](crate::VariablePath::variable) removes the indices.
+        /// [`VariablePath::variable`](crate::VariablePath::variable) removes indices at the end.
         ///
         /// Only the public help pages document this function, for CNC versions from V3.1.3132.0 and
         /// V4.29.0 on; `ads-en` 1.05 and `ads-de` 1.051 reserve the offset in section 4.2.1.

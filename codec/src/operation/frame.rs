@@ -7,7 +7,7 @@ use crate::stream::{Decode, Encode};
 
 impl<'a> Call<'a> {
     /// The call in a frame; `None` if the command of the frame is not Read, Write or ReadWrite. The
-    /// state flags are not checked, so the data of a response is also decoded as a request.
+    /// state flags are not checked, so a response is decoded as if it were a request.
     ///
     /// ```
     /// use ads_cnc::Encode;

@@ -1,4 +1,4 @@
-//! The documented functions of a CNC: the address, the request and the reply of each function.
+//! The supported functions of a CNC: the address, the request and the reply of each function.
 //!
 //! A client builds an [`Operation`], encodes it and sends the bytes over any transport:
 //!

@@ -113,7 +113,7 @@ pub enum OffsetRule {
     /// `axis * 0x10000` plus this element, for every axis from 1 on (VAR-26).
     OfAxis(u32),
     /// All multiples of 0x10000: the offsets of the first elements of instances, including axes
-    /// with the stride 0x10000 but not axes with the stride 0x1000.
+    /// with the stride 0x10000, and every sixteenth axis with the stride 0x1000.
     FirstElement,
 }
 

@@ -23,7 +23,8 @@ pub struct FunctionSpec {
     pub name: &'static str,
     /// The ADS service of the function.
     pub service: AdsService,
-    /// The task that serves the function.
+    /// The task to whose port the request is sent. Which task serves the classes other than the
+    /// decoder is not documented (ADR-10).
     pub task: Task,
     /// The index groups.
     pub group: GroupRule,
@@ -43,8 +44,8 @@ pub struct FunctionSpec {
 }
 
 impl FunctionSpec {
-    /// Whether the function reads or writes the content of an object or element. Content may have
-    /// any offset that no other function has (SDA-12).
+    /// Whether the function reads or writes the content of any object or element, as the stream
+    /// [`Stream::Content`]. Such content may have any offset that no other function has (SDA-12).
     pub const fn is_content(&self) -> bool {
         matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
     }
@@ -86,7 +87,7 @@ macro_rules! functions {
             $how:ident ( $( $part:ident: $part_kind:ident ),+ $(; $( $field:ident: $field_kind:ident ),+ )? )
             $( $data:ident $body:tt )? => $reply:ty $(, asks $most:literal )? $(, sized $length:ident )?;
     )+) => {
-        /// A documented function. [`spec`](Self::spec) returns its row of the function table.
+        /// A supported function. [`spec`](Self::spec) returns its row of the function table.
         ///
         /// ```
         /// use ads_cnc::operation::{AdsService, Function, Task};

@@ -112,7 +112,7 @@ pub trait Operation: sealed::Sealed {
     /// The type of the reply.
     type Reply<'r>: Decode<'r>;
 
-    /// The AMS port of the task that serves the function.
+    /// The AMS port to which the request is sent.
     fn port(&self) -> AmsPort {
         const { Self::FUNCTION.spec().task.port() }
     }
@@ -138,8 +138,8 @@ pub trait Operation: sealed::Sealed {
     /// bytes written.
     ///
     /// # Errors
-    /// A value that the function does not accept, or a buffer that is too small. On error,
-    /// nothing is written.
+    /// An argument that the request cannot contain, such as a name that is too long, or a buffer
+    /// that is too small. On error, nothing is written.
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
     /// Encodes the data of the request into `buf` and returns it with the port, service, address
@@ -266,7 +266,7 @@ macro_rules! operation {
     ) => {
         documented! { $function
             ///
-            /// | ADS service | task | index groups: [`GroupRule`] | index offsets: [`OffsetRule`] | section in `ads-en` 1.05 and `ads-de` 1.051 | requirement |
+            /// | ADS service | task | index groups: [`GroupRule`] | index offsets: [`OffsetRule`] | section in `ads-en` 1.05 and `ads-de` 1.051, or other source | requirement |
             /// |---|---|---|---|---|---|
             #[doc = concat!(
                 "| ", stringify!($service), " | ", stringify!($task), " | `", stringify!($group), "` | `",

@@ -49,7 +49,8 @@ pub(crate) trait Row {
     fn write(_: Self::View<'_>, _: &mut Writer<'_>) {}
 }
 
-/// Pulls the bytes of one row from a reader, at most one more than the maximum of the row.
+/// Pulls bytes from a reader: those of one row, at most one more than the maximum of the row. For
+/// types that are written by hand, src/io.rs pulls whole streams with it.
 #[cfg(feature = "binrw")]
 pub(crate) trait Pull {
     /// Reads `len` bytes, or fewer at the end of the reader.
@@ -66,7 +67,8 @@ pub(crate) trait Pull {
 #[cfg(feature = "alloc")]
 pub(crate) trait Owned: Row {
     type Type;
-    /// The minimum length of the encoded row, including a count.
+    /// The minimum length of the encoded row, including a count; for an optional text, that of a
+    /// text with its NUL.
     #[cfg(feature = "arbitrary")]
     const LEAST: usize = match Self::SIZE {
         Size::Items { .. } => 4,
@@ -75,7 +77,7 @@ pub(crate) trait Owned: Row {
 
     fn own(view: Self::View<'_>) -> Self::Type;
     fn lend(owned: &Self::Type) -> Self::View<'_>;
-    /// Pulls the row's bytes from a reader; `read` checks them.
+    /// Pulls the row's bytes from a reader; `read` decodes them.
     #[cfg(feature = "binrw")]
     fn pull(from: &mut impl Pull) -> binrw::io::Result<()>;
     /// Generates a valid value, which exceeds the minimum length by at most `room` bytes.

@@ -15,7 +15,7 @@ use crate::text::CncStr;
 /// 1. reads the three variables once more, and drops the answer if a value has changed, for example
 ///    because the program gave up or called another service, or because the CNC was reset,
 /// 2. writes RESPONSE,
-/// 3. writes 0 to REQUEST_STATE, because it is not documented whether and when a CNC does so (SVC-4),
+/// 3. writes 0 to REQUEST_STATE, because it is not documented how and when a CNC does so (SVC-4),
 /// 4. writes RESPONSE_STATE, for which the program waits (SVC-5, SVC-6). This write is last,
 ///    because any write of REQUEST_STATE is assumed to reset RESPONSE_STATE (SVC-3).
 ///
@@ -27,15 +27,16 @@ use crate::text::CncStr;
 /// # Failed steps
 /// [`step`](Self::step) returns the same step until the caller reports its result with
 /// [`read`](Self::read), [`written`](Self::written), [`failed`](Self::failed),
-/// [`answer`](Self::answer) or [`poll`](Self::poll). A failed read can be repeated. Report a failed
-/// write with [`failed`](Self::failed). The value may have been written and the program may have
-/// continued, so the host then reads one or more of the variables before it writes again.
+/// [`answer`](Self::answer) or [`poll`](Self::poll), or calls [`restart`](Self::restart). A failed
+/// read can be repeated. Report a failed write with [`failed`](Self::failed). The value may have
+/// been written and the program may have continued, so the host then reads one or more of the
+/// variables before it writes again.
 ///
 /// The host does not detect the following: two hosts share a channel, and a write of RESPONSE_STATE
 /// by the first host is reported as failed but took effect. If the program then calls a service of
-/// the second host, and again a service of the first host while the first host reads, the first
-/// host writes the state again and ends a request that it has not served. To avoid this, use one
-/// host for all services of a channel.
+/// the second host, which answers, and then the same service of the first host as before, while the
+/// first host reads, the first host writes the state again and may end a request that it has not
+/// served. To avoid this, use one host for all services of a channel.
 ///
 /// After a reset of the CNC or on a new connection, call [`restart`](Self::restart).
 ///
@@ -58,7 +59,7 @@ use crate::text::CncStr;
 /// let HostStep::Serve { request, .. } = host.step() else { panic!() };
 /// assert_eq!(request, "3");
 ///
-/// // Rejected before anything is written: the program would wait forever.
+/// // A state of 0 is rejected before anything is written: the program would wait forever.
 /// assert!(host.answer(CncStr::new("1.732051")?, 0).is_err());
 /// host.answer(CncStr::new("1.732051")?, 1)?;
 /// # Ok::<(), ads_cnc::Error>(())
@@ -134,7 +135,7 @@ impl Phase {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HostStep<'a> {
-    /// Read this variable and pass its value to [`Host::read`]; if this fails, repeat it.
+    /// Read this variable and pass its value to [`Host::read`]. If it cannot be read, try again.
     Read(ServiceVariable),
     /// Write this value to the variable, then call [`Host::written`] or [`Host::failed`].
     Write(ServiceVariable, &'a [u8]),
@@ -176,8 +177,9 @@ pub enum HostStep<'a> {
 pub enum Outcome {
     /// The answer was written.
     Answered,
-    /// The variables no longer contained the request. The answer was dropped or written in part;
-    /// after a failed write of RESPONSE_STATE, it may also have been written completely.
+    /// The variables showed that the program no longer waited for the answer to this request. The
+    /// answer was dropped or written in part; after a failed write of RESPONSE_STATE, it may also
+    /// have been written completely.
     Abandoned,
 }
 
@@ -219,8 +221,8 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// The outcome of the last answer; `None` before the first answer, and after a call of
-    /// [`answer`](Self::answer) until the outcome of this answer is known.
+    /// The outcome of the last answer; `None` before the first answer, and after
+    /// [`answer`](Self::answer) has accepted an answer until the outcome of this answer is known.
     pub const fn outcome(&self) -> Option<Outcome> {
         self.outcome
     }
@@ -285,7 +287,7 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// The phase `next` if the value is still that of the request; otherwise the phase after the
+    /// The phase `next` if the value that was read is as expected; otherwise the phase after the
     /// end of the request.
     fn go_on(&mut self, is_unchanged: bool, next: Phase) -> Phase {
         match is_unchanged {

@@ -253,8 +253,9 @@ impl fmt::Debug for CheckEvents<'_> {
 ///   causes no diagnostic, because a later text may contain it. A jump to an expression
 ///   (`$GOTO NV.E.X`) is not checked.
 /// - A program end is M2, M30, M17 or M29, with any leading zeros (M02: online, the others assumed),
-///   and no `.` or `_` after the digits. It counts even if `$IF` or a jump may skip it (assumed),
-///   because the lines after it are lost or remain when it is executed.
+///   and no `.` or `_` after the digits, outside the names of variables, programs and subroutines.
+///   It counts even if `$IF` or a jump may skip it (assumed), because the lines after it are lost
+///   or remain when it is executed.
 /// - Each line with a program end causes at most one [`AfterEnd`](DiagnosticKind::AfterEnd), for
 ///   the first later line that is neither blank nor a comment (assumed).
 /// - A line that is joined to the next line by `\` is checked as two lines (assumed).

@@ -81,7 +81,8 @@ enum CharKind {
     Digit,
     /// Begins an address of one letter, or a longer word.
     Letter,
-    /// May begin text that must be examined: a word of interest, a path, quoted text or a comment.
+    /// May begin text that must be examined: a word of interest, a path, the call of a subroutine,
+    /// quoted text or a comment.
     Other,
 }
 
@@ -142,7 +143,8 @@ pub(super) const fn is_in_number(byte: &u8) -> bool {
     matches!(byte, b'0'..=b'9' | b'.')
 }
 
-/// Whether the byte may be in the name of a variable, dots included.
+/// Whether the scan takes the byte for a part of a word or of the name of a variable: an ASCII
+/// letter, a digit, `_` or `.`.
 pub(super) const fn is_in_path(byte: &u8) -> bool {
     matches!(byte, b'0'..=b'9' | b'A'..=b'Z' | b'a'..=b'z' | b'_' | b'.')
 }

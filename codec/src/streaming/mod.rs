@@ -71,7 +71,8 @@ pub use text::{Lines, NcText};
 #[cfg(feature = "alloc")]
 pub use words::{LoopWord, ProgramEnd};
 
-/// Index offset of the program stream in the COM group of a channel, `0x20100` + channel (STM-1).
+/// Index offset of the program stream in the COM group of a channel: `0x20100` + channel, or
+/// `0x120100` + channel in logical addressing (STM-1).
 ///
 /// Manual: `stream-en`, sections 3.2 and 5.
 pub const INDEX_OFFSET: IndexOffset = Function::WriteProgramStream.spec().offset.first();

@@ -5,9 +5,9 @@ use crate::limits::STREAM_PACKET_MAX;
 
 /// The packets of a text: whole lines, each ended by CR LF, as many as fit into 992 bytes.
 ///
-/// All packets together are the text with CR LF after each line. Text whose lines all end in CR LF
-/// is not copied: its packets are slices of the text. A line that is joined to the next line by `\`
-/// is treated like any other line, so the two lines may be in different packets (assumed).
+/// All packets together are the lines of the text, each ended by CR LF. Text whose lines all end in
+/// CR LF is not copied: its packets are slices of the text. A line that is joined to the next line
+/// by `\` is treated like any other line, so the two lines may be in different packets (assumed).
 ///
 /// Manual: `stream-en`, sections 2.2 and 3.1 (STM-2, STM-4, STM-7).
 ///

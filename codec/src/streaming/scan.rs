@@ -236,8 +236,8 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Skips an address with its number, the name of a variable, the call of a subroutine or a word
-    /// of letters; returns a program end.
+    /// Skips a word of letters (with its number, if the word is `M`), the name of a variable or the
+    /// call of a subroutine; returns a program end.
     fn letters(&mut self) -> Option<Word<'a>> {
         let (letters, after) = split_while(self.rest, u8::is_ascii_alphabetic);
         match after {

@@ -32,7 +32,7 @@ pub enum LoopWord {
 }
 
 impl LoopWord {
-    /// All words of loops.
+    /// The words of loops that are not permitted in a stream (STM-8).
     pub const ALL: [Self; 8] = [
         Self::For,
         Self::EndFor,

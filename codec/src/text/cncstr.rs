@@ -10,7 +10,7 @@ use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::text::TEXT;
 
-/// CP1252 text without a NUL, borrowed from a stream or from a Rust string.
+/// CP1252 text without a NUL, borrowed from CP1252 bytes or from a Rust string.
 ///
 /// ```
 /// use ads_cnc::CncStr;
@@ -36,8 +36,8 @@ impl<'a> CncStr<'a> {
     /// The empty text.
     pub const EMPTY: CncStr<'static> = CncStr(Source::Bytes(&[]));
 
-    /// Creates a text from a Rust string. All its characters must be in CP1252, and none may be
-    /// NUL.
+    /// Creates a text from a Rust string. All its characters must have CP1252 bytes (see
+    /// [`char_to_cp1252`]), and none may be NUL.
     ///
     /// # Errors
     /// [`ErrorKind::NotCp1252`], or [`ErrorKind::InnerNul`] for a NUL; the offset counts

@@ -89,7 +89,8 @@ macro_rules! data_types {
 }
 
 data_types! {
-    /// The code of the type of a variable (VAR-5): the numbers 1 to 9 in the table of [`DataType`].
+    /// The code of the type of a variable (VAR-5). The documented codes are the numbers 1 to 9 in
+    /// the table of [`DataType`]; other codes are kept (VAR-23).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
     ///

@@ -80,7 +80,8 @@ impl<'a> ValueRef<'a> {
 macro_rules! data_type {
     ($( $descriptor:ty )+) => { $(
         impl $descriptor {
-            /// The type of the content; `None` if [`type_name`](Self::type_name) is not documented.
+            /// The type of the content; `None` if [`type_name`](Self::type_name) is not the name of
+            /// a [`DataType`].
             pub fn data_type(&self) -> Option<DataType> {
                 DataType::by_name(self.type_name())
             }

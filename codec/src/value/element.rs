@@ -143,9 +143,10 @@ impl<'a> Elements<'a> {
     /// In an array of STRING, all texts have the same number of bytes (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] if the number of bytes is not the size of
-    /// the elements; [`ErrorKind::Mismatch`] if the bytes of several texts cannot be divided
-    /// equally among them, with at least one byte for each text.
+    /// For a type of fixed size, [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] if the number
+    /// of bytes is not the size of the elements. For STRING, [`ErrorKind::Mismatch`] if the bytes
+    /// of several texts cannot be divided equally among them, with at least one byte for each text,
+    /// or if there are bytes but no texts.
     pub fn new(
         data_type: DataType,
         dimensions: U32List<'a>,

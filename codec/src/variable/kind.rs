@@ -10,8 +10,8 @@ use crate::text::{CncStr, TextRef};
 
 /// A kind of variables, such as `V.E`: the text without a final dot.
 ///
-/// Any text is accepted, because the CNC determines which kinds a function supports. The editions
-/// differ:
+/// Any CP1252 text without a NUL is accepted, because the CNC determines which kinds a function
+/// supports. The editions differ:
 ///
 /// | | `ads-en` 1.05 | `ads-de` 1.051 |
 /// |---|---|---|

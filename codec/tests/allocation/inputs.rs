@@ -10,9 +10,9 @@ use crate::common::each_sample;
 /// exceed the items that follow in every vector and sample.
 const HUGE: [u32; 6] = [u32::MAX, 0x8000_0000, 0x7FFF_FFFF, 0x4000_0001, 0x0100_0000, 0xFFFF];
 
-/// The length in bytes of the inputs that [`each_long`] builds for a stream of at least this
-/// maximum length. It is so great that a decoder that copies such an input three times exceeds the
-/// limit in `excess`.
+/// The length in bytes to which [`each_long`] extends a sample, unless the maximum length of the
+/// stream is less. It is so great that a decoder that copies an input of this length three times
+/// exceeds the limit in `excess`.
 pub(crate) const LONG: usize = 0x4000;
 
 /// Every golden vector of a stream, including vectors that the decoder must reject.

@@ -72,7 +72,8 @@ fn decoding_allocates_as_much_as_a_copy() {
     }
 }
 
-/// Texts are allocated once, without spare capacity, including texts from UTF-8.
+/// A text without bytes after its NUL is allocated once, without spare capacity, also a text from
+/// UTF-8.
 #[test]
 fn owned_texts_are_allocated_once() {
     use ads_cnc::{CncStr, CncString, Text, TextRef};

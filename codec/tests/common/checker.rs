@@ -33,8 +33,8 @@ fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
 }
 
 /// Passes a text to a checker part by part. The diagnostics of each part must equal the diagnostics
-/// of the text so far, without those of the lines before the part and without an open comment
-/// block.
+/// of the text so far, without those of the lines before the part and without that of an open
+/// comment block.
 pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,

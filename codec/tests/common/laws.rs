@@ -13,7 +13,8 @@ use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 use super::subjects::ReadAndWritten;
 use super::{Fault, StreamType, Subject};
 
-/// The initial value of the bytes of a buffer. A byte with any other value was written.
+/// The initial value of the bytes of a buffer whose changes are checked. A byte with any other
+/// value was written.
 const UNTOUCHED: u8 = 0x55;
 
 /// The length of a decoded stream in bytes, or the error of the decoder.
@@ -22,11 +23,12 @@ type Length = Result<usize, Error>;
 /// A fault added to a correct codec, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct Mutation {
-    /// Changes the result of `encoded_len` of a value, or the error of the decoder.
+    /// Changes the result of `encoded_len` of a value or reply, or the error of the decoder.
     pub(crate) len: fn(Length) -> Length,
     /// Changes the parts of an error.
     pub(crate) fault: fn(Fault) -> Fault,
-    /// Changes the bytes that `encode` writes; in [`check_value_bent`], those of `encode_to_vec`.
+    /// Changes the bytes that `encode` writes; in [`check_value_bent`], also those of
+    /// `encode_to_vec`.
     pub(crate) written: fn(&mut [u8]),
     /// Changes a buffer after `encode` rejected it because it is too small.
     pub(crate) small: fn(&mut [u8]),
@@ -232,15 +234,15 @@ fn check_too_small<T: Debug>(
     }
 }
 
-/// Checks that a call can be carried in a frame, and that its dispatched request encodes to a call
-/// with the same service, address and data, which is dispatched to the same request. Returns the
-/// error of dispatch, if any.
+/// Checks that a frame can carry the call, unless it is a Read with data, and that the dispatched
+/// request encodes to a call with the same service, index group, index offset and data, which is
+/// dispatched to the same request. Returns the error of dispatch, if any.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Mutation::NONE, |_| ()).map(drop)
 }
 
 /// Like [`check_call`], for a codec to which `mutation` adds a fault; `wrong` changes the encoded
-/// call. Returns the function to which the call is dispatched.
+/// call. Returns the function to which the call is dispatched, or the error of dispatch.
 pub(crate) fn check_call_bent(
     call: &Call<'_>,
     mutation: &Mutation,

@@ -1,5 +1,5 @@
-//! Common code of the tests, such as samples, the types of each stream, and laws: functions that
-//! check properties for any input. The crate of the fuzz targets includes this file, so that the
+//! Common code of the tests, such as samples, the types of the streams, and laws: functions that
+//! check properties for given inputs. The crate of the fuzz targets includes this file, so that the
 //! fuzz targets can check the same laws.
 
 #![allow(dead_code, unused_imports, reason = "no test uses all of it")]

@@ -126,7 +126,7 @@ fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
 
 /// Checks that the codec builds the name from the pieces, without leading zeros of indices; that
 /// the variable with the indices at the end is the same element; and that a name of kind V.A is
-/// converted to a name for the channel interface and back.
+/// converted to a name for the channel interface and back, unless that name would be too long.
 fn check_built(path: VariablePath<'_>, pieces: &Pieces, mutation: NameMutation) {
     let mut buf = [0x55; NAME_MAX + 1];
     let built = pieces.write(&mut buf).expect("no longer than it was");

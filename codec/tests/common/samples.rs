@@ -109,8 +109,8 @@ const OBJECT_DESCRIPTOR: &[Sample] = &[
             ("type", &padded::<32>(b"BOOL")),
         ],
     ),
-    // Unusual values that a codec must keep: write access 0x0100, two unassigned bytes, bytes after
-    // a NUL, and a name of 32 bytes without a NUL.
+    // Unusual values that a codec must keep, such as write access 0x0100, two unassigned bytes,
+    // bytes after a NUL, and a name of 32 bytes without a NUL.
     sample(
         "kept",
         &[

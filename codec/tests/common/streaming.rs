@@ -52,7 +52,7 @@ fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
     None
 }
 
-/// A fault that is added to the packets of a text, to verify that the laws detect it.
+/// A fault that is added to the packets or the error of a text, to verify that the laws detect it.
 #[derive(Clone, Copy)]
 pub(crate) struct TextMutation {
     pub(crate) packets: fn(&mut Vec<Vec<u8>>),
@@ -145,8 +145,8 @@ impl<'t> CheckedSender<'t> {
         checked
     }
 
-    /// Checks that the sender returns the expected packet, which is the same until it is accepted.
-    /// Returns it.
+    /// Checks that the sender returns the expected packet: the same one until it is accepted, and
+    /// none after a rejection or after the last packet. Returns the packet.
     pub(crate) fn packet(&mut self) -> Option<Vec<u8>> {
         let ended = matches!(self.state, SenderState::Stopped | SenderState::Done);
         let wanted = if ended { None } else { self.packets.get(self.sent.packets) };

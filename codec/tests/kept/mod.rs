@@ -8,7 +8,8 @@ use proptest::test_runner::{Config, FileFailurePersistence};
 /// The configuration for a number of new cases; `source` is the `file!()` of the test.
 pub(crate) fn cases(cases: u32, source: &str) -> Config {
     let default = Config::default();
-    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables the files; Miri has no access to files.
+    // PROPTEST_DISABLE_FAILURE_PERSISTENCE disables the files; by default, Miri has no access to
+    // files.
     if default.failure_persistence.is_none() || cfg!(miri) {
         return Config { cases, failure_persistence: None, ..default };
     }

@@ -198,8 +198,8 @@ static bool read_hex(Json p, Bytes *bytes) {
  * A table lists the fields of each stream in order; the same functions read and
  * write them. Decoding converts `in` to JSON in `out`, encoding converts the JSON
  * record `value` to bytes in `out`. Only the first fault is stored. After a fault,
- * the functions may continue, because their output is not used; only loops check
- * for a fault, so that they end. */
+ * the functions may continue, because their output is not used; loops check for a
+ * fault, so that they end. */
 
 typedef struct {
     const char *name;
@@ -635,7 +635,7 @@ static void index_group(Codec *c) {
     if (c->based && (group < c->base || group - c->base > 255 || group >> 8 != c->base >> 8))
         fail(c, "out-of-range", 0);
     /* Only COM has object access, only SDA and GEO have classes, and spindles have
-     * no logical address. Any other group is undocumented and has only its number. */
+     * no logical address. Any other group has only its number. */
     bool known = group >> 20 <= 1 && (com ? class == 0 && (access == 2 || access == 3)
                                           : table >= 3 && table <= 9 && class <= 5 && access == 2);
     if (c->fault || !known || (!com && class == 5 && logical)) return;

@@ -25,7 +25,7 @@ function unhex(text) {
 }
 
 // A codec is a pair: get(reader, context) returns a value, put(value, context) returns bytes. No put checks
-// limits, because encode() decodes its result again. A value contains its type, so write() encodes
+// the limits of lengths, because encode() decodes its result again. A value contains its type, so write() encodes
 // all values except records. Values omit readable forms: a float has only `bits`, a text has only `hex`.
 const codec = (get, put = write) => ({ get, put });
 

@@ -16,8 +16,8 @@ class Refused(Exception):
 class Unsupported(Exception):
     """This testee does not support the part of the case that the argument names."""
 
-# Fields: each function takes bytes, and returns a value as in the JSON and the bytes after it. Only these
-# functions check the rules; `write` checks none, because `encode` decodes the encoded bytes again.
+# Fields: each function takes bytes, and returns a value as in the JSON and the bytes after it. Only reading
+# checks the rules; `write` checks none, because `encode` decodes the encoded bytes again.
 
 FORMS = {"BOOLEAN": "B", "UNS08": "B", "SGN08": "b", "UNS16": "<H", "SGN16": "<h", "UNS32": "<I", "SGN32": "<i",
          "REAL32": "<I", "REAL64": "<Q", "BOOL": "B", "BYTE": "B", "WORD": "<H", "DWORD": "<I", "LWORD": "<Q",
@@ -180,7 +180,7 @@ class Path:
             b"[%d]" % int(index["value"]) for index in part["indices"]) for part in value["parts"])
 
 class Group(Record):
-    """An index group, with its parts if it is documented."""
+    """An index group, with its parts if its bits match the tables of COM, or of SDA and GEO."""
     CLASSES = ["position-controller", "interpolator", "decoder", "hld", "path-preparation", "spindle"]
     ATTRIBUTES = ["content", "name", "type", "length", "unit", "write-flag", "object-address"]
     def __init__(self, context):

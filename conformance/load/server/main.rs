@@ -134,7 +134,8 @@ fn machine(args: &Args) {
     );
 }
 
-/// Measures all servers under the same load, in turns.
+/// Measures the servers under the same load, in turns. Omits the server of pyads if it does not
+/// answer all requests that come at once.
 fn compare(work: &Work, load: Load, rounds: usize, pyads: Option<&str>) -> Result<()> {
     let Load { clients, depth, .. } = load;
     let under = format!("{clients} × {depth}");

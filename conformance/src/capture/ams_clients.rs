@@ -14,7 +14,7 @@ use crate::number::to_u32;
 /// TCP connection. The TCP connections are numbered from 1.
 const NUMBERS: u64 = 1 << 63;
 
-/// The conversation of all clients on one machine (one AMS Net ID) with all CNCs.
+/// The conversation of all clients on one machine (one AMS NetId) with all other machines.
 #[derive(Debug)]
 struct AmsClient {
     /// Number of the last frame of the conversation among all frames without TCP, and number of its

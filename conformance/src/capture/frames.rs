@@ -229,8 +229,8 @@ pub(super) fn is_reply(header: &AmsHeader) -> bool {
     }
 }
 
-/// Whether `bytes` may be the beginning of a frame: the lengths in the two headers agree, and the
-/// command and the state flags are known.
+/// Whether `bytes` may be the beginning of a frame: the two headers are valid, their lengths agree,
+/// and the command and the state flags are known.
 fn is_plausible(bytes: &[u8]) -> bool {
     let header = bytes.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN);
     let Some(Ok(header)) = header.map(AmsHeader::decode) else { return false };

@@ -24,7 +24,7 @@ pub(super) const BUFFERED_MAX: usize = 0x200_0000;
 pub enum Ports {
     /// Connections from or to one of these ports.
     Of(Vec<u16>),
-    /// All connections; those without an AMS frame are ignored.
+    /// All connections; those without an AMS frame are only counted.
     Any,
 }
 

@@ -39,16 +39,17 @@ pub struct CaptureTally {
     pub segments: u64,
     /// TCP segments on other ports.
     pub elsewhere: u64,
-    /// TCP connections on the selected ports. With [`Ports::Any`](super::Ports::Any), also those
-    /// without an AMS frame.
+    /// TCP connections on the selected ports, including those without an AMS frame.
     pub connections: u64,
     /// AMS frames in EtherCAT frames instead of TCP, as ADS Monitor records them.
     pub ethercat: u64,
-    /// AMS connections whose beginning was not captured.
+    /// Connections whose beginning was not captured; with [`Ports::Any`](super::Ports::Any), only
+    /// those with an AMS frame.
     pub joined: u64,
-    /// Retransmitted segments.
+    /// Segments that begin with bytes that were already captured or counted as a gap, such as
+    /// retransmitted segments.
     pub repeated: u64,
-    /// Segments that were captured before an earlier segment.
+    /// Segments that were captured while earlier bytes were missing.
     pub early: u64,
     /// Gaps, that is, places where bytes were not captured.
     pub gaps: u64,
@@ -63,11 +64,13 @@ pub struct CaptureTally {
     /// Frames to and from the ports of a CNC with commands other than Read, Write and ReadWrite, by
     /// command.
     pub commands: BTreeMap<u16, u64>,
-    /// Requests to addresses without a documented function, by address.
+    /// Requests for which no function is found, and requests that may access content at the address
+    /// of a function (SDA-12), by service and address.
     pub unknown: BTreeMap<String, u64>,
     /// Requests with a reply.
     pub exchanges: u64,
-    /// The first exchanges: packet, function with the name, the index or the address, and result.
+    /// The first exchanges: packet, function with the fields that identify the object (such as its
+    /// name or index) or with the address, and result.
     pub listed: Vec<String>,
     /// Requests with an error reply.
     pub rejected: u64,
@@ -75,7 +78,7 @@ pub struct CaptureTally {
     pub unanswered: u64,
     /// Requests that were dropped because too many waited for a reply.
     pub forgotten: u64,
-    /// Names, objects and elements that were not stored because the limit of 24 MiB was reached.
+    /// Facts about names, objects and elements that were not stored because of the limit of 24 MiB.
     pub unkept: u64,
     /// Replies whose request was not captured.
     pub unasked: u64,

@@ -22,8 +22,8 @@ const WINDOW: u32 = 0x4000_0000;
 /// captured on several processors may be out of order.
 const REORDERED_SEGMENTS_MAX: u32 = 64;
 
-/// Fewer than this number of bytes of a connection may be captured before its SYN; a SYN at a
-/// larger distance opens another connection.
+/// Fewer than this number of bytes of a direction may be captured before its SYN; a SYN at a larger
+/// distance opens another connection.
 const BEFORE_SYN: u32 = 0x1_0000;
 
 /// The location of bytes in the capture.
@@ -78,9 +78,10 @@ pub(super) struct DirectionState {
     /// segment with the FIN.
     acknowledged_by: Option<CapturePosition>,
     waiting: u32,
-    /// Retransmitted segments.
+    /// Segments that begin with bytes that were already captured or counted as a gap, such as
+    /// retransmitted segments.
     pub(super) repeated: u64,
-    /// Segments that were captured before an earlier segment.
+    /// Segments that were captured while earlier bytes were missing.
     pub(super) early: u64,
 }
 

@@ -1,5 +1,5 @@
-//! Creates golden vectors from captured traffic, without the network addresses of the machines and,
-//! by default, without the letters of their texts.
+//! Creates golden vectors from captured traffic. The network addresses of the machines and, by
+//! default, the letters of texts are replaced, except in texts that the manual defines.
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
@@ -41,7 +41,7 @@ pub struct Collector {
 
 impl Collector {
     /// Creates a collector that keeps captured texts and NC programs if `keep_texts`; otherwise, it
-    /// replaces the letters of texts, and omits NC programs.
+    /// replaces the letters of texts (except kinds and type names), and omits NC programs.
     pub fn new(keep_texts: bool) -> Self {
         Self { keep_texts, vectors: BTreeMap::new() }
     }
@@ -140,8 +140,8 @@ impl Collector {
         );
     }
 
-    /// Adds a stream and returns the ID of its vector; `None` if the stream does not decode, or the
-    /// collector is full.
+    /// Adds a stream and returns the ID of its vector; `None` if the stream does not decode or has
+    /// no fields, or if the collector is full.
     fn stream(
         &mut self,
         stream: Stream,

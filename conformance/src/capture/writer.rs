@@ -1,10 +1,10 @@
 //! Writes a capture for Wireshark in pcapng format, with artificial Ethernet, IP and TCP headers
 //! around the bytes of a connection.
 //!
-//! The file contains the bytes that were passed to and received from the system, in their order and
-//! with the time of this machine, not the segments and acknowledgements on the network. Each
-//! connection begins with a handshake, and a closed connection ends with a FIN of both sides, so
-//! that a reader can reassemble it.
+//! The file contains the bytes that the client sent and received, in their order and with the time
+//! of this machine, not the segments and acknowledgements on the network. Each connection begins
+//! with a handshake, and a closed connection ends with a FIN of both sides, so that a reader can
+//! reassemble it.
 //!
 //! ```
 //! use std::net::SocketAddr;

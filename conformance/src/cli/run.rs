@@ -364,7 +364,7 @@ impl Run {
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);
         // A write to these objects and elements exchanges axes, and writing the old value does not
-        // undo the exchange.
+        // always undo the exchange.
         let new = kept.iter().filter(|name| !profile.unwritten.contains(name));
         let unwritten = profile.unwritten.iter().chain(new).cloned().collect();
         Ok(Profile { edition, unwritten, ..profile })

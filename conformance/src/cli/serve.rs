@@ -269,7 +269,7 @@ fn list_defects(part: &str) -> ExitCode {
 /// The defect with this ID; `None` without an ID.
 ///
 /// # Errors
-/// If no defect has the ID; the error suggests similar IDs.
+/// If no defect has the ID; the error suggests similar IDs, if any.
 pub(super) fn find_defect(id: Option<&str>) -> Result<Option<SeededDefect>, String> {
     let Some(id) = id else { return Ok(None) };
     faults::by_id(id).cloned().map(Some).ok_or_else(|| unknown_defect(id))

@@ -90,7 +90,7 @@ impl<R: Inquiry> fmt::Display for Inquired<R> {
 }
 
 impl Client {
-    /// Sends an inquiry, unless the gate rejects it or this is a dry run.
+    /// Sends an inquiry. Sends nothing for example if the gate rejects it or this is a dry run.
     pub fn inquire<R: Inquiry>(&mut self, port: AmsPort) -> Inquired<R> {
         let (sent, received, violations) = (Vec::new(), Vec::new(), Vec::new());
         let mut inquired =

@@ -20,8 +20,8 @@ fn is_narrow(service: AdsService, payload: &[u8]) -> bool {
 }
 
 impl Client {
-    /// Adds the violations in the received frame to the exchange. After an error, also closes the
-    /// connection.
+    /// Adds the violations in the received frame to the exchange. Without a valid reply, also
+    /// closes the connection.
     pub(super) fn judge(&mut self, asked: &AmsHeader, exchange: &mut Exchange) {
         let mut broken = Vec::new();
         match &exchange.outcome {
@@ -61,7 +61,7 @@ impl Client {
                         add(ADS_5, "no data, and no error in the AMS header".to_owned());
                     }
                 }
-                // After an error, the start of the next frame on this connection is unknown.
+                // Without a valid reply, the start of the next frame may be unknown.
                 self.disconnect();
             }
         }

@@ -31,7 +31,8 @@ const UNANSWERED_MAX: usize = 12;
 #[derive(Debug)]
 pub struct JudgedClient {
     pub hello: Option<ClientHello>,
-    /// The outcomes of the scenarios, and of the case about the client protocol.
+    /// The outcomes of the scenarios and, unless a signal or the deadline ended the wait for hello,
+    /// of the case about the client protocol.
     pub outcomes: Vec<CaseOutcome>,
     pub requests: usize,
 }
@@ -149,7 +150,7 @@ pub fn judge(
     JudgedClient { hello: Some(hello), outcomes, requests }
 }
 
-/// Records each line that the client has printed in addition to one line per action.
+/// Records a failure for each line that [`ClientUnderTest::unasked`] returns.
 fn one_line(actor: &mut dyn ClientUnderTest, protocol: &mut ScenarioChecks) {
     for line in actor.unasked() {
         protocol.check(Rule::CLIENT, false, None, "one line for each action", || {
@@ -180,7 +181,7 @@ pub fn trial(defect: &ClientDefect, server: &TestServer) -> Vec<CaseOutcome> {
 }
 
 /// Runs one scenario. Returns its outcome, whether the client gave no valid answer, and the number
-/// of requests that the client sent.
+/// of recorded requests.
 fn play(
     actor: &mut dyn ClientUnderTest,
     server: &TestServer,
@@ -281,7 +282,7 @@ fn judge_reaction(
             (must.chain([Rule::CLIENT]).collect(), None)
         }
         ClientReaction::Silent(_) | ClientReaction::Garbled(_) => {
-            // The missing or unreadable answer is the cause of all other failed checks.
+            // The missing or unreadable answer is taken as the cause of the other failed checks.
             scenario_checks.follow_all(CLIENT);
             (rules.into_iter().chain([Rule::CLIENT]).collect(), Some(CLIENT))
         }

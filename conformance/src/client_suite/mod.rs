@@ -47,7 +47,7 @@ pub trait ClientUnderTest {
     /// Tells the client to exit, and checks its exit code.
     fn bye(&mut self) -> Result<(), String>;
 
-    /// The lines that the client has printed in addition to its answers since the last call.
+    /// Lines that the client has printed in addition to its answers since the last call.
     fn unasked(&mut self) -> Vec<String> {
         Vec::new()
     }

@@ -20,7 +20,7 @@ const HELLO: &str = "hello";
 pub struct ClientProcess {
     process: Subprocess,
     stays: bool,
-    /// The lines that the client has printed in addition to its answers.
+    /// Lines that the client has printed in addition to its answers: of several at once, the first.
     unasked: Vec<String>,
 }
 

@@ -6,7 +6,7 @@
 //!   description by name, and the Service Interface (SVC-11): [`CncVersion::has`].
 //!
 //! A client can call these functions before it sends a request, and a server before it answers a
-//! request, as the simulated CNC does. The codec itself rejects no kind.
+//! request, as the simulated CNC does. The codec itself accepts the kinds of both editions.
 //!
 //! ```
 //! use ads_cnc::VariablePath;
@@ -125,8 +125,8 @@ impl Edition {
     /// handle.
     ///
     /// Without a version, the newest CNC is assumed. A function that has no kinds is always
-    /// available. The requirement in the result is the requirement of the function, except in these
-    /// cases:
+    /// available. The requirement in the result is VAR-1 for the number of variables and for the
+    /// descriptions by index, otherwise the requirement of the function, except in these cases:
     ///
     /// | case | available | requirement |
     /// |---|---|---|

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// Whether an edition of the manual or a version of the CNC has a feature, and the requirement that states it.
+/// Whether an edition of the manual or a version of the CNC has a feature, and the requirement that
+/// concerns the feature.
 ///
 /// ```
 /// use ads_cnc::Kind;

@@ -41,8 +41,8 @@ impl CncVersion {
     /// Parses a version.
     ///
     /// # Errors
-    /// - A character is neither a digit nor a dot between two numbers, or follows the fourth
-    ///   number.
+    /// - After an optional `V` or `V.`, a character is neither a digit nor a dot between two
+    ///   numbers, or follows the fourth number.
     /// - There are fewer than three numbers, or a number has no digits.
     /// - A number exceeds 65 535.
     pub fn new(text: &str) -> Result<Self, VersionError> {
@@ -197,8 +197,8 @@ impl Feature {
         }
     }
 
-    /// The versions that the manual, or the vendors' help page, names as the first versions with
-    /// the feature, in ascending order.
+    /// The versions that a manual, or the vendors' help page, names as the first versions with the
+    /// feature, in ascending order.
     pub const fn since(self) -> &'static [CncVersion] {
         const fn v(major: u16, minor: u16, build: u16, patch: u16) -> CncVersion {
             CncVersion::from_parts(major, minor, build, patch)

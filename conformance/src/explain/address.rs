@@ -143,7 +143,8 @@ fn report(
     }
 }
 
-/// Describes the function that another task has at this address; `None` if no other task has one.
+/// Describes the function that another task has at this address; `None` if no other task has one,
+/// or if the port is unknown.
 fn at_other_port(ads_address: &ServiceAddress) -> Option<String> {
     let port = ads_address.port?;
     let spec = find(&ServiceAddress { port: None, ..*ads_address }).ok()?.spec();

@@ -98,8 +98,8 @@ pub struct ExplainedStream {
     pub length: usize,
     /// The address to which the stream is sent, or which returns it.
     pub address: Option<ExplainedAddress>,
-    /// The fields that were read; for NC text, each line; for a value of a specified type, each
-    /// element.
+    /// The fields that were read; for NC text, each line; for a value that fits the specified type,
+    /// each element; for bytes that no table describes, at most one row with all bytes.
     pub rows: Vec<ExplainedField>,
     pub faults: Vec<ExplainedFault>,
     /// The bytes after the last field that was read, if an error in the stream ended the reading.
@@ -126,9 +126,10 @@ pub struct ExplainedField {
     #[serde(rename = "type")]
     pub ty: String,
     pub value: String,
-    /// The meaning of the field.
+    /// The meaning of the field; empty if no table describes the bytes, and after the first element
+    /// or line.
     pub meaning: &'static str,
-    /// The requirement that defines the field.
+    /// The requirement that defines the field; empty if no table describes the bytes.
     pub clause: &'static str,
     /// Whether this field contains an error.
     pub faulty: bool,
@@ -141,12 +142,14 @@ pub struct ExplainedField {
 
 #[derive(Clone, Debug, Serialize)]
 pub struct ExplainedFault {
-    /// The class of the error, as in vectors; `nc-line` or `nc-word` for NC text.
+    /// The class of the error, as in vectors; `nc-line` or `nc-word` for an error in a line of NC
+    /// text.
     pub class: &'static str,
     /// The name of the field; `stream` for the whole stream, `line 2` and so on for NC text.
     pub field: String,
     pub offset: usize,
-    /// The expected number, whose unit depends on `class`, for example bytes.
+    /// The expected number, whose unit depends on `class`, for example bytes; `None` if the error
+    /// has no numbers.
     pub expected: Option<u32>,
     pub found: Option<u32>,
     /// The error as text.
@@ -174,7 +177,7 @@ pub struct ExplainedAddress {
     pub index_offset: u32,
     /// The meaning of the index group.
     pub group: String,
-    /// The meaning of the index offset.
+    /// The meaning of the index offset; may be empty.
     pub offset: String,
     pub function: Option<FunctionReport>,
     /// Notes, such as other meanings of the address, or the reason if no function has this address.
@@ -243,7 +246,7 @@ impl ExplainedStream {
         self.address.as_ref().is_some_and(|address| address.function.is_some())
     }
 
-    /// Adds an error, and marks the row that contains its offset.
+    /// Adds an error, and marks the first row that contains its offset, if any.
     pub(super) fn push_fault(&mut self, fault: ExplainedFault) {
         let at = fault.offset;
         let here = |row: &&mut ExplainedField| {

@@ -22,7 +22,8 @@ use crate::value_format::ValueFormat;
 /// Command, index group and offset of requests, by source, target and invoke ID.
 type PendingRequests = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
 
-/// Whether the bytes begin with a frame, or at least with the valid headers of a frame.
+/// Whether the bytes begin with a frame, or at least with the valid headers of a frame (AMS/TCP and
+/// AMS).
 pub fn looks_like_frame(bytes: &[u8]) -> bool {
     match FrameRef::split(bytes, u32::MAX) {
         Ok(Some(_)) => true,
@@ -60,7 +61,7 @@ struct FrameExplainer<'q> {
 
 impl FrameExplainer<'_> {
     /// Explains the frame that starts at offset `at` of the input; returns its length if the frame
-    /// is complete.
+    /// is complete and its headers have no error.
     fn frame(&mut self, at: usize, bytes: &[u8]) -> Option<usize> {
         let split = FrameRef::split(bytes, u32::MAX);
         let (tcp, rest) = halves(bytes, AMS_TCP_HEADER_LEN);
@@ -172,8 +173,8 @@ impl FrameExplainer<'_> {
             }
             return;
         };
-        // An error reply usually has no data, and the data of a truncated service may be missing
-        // completely.
+        // An error reply usually has no data, and if the stream of the service has an error, the
+        // data may be missing completely.
         if (failed || faulty) && inside.is_none_or(|(_, data)| data.is_empty()) {
             return;
         }

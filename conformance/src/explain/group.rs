@@ -25,7 +25,7 @@ pub fn describe(group: IndexGroup) -> String {
     }
 }
 
-/// The end of the description of a group with addressing by index.
+/// The end of the description of a group that addresses a channel by index.
 const BY_INDEX: &str = "; by index, which moves when a channel is deactivated (ADR-11)";
 
 fn channel(addressing: Addressing, instance: u8) -> String {

@@ -3,7 +3,8 @@
 //! [`explain`] accepts any bytes and never fails: an error in the bytes is part of the
 //! [`Explanation`], which contains the fields before the error, the error itself and the unread
 //! bytes. The fields are those of the tables in [`ads_cnc::layout`]; NC text is split into lines,
-//! and a value whose type is specified into elements.
+//! and a value that fits the specified type into elements. Bytes that no table describes are one
+//! field.
 //!
 //! ```
 //! use ads_cnc::layout::Stream;

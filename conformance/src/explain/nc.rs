@@ -14,7 +14,8 @@ struct Line<'a> {
     bytes: &'a [u8],
 }
 
-/// Adds a row for each line of NC text, and the faults and notes of the codec about the text.
+/// Adds a row for each line of NC text, the faults and notes of the codec about the text, and, if
+/// the codec can check the text, a note about the limits of this check.
 pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
     let (data, whole) = (segment.bytes, row(segment));
     let lines = lines(data);
@@ -33,7 +34,7 @@ pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
         row.meaning = if number == 1 { whole.meaning } else { "" };
         part.rows.push(row);
     }
-    // A CNC accepts these bytes, and detects a missing line end only when it reads the line.
+    // A CNC accepts these bytes, and detects a wrong line end only when it reads the line.
     if let Err(error) = check_line_ends(data) {
         let number = streaming::LINE_END_ERROR;
         fault(part, &lines, &error, &format!(": the CNC aborts with error {number}"));

@@ -7,7 +7,7 @@ use anstyle::{AnsiColor, Style};
 use super::explanation::{ExplainedAddress, ExplainedField, ExplainedStream, Explanation};
 use crate::text::plural;
 
-/// Number of bytes on a line.
+/// Maximum number of bytes on a line.
 const LINE: usize = 8;
 /// Maximum width in characters of the columns of field names and of values; a longer cell shifts
 /// the rest of its row.
@@ -177,7 +177,7 @@ fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) 
     Ok(())
 }
 
-/// Splits hex with a space after each byte into lines of `LINE` bytes.
+/// Splits hex with a space between bytes into lines of at most `LINE` bytes.
 fn chunks(hex: &str) -> impl Iterator<Item = &str> {
     let width = LINE * 3;
     let mut rest = hex;

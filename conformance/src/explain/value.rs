@@ -56,7 +56,8 @@ fn is_value(stream: Stream, field: &str) -> bool {
     field == "value" || stream == Stream::Content
 }
 
-/// Sets the value of a row to the number or NetId in `bytes`, and adds its meaning.
+/// Sets the value of a row to the number, BOOLEAN or NetId in `bytes`, and adds the meaning of a
+/// code.
 fn interpret(row: &mut ExplainedField, stream: Stream, ty: Type, bytes: &[u8]) {
     match (ty, bytes) {
         (Type::NetId, _) => {
@@ -176,8 +177,8 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
     }
 }
 
-/// Formats at most `GUESSED` bytes as each type of their size except STRING, and longer printable
-/// bytes, up to 128, as a STRING.
+/// Formats at most `GUESSED` bytes as each type of their size except STRING, and longer bytes, up
+/// to 128, as a STRING if all are graphic ASCII characters, spaces or NULs.
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {
         let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));

@@ -1,5 +1,5 @@
-//! Defects of one field: its bytes are changed before the codec decodes them, or after it has encoded
-//! them.
+//! Defects of one field: its bytes are changed before the codec decodes them, or after it has
+//! encoded them.
 //!
 //! The defects are generated from the field tables of the codec, so every field has defects.
 //!
@@ -92,7 +92,8 @@ impl FieldDefect {
     /// the walk over the stream does not reach are not changed.
     pub fn apply(&self, bytes: &[u8]) -> Vec<u8> {
         let mut places = Vec::new();
-        // The walk ends at the first invalid field; the fields before that field are changed nevertheless.
+        // The walk ends at the first invalid field; the fields before that field are changed
+        // nevertheless.
         let _reached = self.sequence().walk(bytes, |segment: Segment<'_>| {
             if segment.field.name() == self.field.name() {
                 let start = to_usize(segment.offset);
@@ -108,8 +109,9 @@ impl FieldDefect {
         changed
     }
 
-    /// The stream whose walk finds the field: `Stream::ObjectDescriptors` for a field of one descriptor,
-    /// because a single descriptor is a list with one record; otherwise the stream of the defect.
+    /// The stream whose walk finds the field: `Stream::ObjectDescriptors` for a field of one
+    /// descriptor, because a single descriptor is a list with one record; otherwise the stream of
+    /// the defect.
     fn sequence(&self) -> Stream {
         match self.stream {
             Stream::ObjectDescriptor => Stream::ObjectDescriptors,
@@ -135,8 +137,8 @@ impl fmt::Display for FieldDefect {
 mod tests {
     use super::*;
 
-    /// The description printed in the manual, but with another handle, because the printed handle is
-    /// the same in reverse byte order.
+    /// The description printed in the manual, but with another handle, because the printed handle
+    /// is the same in reverse byte order.
     const DESCRIPTION: &[u8] =
         b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
 

@@ -1,9 +1,10 @@
 //! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
-//! A seed is a defect or a variant: middleware around the codec or the simulated CNC, or another data
-//! model or policy of the CNC. Seeds test the suite: with a defect that a reply can show, at least one
-//! of the requirements that the defect violates must fail; with a valid variant, no requirement may
-//! fail.
+//! A seed is a defect or a variant: middleware around the codec or the simulated CNC, or another
+//! data model or policy of the CNC. Seeds test the suite: with a defect, at least one of the
+//! requirements that the defect violates must fail or, below the level *must*, have a warning or a
+//! difference, unless the defect changes no byte or the self-test (`selftest`) states a reason;
+//! with a valid variant, no requirement may fail.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::{self, DefectKind};
@@ -45,7 +46,8 @@ pub fn by_id(id: &str) -> Option<&'static SeededDefect> {
     all().iter().find(|seed| seed.id == id)
 }
 
-/// The requirements of level *must* that no defect violates, each with the reason.
+/// The requirements of level *must* that no defect violates, each with the reason; without those
+/// that the catalogue excludes.
 ///
 /// Requirements that concern only clients are not in this list:
 /// [defects of a client](crate::client_suite::defects) violate them.

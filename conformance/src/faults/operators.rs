@@ -1,5 +1,5 @@
-//! Generated defects of one function: each operator rejects the request, executes another request
-//! instead of the request or in addition to it, or changes the correct reply.
+//! Generated defects of one function: an operator, for example, rejects the request, executes
+//! another request instead of the request or in addition to it, or changes the correct reply.
 //!
 //! ```
 //! use ads_cnc_conformance::faults;
@@ -34,8 +34,8 @@ use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 struct Operator {
     name: &'static str,
     what: &'static str,
-    /// Requirements that the defect violates in addition to those of the function and its streams, if
-    /// they concern the function (see `concerns`).
+    /// Requirements that the defect violates in addition to those of the function and its streams,
+    /// if they concern the function (see `concerns`).
     breaks: &'static [ClauseId],
     applies: fn(&FunctionSpec) -> bool,
     answer: fn(&Upstream<'_>, &Call<'_>) -> ReplyData,
@@ -196,7 +196,8 @@ const OF_REQUESTS: &[Operator] = &[
     ),
 ];
 
-/// Defects that decode the request correctly, but send a wrong reply or execute the request wrongly.
+/// Defects that decode the request correctly, but send a wrong reply or execute the request
+/// wrongly.
 const OF_ANSWERS: &[Operator] = &[
     operator("empty", "a successful reply has no data", &[], has_reply, |cnc, call| {
         changed(cnc, call, Vec::clear)

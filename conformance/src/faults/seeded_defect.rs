@@ -16,16 +16,17 @@ use crate::text::named;
 pub struct SeededDefect {
     /// The ID, which is unique.
     pub id: String,
-    /// The requirements that the defect violates; if a reply can show the defect, the suite must report
-    /// that at least one of them failed. Empty for a valid variant.
+    /// The requirements, or parts of requirements, that the defect violates; empty for a valid
+    /// variant.
     pub requirements: Vec<&'static str>,
     pub what: String,
     /// The kind: codec, CNC or valid variant.
     pub kind: DefectKind,
-    /// The only edition in which the defect is detectable; `None` for both.
+    /// The only edition in which the defect is detectable; `None` if the defect is not limited to
+    /// an edition.
     pub edition: Option<Edition>,
     /// Whether the CNC with this seed claims to reply literally as in the manuals' printed examples
-    /// (`printed_examples` of its profile). False for valid variants that reply differently.
+    /// (`printed_examples` of its profile). False for some valid variants.
     pub printed: bool,
     pub(super) how: Mechanism,
 }
@@ -51,7 +52,8 @@ pub(super) enum Mechanism {
 
 impl From<FieldDefect> for SeededDefect {
     fn from(defect: FieldDefect) -> Self {
-        // The requirement of the stream, which specifies the offset of the field, and that of the field.
+        // The requirement of the stream, which specifies the offset of the field, and that of the
+        // field.
         let layout = defect.stream.layout();
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));

@@ -1,5 +1,5 @@
-//! Valid variants of a CNC: they behave differently from the simulated CNC, in ways that the manuals
-//! permit.
+//! Valid variants of a CNC: they behave differently from the simulated CNC, in ways that the
+//! manuals permit.
 
 mod elements;
 mod models;
@@ -18,8 +18,8 @@ use super::cnc::{
 };
 use row::{sent, unprinted};
 
-/// Changes the handles in replies with `other`, and changes the handles in requests back with the same
-/// function, which must be its own inverse.
+/// Changes the handles in replies with `other`, and changes the handles in requests back with the
+/// same function, which must be its own inverse.
 fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
     let spec = function(call).map(Function::spec);
     match spec.map(|spec| (first(spec.request), first(spec.reply))) {

@@ -6,7 +6,7 @@ use ads_cnc::ads::AmsNetId;
 
 use super::{Entry, Moment, Reason};
 
-/// The default AMS NetId of the simulated CNC.
+/// The default AMS NetId of the simulated CNC. Every AMS router uses it for its own machine.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
 /// The contents of a file of `--allow-write`: the target, the values that may be written, and the

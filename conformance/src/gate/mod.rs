@@ -1,5 +1,6 @@
-//! Decides which frames may be sent to a target. A frame may move a machine, so the gate rejects
-//! every frame that is not explicitly allowed.
+//! Decides which frames may be sent to a target. A frame may move a machine, so for a device the
+//! gate rejects every frame that neither the following defaults nor a file of `--allow-write`
+//! allow.
 //!
 //! [`Wire::send`](crate::net::Wire::send) sends a frame only with the [`Permit`] that
 //! [`Gate::check`] returns for the bytes of the frame. By default, the gate allows the queries of
@@ -10,8 +11,8 @@
 //! The file may contain a name, while a write contains a handle or an address instead, and only the
 //! device knows the name that belongs to this handle or address. Therefore, the gate records the
 //! names in replies. It rejects a write by a handle if a reply of the same channel contained the
-//! handle for a name that is not in the file, and a write to the address of an object if replies
-//! contained two names for the address: see [`Ambiguity`].
+//! handle for a variable that is not in the file, and a write to the address of an object if
+//! replies contained two names for the address: see [`Ambiguity`].
 //!
 //! ```
 //! use ads_cnc::Encode;

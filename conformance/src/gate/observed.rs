@@ -1,4 +1,5 @@
-//! Records the names that replies contain for handles and object addresses.
+//! Records the names of handles and object addresses: those in replies, and those in requests whose
+//! replies contain a handle.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,8 +10,8 @@ use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 use super::rejection::OBSERVATIONS_MAX;
 use super::{Allowed, Ambiguity, Entry};
 
-/// The names that replies contained for handles and object addresses. They decide which writes the
-/// gate allows.
+/// The names for which replies contained handles and object addresses. They decide which writes by
+/// a handle, and which writes to COM objects, the gate allows.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Observed {
     /// The names of each handle, by channel and handle. A channel by rank and the same channel by
@@ -35,8 +36,8 @@ struct HandleNames {
     allowed: BTreeMap<CncString, Sources>,
     /// The first axis and name for which a reply of the axis interface contained the handle.
     of_axis: Option<(ChannelAxis, CncString)>,
-    /// The first name that is not in the file, or the name in the first reply of the axis interface
-    /// for another axis or name than `of_axis`.
+    /// The first name that is not in the file, or the name in the first request to the axis
+    /// interface with another axis or name than `of_axis`, whichever was recorded first.
     foreign: Option<CncString>,
 }
 
@@ -188,8 +189,8 @@ impl Observed {
                 if is_named(allowed, op.list) =>
             {
                 let objects = self.lists.entry(op.list.index_group()).or_default();
-                // If the length has changed, the list has changed, so the recorded objects are
-                // discarded.
+                // If the length has changed or was unknown, the recorded objects may be those of an
+                // earlier list, so they are discarded.
                 if objects.count != Some(count.0) {
                     *objects =
                         ObservedObjects { count: Some(count.0), ..ObservedObjects::default() };

@@ -13,15 +13,15 @@ use super::{Entry, Moment};
 
 /// Maximum number of records of handles, names, addresses and list indices that the gate stores. If
 /// replies contain more, the gate rejects every write by handle, and every write to an object that
-/// the file allows by name, also on later connections.
+/// the file allows only by name, also on later connections.
 pub(super) const OBSERVATIONS_MAX: usize = 65_536;
 
 /// The rejection of a frame.
 #[derive(Clone, Debug)]
 pub struct GateRejection {
     pub reason: Reason,
-    /// The entry that would allow the frame, if a file lacks it; `None` in any other case, and for
-    /// a write by a handle.
+    /// The entry that would allow the frame, if there is no file or the file lacks the entry;
+    /// `None` in any other case, and for a write by a handle.
     pub needed: Option<Entry>,
 }
 
@@ -57,7 +57,7 @@ pub enum Reason {
     NoEntry(Function),
     /// The file is for another target.
     OtherTarget { allowed: AmsNetId, target: AmsNetId },
-    /// The file is for another IP address.
+    /// The file is for another IP address, or the address of the connection is unknown.
     OtherAddress {
         allowed: Option<IpAddr>,
         /// The address of the connection, if known.
@@ -68,7 +68,8 @@ pub enum Reason {
     LocalNetId(Option<IpAddr>),
     /// The file expires at this time, which has passed or is too near.
     Expired(Moment),
-    /// The name is in the file, but the handle or the address may also belong to another value.
+    /// The name or the address is in the file, but the handle or the address may also belong to
+    /// another value.
     Ambiguous(Function, Ambiguity),
     /// No file permits malformed requests to this target.
     NoMalformed(AmsNetId),

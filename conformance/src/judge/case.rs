@@ -10,7 +10,7 @@ use crate::text::{Pattern, named};
 /// A case of the suite.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The ID of the case, whose meaning never changes.
+    /// The ID of the case, whose meaning must not change.
     pub id: String,
     /// The verified behaviour, as a sentence; for a case of a vector or sequence, the title of the
     /// vector or sequence.
@@ -34,8 +34,9 @@ impl Case {
         }
     }
 
-    /// Whether a word is, or a pattern matches, the ID of the case, the ID of its vector or
-    /// sequence, or the name of its stream.
+    /// Whether a word is, or a pattern matches, the ID of the case, the ID of the vector or
+    /// sequence with which the case tests a codec, or the name that [`stream`](Self::stream)
+    /// returns.
     pub(crate) fn is_called(&self, word: &str) -> bool {
         let vector = self.stream().and_then(|_| Some(self.id.split_once('-')?.1));
         let names = [Some(self.id.as_str()), vector, self.stream()];
@@ -80,11 +81,13 @@ impl fmt::Display for CaseSubject {
 /// What a case requires of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
-    /// Well-formed queries.
+    /// Well-formed queries. The cases for a client have this value too, although they need no
+    /// target.
     Queries,
     /// Malformed requests, which are sent only to the simulated CNC or with `--malformed`.
     Malformed,
-    /// Writes of values that the file of `--allow-write` names; the suite restores each value.
+    /// Writes, which a device receives only for values that the file of `--allow-write` names; the
+    /// suite tries to restore the changed values.
     Writes,
     /// Malformed writes, and other writes that are sent only to the simulated CNC.
     MalformedWrites,
@@ -92,7 +95,7 @@ pub enum Needs {
     PrintedExamples,
     /// The frames exchanged by the other cases or by other clients.
     Frames,
-    /// No target: the case judges this project's codec.
+    /// No target: the case judges a codec, which is this project's codec or a testee.
     Codec,
 }
 
@@ -112,7 +115,7 @@ pub enum Body {
     Protocol,
     /// By checking a client's requests and actions.
     Client,
-    /// By the rules of [`rules`](crate::rules), for all replies of a run, or for the requests or
-    /// the replies in captured traffic.
+    /// By the rules of [`rules`](crate::rules), for the replies in a run against a target, or for
+    /// the requests or the replies in captured traffic.
     Traffic,
 }

@@ -1,10 +1,10 @@
-//! Attributes failed checks to their cause: the check of the violated clause fails, and a check that fails
-//! only as a consequence becomes inconclusive.
+//! Attributes failed checks to their cause: the check of the violated clause fails, and a check
+//! that fails only as a consequence becomes inconclusive.
 //!
 //! For example, a wrong size in a description makes every comparison with that size fail. The first
 //! failing function of a chain (`chain.rs`) shows which clause is violated. Therefore, while a
 //! check of an earlier function fails for a variable or object, a failed check of a later function
-//! for the same variable or object does not count against its own clause.
+//! for the same variable or object usually does not count against its own clause.
 
 use std::collections::HashSet;
 
@@ -17,11 +17,11 @@ use super::root::{FailedCheck, Root, checks, is_broken, is_deviation, is_of_devi
 use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
 
 /// Clauses whose checks detect one specific error, such as reversed bytes. A violation of another
-/// clause does not cause this error, so [`cause`] returns `None` for a failed check of these
-/// clauses.
+/// clause is not considered the cause of this error: [`cause`] returns `None` for a failed check of
+/// these clauses.
 const SPECIFIC: [ClauseId; 7] = [GEN_1, GEN_2, GEN_3, ADR_6, ADS_2, ADS_5, ADS_7];
 
-/// Clauses that apply to many functions: an error of one function also makes a check of these
+/// Clauses that apply to many functions: an error of one function can also make a check of these
 /// clauses fail.
 const GENERAL: [ClauseId; 5] = [ADS_1, ADS_3, GEN_5, GEN_6, OBJ_1];
 
@@ -85,7 +85,7 @@ fn request_of(roots: &[Root<'_>]) -> Option<(&'static str, Vec<Function>)> {
     })
 }
 
-/// The clause whose failure explains the failure of `check`; `None` if no other failure explains it.
+/// The clause whose failure explains the failure of `check`; `None` if no such clause is found.
 fn cause(
     check: FailedCheck<'_>,
     Causes { roots, service, is_one_chain, request }: &Causes<'_>,
@@ -95,8 +95,8 @@ fn cause(
         return None;
     }
     if clause == SVC_1.as_str() {
-        // If the same function also fails for variables outside the Service Interface, the function
-        // is the cause.
+        // If a check of the same function fails several times, and its stored failure is about a
+        // variable outside the Service Interface, the function is the cause.
         let is_of_all =
             |root: &&Root<'_>| root.is_not_of_services() && function == Some(root.function);
         return roots.iter().find(is_of_all).map(|root| root.check.clause());
@@ -151,11 +151,11 @@ fn cause(
 }
 
 /// Finds the violated clause if `check` judges several clauses at once: another of these clauses
-/// that can explain the failure (`can_explain`), if `alone` contains a check of this clause for the
-/// same subject, and for the function of `check`, a function with which `check` compares, or an
-/// earlier function. `None` if `alone` contains a check of the clause of `check`, or if that clause
-/// is in [`GENERAL`]. `alone` contains the failed checks without a cause that judge only one
-/// clause.
+/// that can explain the failure (`can_explain`), if `alone` contains a check of this clause whose
+/// subject permits this (`is_about_all_of`), and which is for the function of `check`, a function
+/// with which `check` compares, or an earlier function. `None` if `alone` contains a check of the
+/// clause of `check`, or if that clause is in [`GENERAL`]. `alone` contains the checks with the
+/// verdict `Fail` and without a cause that judge no other clause with this verdict.
 fn single_out(check: FailedCheck<'_>, alone: &[FailedCheck<'_>]) -> Option<&'static str> {
     let clause = check.clause();
     if alone.iter().any(|one| one.clause() == clause) || is_one_of(clause, &GENERAL) {
@@ -179,8 +179,8 @@ fn single_out(check: FailedCheck<'_>, alone: &[FailedCheck<'_>]) -> Option<&'sta
     check.judgement.together.iter().copied().find(explains)
 }
 
-/// Follows the causes from `cause` to a clause with a failed check that has no cause. `None` if there
-/// is no such clause: then the check counts as failed by itself.
+/// Follows the causes from `cause` to a clause with a failed check that has no cause. `None` if
+/// there is no such clause: then the check counts as failed by itself.
 fn settle(
     cause: &'static str,
     clauses: &[&'static str],
@@ -203,9 +203,10 @@ fn settle(
     None
 }
 
-/// Makes a failed check inconclusive if it only follows from another failure: of an earlier
-/// function, of a service, of a shared request, of a simpler comparison, or of another clause that
-/// the same check judges. A warning or a difference that follows from a failure keeps its verdict.
+/// Makes a failed check inconclusive if it only follows from another failure, such as one of an
+/// earlier function, of a service, of a shared request, of a simpler comparison, or of another
+/// clause that the same check judges. A warning or a difference that follows from a failure keeps
+/// its verdict. Checks of a codec, a testee or a client are not changed.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     let failed_checks: Vec<FailedCheck<'_>> = checks(outcomes, is_broken).collect();
     let causes = Causes::of(&failed_checks);
@@ -374,7 +375,8 @@ mod tests {
         }
     }
 
-    /// A check without a function, for a clause that defines no function, does not follow from a failure.
+    /// A check without a function, for a clause that defines no function, does not follow from the
+    /// failure of one function.
     #[test]
     fn a_clause_without_a_function_does_not_follow() {
         let count = ("count", COM_1, Function::CountObjects, "");
@@ -418,8 +420,8 @@ mod tests {
         ];
         let follows = follows_from(VAR_3);
         assert_eq!(attributed(&all), [follows, FAILS, follows, FAILS]);
-        // If the clause of the request fails for one function only, it does not explain a failure of
-        // another function.
+        // If the clause of the request fails for one function only, it does not explain the failure
+        // of the other function with this request.
         assert_eq!(attributed(&all[..3])[2], FAILS);
     }
 
@@ -448,7 +450,8 @@ mod tests {
         assert_eq!(attribute_one(&mut [both]), [None]);
     }
 
-    /// A request that was accepted although it must be rejected explains no failure of a later function.
+    /// A request that was accepted although it must be rejected explains no failure of a later
+    /// function.
     #[test]
     fn a_missing_rejection_explains_no_later_function() {
         let mut accepted = outcome(("far", VAR_2, Function::CountVariables, "V.E.a"));

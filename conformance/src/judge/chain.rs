@@ -1,5 +1,6 @@
-//! The chains of functions, and the clauses that define a function. In a chain, the replies of earlier
-//! functions determine the requests of a later function, or the expected values in its replies.
+//! The chains of functions, and the clauses that define a function. In a chain, the replies of
+//! earlier functions determine the requests of a later function, or the expected values in its
+//! replies.
 
 use std::collections::HashSet;
 
@@ -38,8 +39,8 @@ pub(super) fn before(function: Function) -> HashSet<Function> {
     all
 }
 
-/// Whether the requests of `function`, or the expected values in its replies, depend on the replies of
-/// `earlier`.
+/// Whether the requests of `function`, or the expected values in its replies, depend on the replies
+/// of `earlier`.
 pub(crate) fn follows(function: Function, earlier: Function) -> bool {
     before(function).contains(&earlier)
 }
@@ -67,8 +68,8 @@ pub(super) fn defines(clause: &str, function: Function) -> bool {
     spec.clause == clause || streams.any(|stream| clauses_of(stream).any(|one| one == clause))
 }
 
-/// Whether the clause belongs to an area whose clauses define functions, so that its failure shows that a
-/// function is wrong.
+/// Whether the clause belongs to an area whose clauses are about particular functions, so that its
+/// failure can show that a function is wrong.
 pub(super) fn is_of_functions(clause: &str) -> bool {
     let area = clause.split_once('-').map_or(clause, |(area, _)| area);
     !matches!(area, "GEN" | "ADR" | "ADS" | "OBJ")
@@ -78,7 +79,7 @@ pub(super) fn is_of_functions(clause: &str) -> bool {
 /// both clauses define the same function, if `clause` defines an earlier function than `cause`, or
 /// if only `clause` defines a function.
 pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
-    // All clauses of streaming are about one function.
+    // Every clause of streaming (STM) counts as a clause of this function.
     let is_of = |clause: &str, function| {
         defines(clause, function)
             || clause.starts_with("STM") && function == Function::WriteProgramStream

@@ -40,8 +40,8 @@ impl Stop {
 }
 
 /// An error that a case returns with `?` counts as an error of the suite, such as a request that
-/// cannot be encoded. Therefore a case must turn a reply that cannot be decoded into a failed check
-/// or `None`.
+/// cannot be encoded. Therefore a case must not return the error of a reply that cannot be decoded
+/// with `?`.
 impl<E: Error> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Harness(error.to_string())
@@ -74,11 +74,10 @@ impl<T> OrStop<T> for Option<T> {
 
 /// Continues a case without a value.
 pub(crate) trait IfPresent<T> {
-    /// Returns the value, or `None` if the target does not have it.
+    /// Returns the value, or `None` if the step ended as not applicable.
     fn if_applicable(self) -> Step<Option<T>>;
 
-    /// Returns the value, or `None` if the target does not have the value or the value could not be
-    /// read. Other cases judge whether the value can be read.
+    /// Returns the value, or `None` if the step ended as not applicable or as inconclusive.
     fn if_known(self) -> Step<Option<T>>;
 }
 
@@ -102,7 +101,8 @@ impl<T> IfPresent<T> for Step<T> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
     pub id: &'static str,
-    /// The level; `None` if `Rule::of` does not find the ID in the catalogue.
+    /// The level; `None` if it is not known, such as for an ID that `Rule::of` does not find in the
+    /// catalogue.
     pub level: Option<Level>,
 }
 
@@ -188,8 +188,9 @@ pub struct Judgement {
     pub follows: Option<&'static str>,
 }
 
-/// Maximum number of failed checks that a case stores for a requirement and a verdict; further
-/// checks are counted. A check with a new value of `together` is stored in addition.
+/// Maximum number of checks that a record stores for a requirement and a verdict other than
+/// [`Verdict::Pass`]; further checks are counted. A check with a new value of `together` is stored
+/// in addition.
 const STORED_MAX: usize = 3;
 
 /// Maximum number of characters of the expected and of the actual result.
@@ -219,8 +220,8 @@ impl Rule {
     /// The rule of the protocol between the suite and a client, which is not in the catalogue.
     pub(crate) const CLIENT: Self = Self { id: CLIENT, level: Some(Level::Must) };
 
-    /// The rule for an ID that is given as text, by the codec's tables or a vector. The ID of a
-    /// part of a requirement gives a rule with the ID of the requirement and the level of the part.
+    /// The rule for an ID that is given as text, such as by the codec's tables. The ID of a part of
+    /// a requirement gives a rule with the ID of the requirement and the level of the part.
     pub(crate) fn of(id: &'static str) -> Self {
         let clause = clause(id);
         let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
@@ -257,8 +258,8 @@ impl Record {
         self.add_rules(&rules, passed, &words.unwrap_or_default(), &evidence);
     }
 
-    /// Adds a check. For a requirement, only the first passed check is stored, and the first
-    /// [`STORED_MAX`] checks with each other verdict.
+    /// Adds a check. For a requirement, only the first passed check is stored; [`STORED_MAX`]
+    /// limits the stored checks with another verdict.
     pub(crate) fn add(
         &mut self,
         rule: Rule,
@@ -272,8 +273,8 @@ impl Record {
         self.add_one(rule, verdict, Vec::new(), &words.unwrap_or_default(), &evidence);
     }
 
-    // The two functions above are compiled once for each combination of argument types, so they
-    // contain only code that depends on these types.
+    // The two functions above are compiled once for each combination of argument types, so most of
+    // the code that does not depend on these types is in the functions below.
 
     fn add_rules(
         &mut self,

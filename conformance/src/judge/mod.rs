@@ -45,6 +45,6 @@ pub const CLIENT: &str = "CLIENT";
 /// The start of the note of a case whose streams the testee does not claim.
 pub(crate) const NOT_CLAIMED: &str = "the testee does not claim ";
 
-/// The expected result of the first check of a testee or client. If this check fails, nothing else
-/// is judged.
+/// The expected result of the check of the answer to `hello`, which is the first step of the
+/// protocols with a testee and a client. If this check fails, no case is run.
 pub const HELLO: &str = "an answer to hello";

@@ -55,7 +55,7 @@ pub struct Unmatched {
 pub struct Plan {
     /// The cases to run; pass their outcomes to [`finish`](Self::finish).
     pub cases: Vec<Case>,
-    /// Cases that do not belong to the edition, each with the reason.
+    /// Selected cases that do not belong to the edition, each with the reason.
     pub foreign: Vec<(Case, String)>,
     /// The cases that were not selected.
     left_out: Vec<Case>,
@@ -152,8 +152,9 @@ impl Selection {
 }
 
 impl Plan {
-    /// Adds all query cases if the only selected cases of the target judge frames, because these
-    /// cases need the frames of other cases. The outcomes of the added cases are not reported.
+    /// Adds the query cases of the target that are not selected, if the only selected cases of the
+    /// target judge frames, because these cases need the frames of other cases. The outcomes of the
+    /// added cases are not reported.
     fn carry_frames(&mut self) {
         let of_target = |case: &&Case| case.subject == CaseSubject::Target;
         let frames = |case: &Case| case.needs == Needs::Frames;
@@ -187,8 +188,8 @@ impl Plan {
                 Some(judged) if judged.is_empty() => continue,
                 Some(judged) => {
                     left_out.push(left(&outcome.case, judged));
-                    // Harness errors are always kept. A violation of the client protocol is always
-                    // kept too, because it makes the other verdicts meaningless.
+                    // Harness errors are kept. A violation of the client protocol is kept too,
+                    // because it can make the other verdicts meaningless.
                     outcome.verdicts.retain(|one| {
                         judged.contains(&one.requirement)
                             || one.verdict == Verdict::HarnessError
@@ -225,8 +226,8 @@ pub(crate) fn names(word: &str, id: &str) -> bool {
         })
 }
 
-/// The word that selects the section of a source in all editions of the manual: ads:4.3.2 for ads-en
-/// and ads-de.
+/// The word that selects the section of a source in all editions of the manual: ads:4.3.2 for
+/// ads-en and ads-de.
 fn section(source: &Source) -> String {
     let manual = source.document.split('-').next().unwrap_or_default();
     format!("{manual}:{}", source.section)
@@ -265,8 +266,8 @@ fn foreign(case: &Case, edition: Edition) -> Option<String> {
     Some(format!("{edition} {why}"))
 }
 
-/// The sort key of a case: FNV-1a over seed and ID, mixed as in splitmix64. The standard library has
-/// no such hash, and a seed in a report must mean the same order in every version.
+/// The sort key of a case: FNV-1a over seed and ID, mixed as in splitmix64. The standard library
+/// has no such hash, and a seed in a report must mean the same order in every version.
 pub(crate) fn order(seed: u32, id: &str) -> u64 {
     let hash = digest(&[&seed.to_le_bytes()[..], id.as_bytes()].concat());
     let hash = (hash ^ (hash >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

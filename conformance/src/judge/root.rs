@@ -11,8 +11,8 @@ pub(super) const fn is_broken(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Fail | Verdict::Vacuous)
 }
 
-/// Whether a check with this verdict deviates from a clause without failing the run. Such a check is not
-/// the cause of another failure.
+/// Whether a check with this verdict deviates from a clause without failing the run. Such a check
+/// is not the cause of another failure.
 pub(super) const fn is_deviation(verdict: Verdict) -> bool {
     matches!(verdict, Verdict::Warning | Verdict::Differs)
 }
@@ -63,7 +63,7 @@ impl<'a> FailedCheck<'a> {
         self.first_subject().filter(|_| self.judgement.more == 0)
     }
 
-    /// The functions whose replies the check compares.
+    /// The functions whose replies the check may compare.
     pub(super) fn compared(self) -> &'a [Function] {
         self.judgement.evidence.as_ref().map_or(&[], |evidence| &evidence.compared)
     }
@@ -141,7 +141,8 @@ impl<'a> Root<'a> {
 /// The roots that no other root explains.
 pub(super) fn roots<'a>(broken: &[FailedCheck<'a>]) -> Vec<Root<'a>> {
     let mut all: Vec<Root<'_>> = broken.iter().filter_map(|check| Root::of(*check)).collect();
-    // A root that compares fewer replies comes first, because only such a root explains a comparison.
+    // A root that compares fewer replies comes first, because only such a root explains a
+    // comparison.
     all.sort_by_key(|root| root.check.compared().len());
     let mut simplest: Vec<Root<'_>> = Vec::new();
     for root in all {

@@ -27,7 +27,8 @@ pub enum Verdict {
     NotApplicable,
     /// No check concerned the requirement.
     NotObserved,
-    /// The case was not run, for example because the gate does not permit its requests.
+    /// The case was not run or ended early, for example because the gate does not permit its
+    /// requests.
     NotRun,
     /// The run was interrupted before or during the case.
     Interrupted,

@@ -17,7 +17,8 @@
 //!
 //! A waiver is stale if it has expired, if no case has its ID and requirement, or if the verdict
 //! differs. A stale waiver makes the run end with exit code 5, unless another exit code takes
-//! precedence. A waiver whose case exists but was not run is stale only if it has expired.
+//! precedence. A waiver whose case exists but was not run or was interrupted is stale only if the
+//! waiver has expired.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -72,7 +73,8 @@ pub enum WaiverState {
     NotRun,
     /// The waiver has expired. Stale.
     Expired,
-    /// No case has this ID and requirement, not even a case that was not run. Stale.
+    /// No case of the run or of the cases that were not selected has this ID and requirement.
+    /// Stale.
     Unmatched,
     /// The verdict differs from the waived verdict. Stale.
     Otherwise,

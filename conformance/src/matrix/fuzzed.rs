@@ -1,5 +1,5 @@
-//! The fuzz targets for each stream and sequence. The crate of the fuzz targets depends on this
-//! crate, and a test in that crate verifies that these targets exist.
+//! The fuzz targets for the streams of vectors and the kinds of sequences. The crate of the fuzz
+//! targets depends on this crate, and a test in that crate verifies that these targets exist.
 
 use std::collections::BTreeSet;
 

@@ -142,8 +142,8 @@ struct DescribedVariable {
     handle: Option<Handle>,
 }
 
-/// Reads the description by name; `None` if the CNC returns an error or an invalid reply: a CNC
-/// need not have this function, which is documented online only.
+/// Reads the description by name; `None` if the CNC returns an ADS error or a reply that cannot be
+/// decoded: a CNC need not have this function, which is documented online only.
 fn described(
     session: &mut Session,
     channel: Channel,
@@ -163,8 +163,8 @@ fn described(
 }
 
 /// Searches the descriptions by index of the variable's kind; `None` for a kind without indices, if
-/// no description has the name, and if the CNC returns an error. The axis interface has the same
-/// variables as the channel interface, without the axis in their names (assumed).
+/// no description has the name, and if the CNC returns an ADS error. The axis interface is assumed
+/// to have the V.A variables of the channel interface, without the axis in their names.
 fn listed(
     session: &mut Session,
     channel: Channel,

@@ -17,7 +17,8 @@ use ads_cnc::{CncString, Error, ErrorKind, Handle};
 
 use crate::session::{Session, ToolError};
 
-/// The address of a value. A variable has several addresses: its handle and its name, for example.
+/// The address of a value. A variable may have several addresses: its handle and its name, for
+/// example.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ValueAddress {
     /// A variable, addressed by its handle; if there are indices, the element with these indices.

@@ -16,8 +16,8 @@ use crate::text::{escape_lines, json_error, plural};
 /// 16,000 bytes if its JSON has no blanks between the tokens.
 pub const LINE_MAX: usize = 1 << 18;
 
-/// Maximum number of commas, `[` and `{` in a line. Each of these characters may begin a JSON
-/// value, which occupies much more memory than its text when it is parsed.
+/// Maximum number of commas, `[` and `{` in a line. A JSON value may begin at or after each of
+/// these characters, and may occupy much more memory than its text when it is parsed.
 const VALUES_MAX: usize = 1 << 13;
 
 /// Maximum number of bytes of stderr that are stored; only the last bytes are stored.
@@ -217,8 +217,8 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 /// ```
 ///
 /// # Errors
-/// If a line has more than `most` bytes without its line end. A part of the line has then been read
-/// and is lost, so the rest of the stream cannot be read as lines.
+/// If a line has more than `most` bytes without its line end. The bytes read are then lost, and the
+/// rest of the line may not have been read, so the stream must not be read any further.
 pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>, String>> {
     let limit = u64::try_from(most).unwrap_or(u64::MAX).saturating_add(2);
     let mut line = Vec::new();

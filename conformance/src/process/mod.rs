@@ -48,7 +48,7 @@ pub fn shell(line: &str) -> Command {
 
 type SharedChild = Mutex<Box<dyn ChildWrapper>>;
 
-/// The commands that were started and not dropped.
+/// The commands that were started; one that was dropped is removed at the next start.
 static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 
 /// A running command. Dropping it ends the command and the processes that it started, even if the

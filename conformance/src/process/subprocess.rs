@@ -20,7 +20,7 @@ pub enum Reaction<A> {
     Died(String),
     /// No line arrived within this time limit.
     Silent(Duration),
-    /// The program could not be started, is not running, or the wait was interrupted.
+    /// The program could not be started or is not running, or a signal interrupted the exchange.
     Broken(String),
 }
 
@@ -127,8 +127,8 @@ impl Subprocess {
         self.running.take().map_or((None, None), |running| running.finish(limit))
     }
 
-    /// Sends the line that tells a running program to end. Returns whether it ended with exit code
-    /// 0, and the first line that it sent before.
+    /// Sends the line that tells a running program to end. Returns an error if it does not end in
+    /// time with exit code 0, and the first line that it sent before; no error if no program runs.
     pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
         if self.running.is_none() {
             return (Ok(()), None);

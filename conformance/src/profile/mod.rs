@@ -48,7 +48,7 @@ pub struct Profile {
     /// The sections of the manuals that the target claims.
     pub sections: Cow<'static, [Section]>,
     /// The claimed functions of these sections, by their names in the function table; `None` for
-    /// all.
+    /// all, except that the version decides about the description by name.
     pub functions: Option<Cow<'static, [Cow<'static, str>]>>,
     /// Whether the target answers the printed examples with the printed values.
     pub printed_examples: bool,

@@ -49,7 +49,7 @@ pub struct RunInfo {
     /// The command that repeats the run, without `--only`, `--seed`, `--waivers` and the options
     /// that write files or affect only the output; `None` for a capture.
     pub again: Option<String>,
-    /// The duration of the cases of each subject.
+    /// The measured durations of the cases, by subject.
     pub times: Vec<(CaseSubject, Duration)>,
     /// Values that were changed and not restored.
     pub left_changed: Vec<UnrestoredValue>,
@@ -151,7 +151,7 @@ impl Report {
     }
 }
 
-/// The reasons why the gate rejected requests, each once, after the IDs of the cases of these
+/// The reasons why the gate rejected requests, each once, after the first IDs of the cases of these
 /// requests.
 fn rejected(outcomes: &[CaseOutcome]) -> Vec<String> {
     let mut cases: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
@@ -214,8 +214,9 @@ fn totals(requirements: &[RequirementReport]) -> Totals {
     totals
 }
 
-/// The verdict on a requirement over all cases. If no case has the requirement, the verdict is "not
-/// observed", or "not run" if the requirement was not selected.
+/// The verdict on a requirement over all these cases. If no case has the requirement, the verdict
+/// is "not observed", or "not run" if there are words in `only` and none of them names the
+/// requirement.
 fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> RequirementReport {
     let all = cases.iter().flat_map(|case| &case.requirements);
     let mine: Vec<_> = all.filter(|one| one.requirement == id).collect();
@@ -225,9 +226,9 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The verdict of a group, and whether this verdict is waived: the gravest of the verdicts that fail
-/// the run and are not waived; without such a verdict, the gravest waived verdict; without a waived
-/// verdict, the gravest verdict.
+/// The verdict of a group, and whether this verdict is waived: the gravest of the verdicts that
+/// fail the run and are not waived; without such a verdict, the gravest waived verdict; without a
+/// waived verdict, the gravest verdict.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(verdict, waived)| !waived && verdict.fails_run());
     let known = verdicts.clone().filter(|(_, waived)| *waived);
@@ -367,7 +368,8 @@ mod tests {
     use super::*;
     use crate::judge::RequirementVerdict;
 
-    /// A warning that is graver than an inconclusive verdict does not hide it behind a waived verdict.
+    /// A warning that is graver than an inconclusive verdict does not hide it behind a waived
+    /// verdict.
     #[test]
     fn a_verdict_that_fails_the_run_is_shown() {
         let verdicts =

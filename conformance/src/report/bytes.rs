@@ -1,4 +1,4 @@
-//! Bytes field by field, with marks on the bytes that differ from the expected bytes.
+//! Bytes field by field, with marks on bytes such as those that differ from the expected bytes.
 
 use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
 use ads_cnc::layout::Stream;
@@ -40,8 +40,9 @@ pub struct FieldReport {
     /// The meaning of the field.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub meaning: String,
-    /// Offsets within the field of the marked bytes: those that differ from the expected bytes, or
-    /// all bytes of a field that is known to be wrong.
+    /// Offsets within the field of the marked bytes: those that differ from the compared bytes (for
+    /// received bytes, the expected bytes, and the reverse), or all bytes of a field that is known
+    /// to be wrong.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub differs: Vec<usize>,
 }
@@ -71,8 +72,9 @@ impl BytesReport {
         report
     }
 
-    /// The headers of a frame and, if the frame is short, the fields of its service, with offsets in
-    /// the frame. Marks invalid fields and, for a reply to `request`, wrong bytes of the headers.
+    /// The headers of a frame and, if the frame is short, the fields of its service, with offsets
+    /// in the frame. Marks invalid fields and, for a reply to `request`, wrong bytes of the
+    /// headers.
     pub(super) fn of_frame(frame: &[u8], request: Option<&[u8]>) -> Vec<Self> {
         if frame.is_empty() {
             return Vec::new();

@@ -80,7 +80,8 @@ fn unstarted(
     writeln!(out, "{verdict}  {}", shorten(&what, RESULT_MAX.saturating_mul(2)))?;
     let stderr = report.target.stderr.as_deref().unwrap_or_default();
     let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
-    // If the testee has ended, `found` already contains the end of its stderr, which may be any text.
+    // If the testee has ended, `found` already contains the end of its stderr, which may be any
+    // text.
     let (reaction, own) = found.split_once("; its stderr ends with: ").unwrap_or((found, ""));
     if let Some(last) = last.filter(|_| own.is_empty()) {
         writeln!(out, "  stderr: {}", shorten(last, RESULT_MAX))?;
@@ -192,7 +193,7 @@ fn of_cases(cases: &[&CaseReport]) -> Totals {
     totals
 }
 
-/// Writes a line for each subject, each followed by the notes of its cases.
+/// Writes a line for each subject, each followed by the most common notes of its cases.
 fn parts(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let width = report.subjects.iter().map(|one| one.subject.name().len()).max();
     let width = width.unwrap_or_default();
@@ -299,8 +300,8 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
 /// Maximum number of suggested waivers that are printed.
 const WAIVABLE_MAX: usize = 20;
 
-/// Prints a waiver for each failure that is not waived, or, without such a failure, for each
-/// inconclusive verdict that is not waived.
+/// Prints a waiver for each failure of a requirement of the catalogue that is not waived, or,
+/// without such a failure, for each such inconclusive verdict; at most [`WAIVABLE_MAX`] waivers.
 fn waivable(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let sorted = report.sorted();
     let with = |wanted: &[Verdict]| -> Vec<(&str, &RequirementReport)> {

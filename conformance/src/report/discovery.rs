@@ -1,4 +1,5 @@
-//! The ports, channels, axes, spindles and lists that the run found by queries before the first case.
+//! The ports, channels, axes, spindles and lists that the run found by queries before the first
+//! case.
 
 use serde::{Deserialize, Serialize};
 

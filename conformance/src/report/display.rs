@@ -10,7 +10,7 @@ pub enum Detail {
     /// Only the last line and, above it, the stale waivers, the requirements whose cause the run
     /// does not judge, and the rejected requests.
     Quiet,
-    /// A line for each subject, and each failed clause once.
+    /// A line for each subject, and the groups of checks that did not pass, up to a maximum number.
     #[default]
     Normal,
     /// Also every case, and the verdicts on the requirements by area.

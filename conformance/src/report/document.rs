@@ -32,7 +32,8 @@ pub struct Report {
     /// Requests and entries that were rejected for safety, with the reasons.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rejected: Vec<String>,
-    /// Names of the values that were changed; all were restored, except those in `left_changed`.
+    /// Names of the values that the run wrote or tried to write; those that are not in
+    /// `left_changed` were restored, or change by themselves.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub written: Vec<String>,
     /// The version of the suite.
@@ -51,7 +52,8 @@ pub struct Report {
     /// For a capture: its content, and the parts that were not judged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub traffic: Vec<String>,
-    /// For a capture: its first exchanges, each a line with packet, function, address and result.
+    /// For a capture: its first exchanges, each a line with packet, function or address, and
+    /// result.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub exchanges: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -152,8 +154,8 @@ pub struct AreaReport {
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     pub requirement: String,
-    /// The gravest verdict that is not waived, if this verdict fails the run; otherwise the gravest
-    /// waived verdict; without a waived verdict, the gravest verdict.
+    /// The gravest of the verdicts that fail the run and are not waived; without such a verdict,
+    /// the gravest waived verdict; without a waived verdict, the gravest verdict.
     pub verdict: Verdict,
     /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -225,14 +227,14 @@ pub struct FailureReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EvidenceReport {
-    /// Address and service of the request.
+    /// The request in words, for example its service and address.
     pub call: String,
-    /// The variable or object of the request.
+    /// The variable or object that the exchange is about, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
     /// The result in a few words.
     pub result: String,
-    /// Data of the request.
+    /// Data of the request, or bytes that are not a request.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sent: Option<BytesReport>,
     /// Data of the reply.

@@ -1,5 +1,5 @@
-//! Shows the checks that did not pass as text: on the console, each failed clause once, and in
-//! parts of the formats HTML, JUnit and Markdown.
+//! Shows the checks that did not pass as text: on the console, in groups, and in parts of the
+//! formats HTML, JUnit and Markdown.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
@@ -121,8 +121,9 @@ pub(super) fn differing_field(text: &str) -> Option<&str> {
     (!path.contains(' ') && difference.contains(" is expected")).then_some(path)
 }
 
-/// Describes the first field whose value differs from the expected value, if the received and the
-/// expected bytes have the same number of fields.
+/// Describes the first field with a marked byte and the expected field; `None` if their values are
+/// equal or unknown, if the received bytes are invalid, or if the received and the expected bytes
+/// have different numbers of fields.
 fn differing(evidence: &EvidenceReport) -> Option<String> {
     let (received, expected) = evidence.received.as_ref().zip(evidence.expected.as_ref())?;
     if !received.faults.is_empty() || received.fields.len() != expected.fields.len() {

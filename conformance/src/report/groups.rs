@@ -18,7 +18,8 @@ pub(super) struct Group<'r> {
     pub(super) requirements: Vec<&'r str>,
     /// The case and one failure of each check.
     checks: Vec<(&'r CaseReport, &'r FailureReport)>,
-    /// The cases with checks that follow from these failures, each with the clauses of these checks.
+    /// The cases with checks that follow from these failures, each with the clauses of these
+    /// checks.
     pub(super) followers: BTreeMap<&'r str, BTreeSet<&'r str>>,
 }
 
@@ -66,8 +67,8 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 vacuous.extend(finding.iter().map(|one| (cause.clone(), *one, case)));
                 continue;
             }
-            // If a testee ends or does not answer, the failures of all streams have one cause, so
-            // put them into one group.
+            // If a testee ends, the failures of all streams probably have one cause, so put them
+            // into one group; the same if it does not answer.
             let stream = case.stream.as_deref();
             let lost =
                 stream.and_then(|_| LOST.into_iter().find(|kind| first.found.starts_with(kind)));
@@ -233,7 +234,7 @@ impl<'r> Group<'r> {
             // suite must also run all query cases.
             let is_of_replies = case.id.starts_with("replies-");
             // For other cases than vectors and sequences, the size is 0, so that the first check is
-            // chosen, because it is the closest to the cause.
+            // chosen, because it is usually the closest to the cause.
             let size = if is_vector { size(failure) } else { 0 };
             (!of_clause(failure), !is_of_own_stream(failure), is_of_replies, size)
         });

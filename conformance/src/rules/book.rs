@@ -1,4 +1,4 @@
-//! The records of all checks, and the knowledge of each CNC.
+//! The records of all checks, and the knowledge of the CNCs.
 
 use std::collections::BTreeMap;
 
@@ -15,12 +15,13 @@ use crate::exchange::{Exchange, Violation};
 /// and the fields of the service are judged.
 const CNCS_MAX: usize = 64;
 
-/// The checks of all exchanges, and the state of each CNC as far as the exchanges have shown it.
+/// The checks of all exchanges, and the state of at most [`CNCS_MAX`] CNCs as far as the exchanges
+/// have shown it.
 #[derive(Debug)]
 pub(crate) struct RuleBook {
     pub(crate) records: TopicRecords,
     cncs: BTreeMap<AmsNetId, Knowledge>,
-    /// Whether requests that may have changed the state of a CNC are missing.
+    /// Whether requests that changed the state of a CNC may be missing.
     is_lost: bool,
     budget: MemoryBudget,
 }
@@ -43,7 +44,8 @@ impl RuleBook {
         Self { records: TopicRecords::new(), cncs: BTreeMap::new(), is_lost, budget }
     }
 
-    /// Number of entries that were not stored, so that later exchanges were not compared with them.
+    /// Number of entries that were not stored for lack of memory, so that later exchanges were not
+    /// compared with them.
     pub(crate) const fn missed(&self) -> u64 {
         self.budget.missed
     }
@@ -66,8 +68,8 @@ impl RuleBook {
     }
 
     /// Judges a request. Returns the service and the address of the request as text if no function
-    /// has this address, or if the request may access content at this address (SDA-12): such a
-    /// request is not judged.
+    /// is found for the request, or if the request may access content at this address (SDA-12):
+    /// such a request is not judged.
     pub(crate) fn request(
         &mut self,
         observation: &dyn Observation,

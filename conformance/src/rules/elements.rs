@@ -1,4 +1,4 @@
-//! Instances and elements of SDA and GEO, compared across exchanges.
+//! Checks of instances and elements of SDA and GEO; those of elements also compare exchanges.
 
 use std::fmt::Display;
 
@@ -36,8 +36,9 @@ fn name_rule(name: &str) -> Rule {
     if is_alike { assumed(SDA_7) } else { SDA_7.into() }
 }
 
-/// The rules for the length of an element of a known type: the rule of the type, of the length
-/// attribute and of the size of the type. A failure does not show which of them is violated.
+/// The rules for the length of an element of a known type with a fixed size: the rule of the type,
+/// of the length attribute and of the size of the type. A failure does not show which of them is
+/// violated.
 const LENGTH_RULES: [ClauseId; 3] = [SDA_7, SDA_8, GEN_5];
 
 /// Checks the name of an element's type. Returns the type if `element_type` knows the name.

@@ -114,7 +114,8 @@ impl ExchangeJudge<'_> {
             let asked = if exact { read.count() } else { 1 };
             let expected = asked.min(left);
             // The manual states neither the reply to a request for more descriptors than are left
-            // nor the reply to another read length: for such a request, the rule is assumed.
+            // nor the reply to a read length that is not a multiple of the length of a descriptor:
+            // for such a request, the rule is assumed.
             let rule: Rule = if exact && asked <= left { COM_3.into() } else { assumed(COM_3) };
             let passed = u32::try_from(given.len()) == Ok(expected);
             let expected =
@@ -135,8 +136,9 @@ impl ExchangeJudge<'_> {
             if list.ids.contains_key(&object.id()) || self.budget.take(0) {
                 list.ids.insert(object.id(), index);
             }
-            // An object after the last object is an error of this reply. The object is not stored,
-            // because otherwise the next number of objects would be reported as wrong.
+            // An object after the last object is an error of this reply. Its descriptor is not
+            // stored in `known`, because otherwise the next number of objects would be reported as
+            // wrong.
             let is_listed = count.is_none_or(|count| index <= count);
             if is_listed && (known.is_some() || self.budget.take(0)) {
                 list.known.insert(index, (owned, alone));

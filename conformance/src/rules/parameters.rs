@@ -119,7 +119,8 @@ mod tests {
         record.judgements.iter().any(|one| one.requirement == "DYN-5")
     }
 
-    /// A rejection shows that an index does not exist, but not that an index within the number does.
+    /// The rejection of an index greater than the number of parameters passes DYN-5; the rejection
+    /// of an index within this number passes nothing.
     #[test]
     fn a_rejected_index_within_the_number_passes_nothing() {
         let (channel, mut book) = (Channel::new(1).unwrap(), RuleBook::new(false));

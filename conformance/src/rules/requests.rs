@@ -37,7 +37,7 @@ pub(super) fn headers(
 }
 
 /// Judges a request. Returns the service and the address of the request as text if the request is
-/// not judged, because no function has this address or because the request may access content.
+/// not judged, because no function is found for the request or because it may access content.
 pub(super) fn judge(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -57,7 +57,8 @@ pub(super) fn judge(
                 let rule = match error.kind() {
                     ErrorKind::TooMany => VAR_24.into(),
                     ErrorKind::TooLong if function == Function::WriteProgramStream => STM_2.into(),
-                    // The read length is too small for the reply. The required read length is assumed.
+                    // The read length is too small for the reply. The required read length is
+                    // assumed.
                     ErrorKind::BufferTooSmall => assumed(COM_3),
                     _ => Rule::of(known.unwrap_or(spec.clause)),
                 };

@@ -31,7 +31,7 @@ impl ExchangeJudge<'_> {
         record.check(STM_2, passed, "at most 992 bytes", || plural(length, "byte"));
         let whole = data.ends_with(b"\r\n");
         record.check(STM_4, whole, "whole lines, each with CR LF", "an open line at the end");
-        // `NcText` accepts every line end, so bare CR and LF are detected here.
+        // `NcText` also accepts CR alone and LF alone as line ends, so they are detected here.
         let bare = data.windows(2).any(|two| matches!(two, [first, b'\n'] if *first != b'\r'))
             || data.first() == Some(&b'\n')
             || data.windows(2).any(|two| matches!(two, [b'\r', second] if *second != b'\n'));

@@ -124,8 +124,8 @@ pub(crate) fn captured_cases() -> impl Iterator<Item = Case> {
     Topic::ALL.iter().map(|topic| topic.case())
 }
 
-/// The cases that judge every reply to the requests of a run. The case `ads-every-frame` judges the
-/// headers of these replies.
+/// The cases that judge the replies in a run against a target. The case `ads-every-frame` judges
+/// the headers of these replies.
 pub(crate) fn reply_cases() -> impl Iterator<Item = Case> {
     let replies = Topic::ALL.iter().filter(|topic| topic.subject() == CaseSubject::CapturedCnc);
     let replies = replies.filter(|topic| **topic != Topic::CncFrames).map(|topic| topic.case());

@@ -173,8 +173,8 @@ impl ExchangeJudge<'_> {
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
         if changed {
-            // The configuration has changed, so everything that is stored about the channel is
-            // obsolete.
+            // The configuration may have changed, so everything that is stored about the channel
+            // may be obsolete.
             *channel = ChannelVariables::default();
         }
         if channel.counts.len() < 64 {
@@ -236,8 +236,8 @@ impl ExchangeJudge<'_> {
     ) {
         let text = name.to_string();
         let mut record = self.records.on(Topic::CncVar, observation);
-        // Both editions exclude V.CYC from requests for handles. Only one edition also excludes V.P,
-        // V.L and V.S, so these kinds are not judged.
+        // Both editions exclude V.CYC from requests for handles. Only one edition also excludes
+        // V.P, V.L and V.S, so these kinds are not judged.
         let barred = text.starts_with("V.CYC");
         let expected = "an error number, because V.CYC has no handles";
         record.check(VAR_18, !barred, expected, || format!("{handle:#x}"));
@@ -317,7 +317,7 @@ pub(crate) fn check_description(record: &mut impl Checks, variable: &Description
         || format!("{} for {:?} {}", plural(whole, "byte"), variable.dimensions, variable.var_type);
     let found = || format!("{} of {name}", plural(variable.size, "byte"));
     record.check(VAR_8, variable.size == whole, expected, found);
-    // A size in the wrong byte order usually exceeds every limit.
+    // A size in the wrong byte order usually exceeds this limit.
     let plausible = variable.size <= 0x00FF_FFFF;
     record.check(GEN_1, plausible, "a little-endian size", || format!("{:#x}", variable.size));
 }

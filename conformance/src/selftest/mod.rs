@@ -2,10 +2,10 @@
 //! defect breaks, and a valid variant must not fail.
 //!
 //! A defect is caught if a requirement that it breaks fails. For a requirement below the level
-//! *must*, and for every codec, a warning or a difference suffices. If neither happens, the defect
-//! needs a written reason, otherwise the self-test fails. A field defect that changes no byte is
-//! not counted. The detection table lists the defects that a run against a device misses; these
-//! need no reason.
+//! *must*, and for a codec with a seeded defect, a warning or a difference suffices. If neither
+//! happens, the defect needs a written reason, otherwise the self-test fails. A field defect of a
+//! CNC that changes no byte is not counted. The detection table lists the defects that a run
+//! against a device misses; to be missed by such a run, a defect needs no reason.
 
 mod clients;
 mod cncs;
@@ -35,8 +35,8 @@ pub use undetectable::UNSEEN;
 
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
-    /// All trials: those of codecs, of miniatures, of CNCs and of clients, each in the order of its
-    /// list.
+    /// The trials that were run: those of codecs, of miniatures, of CNCs and of clients, each in
+    /// the order of its list.
     pub tried: Vec<Trial>,
     /// The groups and ID prefixes of the written reasons why a defect survives, for which no
     /// surviving defect was found.
@@ -151,8 +151,9 @@ fn attempt(candidate: &Candidate) -> Trial {
     }
 }
 
-/// The failed requirements and the result for a codec. If a requirement that the defect breaks has only
-/// warnings or differences, and none of these requirements fails, the result is `Noticed`.
+/// The failed requirements and the result for a codec. If a requirement that the defect breaks has
+/// a warning or a difference in a case, and no requirement that it breaks fails, the result is
+/// `Noticed`.
 fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let (failed, result) = judge(targets, outcomes);
     let broken: Vec<&str> = targets.iter().map(|id| whole(id)).collect();

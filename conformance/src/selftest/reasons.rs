@@ -89,7 +89,8 @@ const OTHERS: &str =
     "Only cases that write every variable show it: these are for the simulated CNC.";
 const PROFILE: &str = "Without a profile the run finds fewer values that it may write.";
 
-/// The reason why a run against a device misses the defect with this ID; `None` if no reason is listed.
+/// The reason why a run against a device misses the defect with this ID; `None` if no reason is
+/// listed.
 pub(super) fn of_missed(id: &str) -> Option<&'static str> {
     MISSED.iter().find(|(start, _)| id.starts_with(start)).map(|(_, reason)| *reason)
 }

@@ -65,8 +65,8 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     writeln!(out, "{verdict}  exit code {}", test.exit().code())
 }
 
-/// Prints how many defects of a CNC are detected: in runs against a device, for each mode, and by all
-/// cases for the simulated CNC.
+/// Prints how many defects of a CNC are detected: in runs against a device, for each mode, and by
+/// all cases for the simulated CNC.
 fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     let CheckedTable { table, measured, differences } = &test.detection;
     for difference in differences {

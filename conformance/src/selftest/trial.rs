@@ -45,8 +45,8 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Whether the trial is a failure: a defect that was not caught and has no reason, a false alarm, or a
-    /// trial that could not be run.
+    /// Whether the trial is a failure: a defect that was neither caught nor noticed and has no
+    /// reason, a false alarm, or a broken trial.
     pub(super) fn is_failure(&self) -> bool {
         match self.result {
             TrialResult::Caught | TrialResult::Noticed | TrialResult::Quiet | TrialResult::Same => {
@@ -62,12 +62,12 @@ impl Trial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TrialResult {
-    /// A requirement that the defect breaks has failed or, below the level *must*, has a warning or a
-    /// difference.
+    /// A requirement that the defect breaks has failed or, below the level *must* and not for a
+    /// codec, has a warning or a difference.
     Caught,
-    /// For codecs only: no requirement that the defect breaks has failed, but a case of such a
-    /// requirement has a warning or a difference, because the manuals do not state everything that
-    /// a vector expects.
+    /// For codecs only: no requirement that the defect breaks has failed, but such a requirement
+    /// has a warning or a difference in a case, for example because the manuals do not state
+    /// everything that a vector expects.
     Noticed,
     /// Only requirements that the defect does not break have failed.
     Elsewhere,
@@ -112,7 +112,8 @@ pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>,
         found
     };
     let failed = with(&[Verdict::Fail, Verdict::Vacuous]);
-    // A violated requirement of level *should* causes a warning, a violated assumption a difference.
+    // A violated requirement of level *should* causes a warning, a violated assumption a
+    // difference.
     let noticed = with(&[Verdict::Warning, Verdict::Differs]);
     let hit = |id: &&str| match ads_cnc_vectors::clause(id) {
         Some(clause) => {

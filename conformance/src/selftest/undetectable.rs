@@ -2,7 +2,8 @@
 
 /// IDs of defects of a CNC with which no case fails for a requirement that the defect breaks: for
 /// example, no reply contains the lines of an NC program that were executed.
-/// `tests/simulator/defects.rs` detects each of these defects with a test of the simulated CNC.
+/// `tests/simulator/defects.rs` verifies that a check of the simulated CNC or a golden sequence
+/// detects each of these defects.
 #[rustfmt::skip]
 pub const UNSEEN: &[&str] = &[
     "ams-header.error.swap", "axis-handle-by-name.first-channel", "cnc.adr.place-keeps-axis",

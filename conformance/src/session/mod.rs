@@ -23,8 +23,7 @@ use crate::simulator::{LocalCnc, NET_ID, Responder, Server};
 
 pub use error::ToolError;
 
-/// A connection to a CNC (a device, or the simulated CNC in this process), or a dry run without a
-/// connection.
+/// A connection to a CNC (a device or a simulated CNC), or a dry run without a connection.
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -261,8 +260,8 @@ impl Session {
     /// device that does not reply cannot be judged.
     ///
     /// # Errors
-    /// If there is no reply. An ADS error counts as a reply, and so does an AMS frame that violates
-    /// a rule of AMS/TCP. An AMS error alone does not.
+    /// If the request is not sent, or there is no reply. An ADS error counts as a reply, and so
+    /// does an AMS frame that violates a rule of AMS/TCP. An AMS error alone does not.
     pub(crate) fn check_reachable(&mut self, profile: &Profile) -> Result<(), ToolError> {
         let request: Request<'_> = match profile.claims(Function::CountObjects) {
             Claim::No => {
@@ -299,7 +298,8 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If the CNC does not send a valid reply, or rejects the command: a CNC need not support it.
+    /// If the request is not sent, or the CNC does not send a valid reply or rejects the command: a
+    /// CNC need not support it.
     pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, ToolError> {
         self.inquire(task)
     }
@@ -319,7 +319,8 @@ impl Session {
     /// ```
     ///
     /// # Errors
-    /// If the CNC does not send a valid reply, or rejects the command: a CNC need not support it.
+    /// If the request is not sent, or the CNC does not send a valid reply or rejects the command: a
+    /// CNC need not support it.
     pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, ToolError> {
         self.inquire(task)
     }

@@ -66,8 +66,9 @@ pub struct CurrentParameter {
 }
 
 impl Cnc {
-    /// The contents of all objects and elements, except axis numbers, and except the contents of
-    /// places without an axis. A write to the program stream does not change its content here.
+    /// The contents of all objects and elements, except axis numbers, the element 0 of each
+    /// instance, and the contents of places without an axis. A write to the program stream does not
+    /// change its content here.
     pub fn stored_contents(&self) -> Vec<StoredContent> {
         let mut all = Vec::new();
         for (owner, holder) in self.owners() {

@@ -11,8 +11,8 @@ use super::model::Parameter;
 pub(super) struct ParameterState {
     pub(super) parameter: Parameter,
     pub(super) value: DynamicValue,
-    /// The number of times that the parameter was created before; `None` at times at which it does
-    /// not exist.
+    /// The number of times that the parameter was created before according to its times; `None` at
+    /// times at which it does not exist.
     life: Option<u128>,
 }
 

@@ -33,7 +33,8 @@ pub(super) struct ChannelState {
     /// without an axis.
     pub(super) places: Vec<Option<usize>>,
     objects: Contents,
-    /// The values of the variables, except those of the Service Interface, which `service` stores.
+    /// The values of the variables; `service` stores those of the Service Interface, whose items
+    /// here are not used.
     variables: Contents,
     elements: [Contents; 6],
     pub(super) parameters: ParameterStates,

@@ -1,4 +1,4 @@
-//! Cases of index groups and ports, and the cases that judge the frames of the other cases.
+//! Cases of index groups and ports, and the cases that judge the frames exchanged so far in a run.
 
 use ads_cnc::address::{Addressing, Channel, ComGroup, Group};
 use ads_cnc::ads::AmsPort;

@@ -17,8 +17,8 @@ pub struct Unwritable {
     /// Messages about entries whose item or channel the target does not have, one message for each
     /// entry.
     pub absent: Vec<String>,
-    /// The read-only items, each with its name or its address. A case that writes to such an item
-    /// checks that the write is rejected.
+    /// The read-only items, each with its name or its address. Cases such as `write-read-only`
+    /// check that a write to such an item is rejected.
     pub read_only: Vec<String>,
 }
 

@@ -74,7 +74,8 @@ impl std::fmt::Display for AxisVariable<'_> {
 fn handles(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
-        // If the channel describes axis variables, one of the first axis indices must have a handle.
+        // If the channel describes axis variables, one of the first axis indices must have a
+        // handle.
         let mut any = described.is_empty();
         let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {

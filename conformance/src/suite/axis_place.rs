@@ -1,5 +1,5 @@
 //! Cases of the axis indices of the axis interface (in the messages: places): the variable at each
-//! index, indices after the last one, and reserved index offsets.
+//! index, indices above 255, and reserved index offsets.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,5 @@
-//! Finds the channels, axes, spindles, lists and ports of a target, before the cases run.
+//! Finds the axes, spindles and lists of a target and, without a profile, its channels and ports,
+//! before the cases run.
 
 use std::time::{Duration, Instant};
 
@@ -43,10 +44,11 @@ impl Discovery {
     }
 }
 
-/// Finds the channels, axes, spindles and lists of a target, and chooses the sizes of samples. With
-/// [`ClaimsBy::Queries`], also finds its ports, and the replies of the target determine the
-/// channels, axes, spindles and edition in `target.profile`; ports, sections and functions remain
-/// claimed, whether or not the target has them.
+/// Finds the axes, spindles and lists of a target, and chooses the sizes of samples. With
+/// [`ClaimsBy::Queries`], also finds its channels and ports, and the replies of the target
+/// determine the channels, the absent channel, the axes, the spindles and the edition in
+/// `target.profile`; the claims of ports, sections and functions do not change, whether or not the
+/// target has them.
 pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let (begun, frames) = (Instant::now(), target.frames);
     let mut probe = Probe::new(target);
@@ -151,7 +153,8 @@ fn requests_for(kind: Option<ItemKind>, items: u32, read: u32) -> u64 {
         Some(ItemKind::Element) => (35, 35),
         None => (0, 30),
     };
-    // The descriptions of the variables outside the sample are read once, to learn their names.
+    // The descriptions of variables outside the sample, up to `VARIABLES_MAX` in total, are read
+    // once, to learn their names.
     let names = match kind {
         Some(ItemKind::Variable) => items.min(VARIABLES_MAX).saturating_sub(read),
         _ => 0,
@@ -262,7 +265,8 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
 
 /// The axis indices up to [`PLACES_MAX`] of all channels but the first, each as channel number and
 /// axis index. Without a profile, a run treats these indices as possibly without an axis, because
-/// no list shows which of them have an axis, and a value that is written without an axis is lost.
+/// no list shows which of them have an axis, and a value that is written at an axis index without
+/// an axis may be lost.
 fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
     let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
     Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())

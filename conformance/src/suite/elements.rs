@@ -93,7 +93,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let is_bare = count == 0 || probe.is_at_empty_place(&instance);
         let rule = if is_bare { assumed(SDA_4) } else { SDA_4.into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", found);
-        // The HLDs of several channels have the same platform axes, so names are only compared
+        // The HLDs of several channels may have the same platform axes, so names are compared only
         // within a channel.
         let is_new = names.insert((instance.channel, name.clone()));
         probe.check(assumed(SDA_4), is_new, "a name that no other instance has", found);
@@ -119,8 +119,8 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
         attribute::<ElementText>(probe, SDA_4, ReadElementName::new(last))?;
     }
     let at_place = OF_PLACES.contains(&instance.class) && instance.axis > 0;
-    // At an axis index without an axis, the number of elements may be 0, because all contents are
-    // zero there.
+    // At an axis index without an axis, the number of elements may be 0, because all contents may
+    // be zero there.
     let rule = if at_place && count == 0 { assumed(SDA_4) } else { SDA_4.into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
     for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {

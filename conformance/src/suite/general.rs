@@ -1,5 +1,5 @@
 //! Cases of general requirements (GEN): tasks and ports, numbering, sizes of types, and code page
-//! of texts.
+//! of names.
 
 use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
 use ads_cnc::ads::{AdsError, AmsPort};

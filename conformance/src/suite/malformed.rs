@@ -1,5 +1,5 @@
-//! Malformed requests: the CNC must reply to each, and no reply may return data. A success without
-//! data counts as a rejection.
+//! Malformed requests: the CNC must reply to each, and must not return data with a success. A
+//! success without data counts as a rejection.
 //!
 //! For some of these requests, no manual states that a CNC rejects them, so their checks are
 //! `assumed`: returned data does not fail a device, but a missing reply does. The other checks have

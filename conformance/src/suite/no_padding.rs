@@ -16,7 +16,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "Descriptors and descriptions have no padding between the fields"),
 ];
 
-/// Whether the type in a descriptor is one that the manual names.
+/// Whether the type in a descriptor is STRING or a type with a known size.
 fn has_type(object: DescriptorRef<'_>) -> bool {
     object.type_size().is_some() || object.type_name() == "STRING"
 }

@@ -101,8 +101,9 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that an object in the lists of channel 0 (the platform) and of channel 1 has the same
-/// content at the addresses in both lists, and at its offset in the groups of both channels.
+/// Checks that an object in the list of channel 0 (the platform) has the same content at the
+/// address of the object with its name and size in the list of channel 1, if there is one, and at
+/// its offset in the groups of channels 0 and 1. Without channel 1, only channel 0 is checked.
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = platform_channel(probe)?.map(ObjectList::from);

@@ -1,4 +1,5 @@
-//! Cases of data streaming. Only comments and empty lines are sent, which do not move a device.
+//! Cases of data streaming. Only comments and empty lines are written to the stream, which do not
+//! move a device.
 
 use std::time::{Duration, Instant};
 

@@ -69,9 +69,10 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Calls a function for every axis variable with this access for which the [gate](crate::gate) and
-/// the profile permit a write on the axis interface. The address has the axis index that returns
-/// the handle in the description.
+/// Calls a function for every axis variable that the cases read, that has this access, and for
+/// which the [gate](crate::gate) and the profile permit a write on the axis interface. The address
+/// has the first axis index that returns the handle in the description; without such an axis index,
+/// the variable is left out.
 fn each_of_axes(
     probe: &mut Probe<'_>,
     access: VariableAccess,

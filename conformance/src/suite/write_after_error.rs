@@ -53,8 +53,8 @@ fn after_rejection(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("{name} written after a rejected write");
             probe.check([id, ADS_2, ADS_4], done, expected, &exchange);
             let after = probe.value_at(&address)?.unwrap_or_default();
-            // The value is judged only if a second write changes it. Another case judges values
-            // that cannot be changed.
+            // The value is judged only if the written value is read back after a second write.
+            // Another case judges values that cannot be changed.
             let (again, read) = (accepted(probe, valid)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));

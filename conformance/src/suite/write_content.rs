@@ -1,4 +1,4 @@
-//! Cases that write COM objects and elements of SDA and GEO and restore them.
+//! Cases of writes to COM objects and to elements of SDA and GEO, also to read-only ones.
 
 use ads_cnc::address::{Class, Group};
 use ads_cnc::operation::{AdsService, CountElements};
@@ -154,9 +154,10 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 /// Another value that a faulty write might change: rules, name, address, current value.
 type Sibling = (Vec<Rule>, String, ValueAddress, Vec<u8>);
 
-/// The elements with the same number in the other instances of the class, and the other elements
-/// that the cases read of the instance, if they have the same length. The elements of one instance
-/// may depend on each other, so their rule is assumed.
+/// The elements with the same number in the other instances of the class (except, for an axis of an
+/// HLD, the same axis in other HLDs), and the other elements that the cases read of the instance,
+/// if they have the same length. The elements of one instance may depend on each other, so their
+/// rule is assumed.
 fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
@@ -167,8 +168,8 @@ fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> 
         others.push((vec![assumed(SDA_9)], what, element));
     }
     for other in probe.instances()? {
-        // The HLDs of all channels have the same platform axes, so the same axis in another HLD is
-        // not a sibling.
+        // The HLDs of several channels may have the same platform axes, so the same axis in another
+        // HLD is not a sibling.
         let is_same = other.first == one.instance.first
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
         let is_sibling = other.class == one.instance.class && !is_same && number <= other.count;

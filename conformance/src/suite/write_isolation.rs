@@ -1,6 +1,6 @@
-//! Cases that write all writable variables one after another, except those of the Service
-//! Interface, and check that no write changes another variable. The case of the axis interface
-//! writes only axis variables.
+//! Cases that write, one after another, the writable variables that the cases read and that do not
+//! change by themselves, except those of the Service Interface, and check that no write changes
+//! another of the variables read. The case of the axis interface writes only axis variables.
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -190,8 +190,8 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     }
 }
 
-/// Restores the initial values of all variables that were written, each at the first address that
-/// restores the value.
+/// Restores the initial value of each variable whose last accepted write had a value other than the
+/// initial one, at the first of its addresses that restores the value.
 fn restore_all(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -> Step {
     for one in all.iter_mut().filter(|one| one.start != one.value) {
         let ways = [one.at.clone(), Some(one.by_handle()), Some(one.by_name())];

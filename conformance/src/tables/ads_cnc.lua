@@ -156,7 +156,7 @@ end
 
 -- `asked`: the function of each request, by connection and invoke ID, with which the first pass through the
 -- capture finds the function of a reply. `found`: the function of each request and reply, by packet, for
--- later passes.
+-- later passes. Neither contains ReadDeviceInfo and ReadState, which `IDENTITIES` describes.
 local asked, found = {}, {}
 
 function cnc.init() asked, found = {}, {} end

@@ -1,8 +1,8 @@
 //! Attributes a failed vector to the requirements of its wrong fields.
 //!
-//! A vector cites the requirements of all its fields, and general requirements about bytes and
-//! texts. If one field is wrong, the answer violates only some of these requirements; the others
-//! fail as a consequence of the violated ones.
+//! A vector cites several requirements, such as those of its fields, and general requirements about
+//! bytes and texts. If one field is wrong, the answer violates only some of these requirements; the
+//! others fail as a consequence of the violated ones.
 
 use std::collections::BTreeSet;
 

@@ -22,8 +22,9 @@ const ANSWERS_MAX: usize = 32 << 20;
 #[derive(Debug)]
 pub struct JudgedTestee {
     pub hello: Option<TesteeHello>,
-    /// The outcomes of the cases and, except for this project's codec and unless the run ends
-    /// before the first question, of the case about the testee protocol.
+    /// The outcomes of the cases; for a testee other than this project's codec, usually also of the
+    /// case about the testee protocol, but not if the testee does not claim the selected edition,
+    /// or if a signal or the deadline ended the wait for its hello.
     pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
     /// Number of questions without an answer, because the process crashed, hung or could not be
@@ -107,8 +108,8 @@ pub fn judge(
             let time = times.entry(*case).or_default();
             *time = time.saturating_add(begin.elapsed());
         }
-        // The answers are judged only after the last question, because rejections depend on
-        // siblings.
+        // The answers about the cases are judged only after the last question, because rejections
+        // depend on siblings.
         let is_lost = matches!(
             reaction,
             TesteeReaction::Died(_) | TesteeReaction::Silent(_) | TesteeReaction::Broken(_)

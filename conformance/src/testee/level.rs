@@ -124,8 +124,8 @@ mod tests {
         accepted_level(vector, "encode", &TesteeReaction::Answer(Answer::Ok(output)))
     }
 
-    /// A size that is wrong together with the name is judged at level *must*: the vector has only
-    /// an assumption about the name.
+    /// A size that is wrong together with the name is judged at level *must*: the vector has
+    /// assumptions only about the name.
     #[test]
     fn an_assumption_excuses_only_the_fields_that_it_is_about() {
         const SIZE: usize = 12;

@@ -9,11 +9,11 @@ use crate::text::named;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Miniature {
-    /// Accepts every input: returns an empty value for input that must be rejected.
+    /// Accepts invalid input: returns an empty value for input that must be rejected.
     AcceptsAll,
-    /// Rejects every input.
+    /// Rejects the input of every question with a known op and stream.
     RefusesAll,
-    /// Returns the input of each question as the answer.
+    /// Returns the input of each question with a known op and stream as the answer.
     Echoes,
     /// Hangs at every fortieth question.
     Hangs,
@@ -29,7 +29,7 @@ pub enum Miniature {
     Miscounts,
     /// Answers every tenth question with a line that is not JSON.
     Mumbles,
-    /// Rejects every input after a hundred questions.
+    /// After a hundred questions, rejects the input of every question with a known op and stream.
     Tires,
     /// Does not exit after `bye`.
     Stays,

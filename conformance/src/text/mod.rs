@@ -36,7 +36,8 @@ pub(crate) const UTF16: &str = "the file is UTF-16; save it as UTF-8";
 /// The text of a file without the byte order mark of UTF-8.
 ///
 /// # Errors
-/// If the file is UTF-16, or not UTF-8; the error contains the offset of the first invalid byte.
+/// If the file is not UTF-8. The error says that the file is UTF-16, or contains the offset of the
+/// first invalid byte.
 pub(crate) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
     if is_utf16(&bytes) {
         return Err(UTF16.to_owned());

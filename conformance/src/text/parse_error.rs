@@ -21,7 +21,8 @@ pub(crate) fn found(value: &toml::Value) -> String {
     }
 }
 
-/// The message for an error in a JSON text: the key, if the error is in its value, and the reason.
+/// The message for an error in a JSON text: the reason; for a value of a wrong type also its key,
+/// for invalid JSON also the position.
 pub(crate) fn json_error(text: &str, error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
     let message = error.to_string();

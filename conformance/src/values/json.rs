@@ -7,7 +7,8 @@ use super::{Type, printable};
 use crate::number::to_usize;
 
 /// Converts a value to JSON: a number, a boolean, a string, or nested arrays of these with one
-/// level for each dimension. A REAL that is not finite becomes a string such as `NaN`.
+/// level for each dimension (an array without elements may have fewer levels). A REAL that is not
+/// finite becomes a string such as `NaN`.
 ///
 /// ```
 /// use ads_cnc::value::DataType;

@@ -40,7 +40,8 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Type {
-    /// The name of the type, as the CNC or the codec states it; empty for an unknown type.
+    /// The name of the type, as the CNC or the codec states it, or `type` with the number of a type
+    /// that the manuals do not define; empty if nothing is known about the type.
     pub name: String,
     /// The data type, if the manuals define the type.
     pub data_type: Option<DataType>,

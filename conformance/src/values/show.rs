@@ -18,8 +18,9 @@ pub fn printable(text: &str) -> String {
 }
 
 /// Formats the whole value on one line; `None` if the type is unknown or the bytes do not match it.
-/// [`parse`](super::parse()) accepts the line, except NaN, infinities and an array without
-/// elements, and parses escaped characters literally.
+/// [`parse`](super::parse()) accepts the line, except for example NaN, infinities, an array without
+/// elements, and a text that does not fit with its escapes and a NUL. It parses escaped characters
+/// literally.
 pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
     let elements = ty.elements(bytes).ok().flatten()?;
     let several = !ty.dimensions.is_empty();

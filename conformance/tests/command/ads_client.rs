@@ -99,7 +99,7 @@ fn other_variables() {
         let ask = |offset, data: &[u8]| ask(sda, CHANNEL_1, offset, data).unwrap();
         assert_eq!(ask(0x44, b"V.G\0"), [10, 0, 0, 0]);
         assert_eq!(ask(0x44, b"V.A\0"), [6, 0, 0, 0]);
-        // The empty kind returns the number of variables of all kinds.
+        // The empty kind returns the number of V.E, V.G and V.A variables together.
         assert_eq!(ask(0x44, b"\0"), [139, 0, 0, 0]);
         // V.A.ACT_POS.Z is 0.0, which is eight NULs; another value, read by handle, is 1234.2.
         assert_eq!(ask(0x48, b"V.A.ACT_POS.Z\0"), [0; 8]);

@@ -125,7 +125,7 @@ fn the_traffic_of_a_client_is_captured() {
     assert!(found.any(|id| id == "GEN-4"), "{report:#}");
 }
 
-/// If an answer violates the client protocol, only the requirement of the protocol fails.
+/// If a client prints a line that is not an answer, only the requirement of the protocol fails.
 #[test]
 fn an_invalid_answer_fails_only_the_protocol() {
     let (code, report) = run("--defect client.garbles", &["--only", "VAR-14"]);
@@ -137,8 +137,8 @@ fn an_invalid_answer_fails_only_the_protocol() {
     assert!(failed.iter().all(|one| one["requirement"] == "CLIENT"), "{failed:#?}");
 }
 
-/// If a request goes to the wrong port, only the requirement of the port fails; the requirement of
-/// the result is inconclusive.
+/// If a request goes to the wrong port, the requirement of the port (GEN-4) is the first that fails,
+/// and the requirement of the result is inconclusive.
 #[test]
 fn a_result_follows_from_the_request() {
     let (_, report) = run("--defect client.port", &["--only", "client-read-real"]);

@@ -15,7 +15,8 @@ fn loopback() -> SocketAddr {
     SocketAddr::from(([127, 0, 0, 1], 0))
 }
 
-/// A run against a device with a defect of a field fails.
+/// A run against a device with a defect that the suite detects, here of a number of variables,
+/// fails.
 #[test]
 fn a_wrong_device_fails() {
     let serve = Serve::start(&["--defect", "variable-count.count.flip"]);
@@ -115,7 +116,7 @@ fn broken_frames_fail_the_rule_of_the_frame() {
     }
 }
 
-/// A wrong frame is a failure with any selection of cases.
+/// A wrong frame is a failure even if no selected case is about frames.
 #[test]
 fn broken_frames_fail_in_every_selection() {
     let serve = Serve::start(&["--defect", "ams-header.invoke_id.zero"]);

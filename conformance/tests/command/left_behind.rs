@@ -1,4 +1,5 @@
-//! An interrupted run terminates all processes of its testee or client.
+//! An interrupted run terminates its testee or client, and a process that this has started in the
+//! same process group.
 
 #![cfg(unix)]
 

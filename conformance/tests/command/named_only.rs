@@ -126,8 +126,9 @@ fn written(model: Model, seed: &SeededDefect, named: &Named) -> BTreeSet<String>
     lines.lines().filter_map(|line| Some(line.split_once("write to a ")?.1.to_owned())).collect()
 }
 
-/// The only defects with which values are written that the file does not name: the CNC returns correct
-/// handles and addresses, but decodes the handle or address of an allowed write as another one.
+/// The only defects with which values are written that the file does not name: the CNC returns
+/// correct handles and addresses, but decodes the handle, name or address of an allowed write as
+/// another one.
 const MISREAD: [&str; 3] = [
     "variable-handle-write.handle.flip",
     "write-request.data.flip",

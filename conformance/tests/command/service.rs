@@ -321,7 +321,8 @@ fn a_signal_ends_the_service() {
     }
 }
 
-/// Processes that the command has started are ended with the command, and do not delay the response.
+/// Processes that the command has started in its process group are ended with it, and do not delay
+/// the response.
 #[cfg(unix)]
 #[test]
 fn a_time_limit_ends_all_processes_of_a_command() {

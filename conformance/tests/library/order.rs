@@ -1,4 +1,5 @@
-//! The order of the cases does not affect the verdicts.
+//! With the simulated CNC, the order of the cases does not affect the verdicts; some orders are
+//! tried.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

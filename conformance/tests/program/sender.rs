@@ -1,4 +1,5 @@
-//! A sender and the streaming program that receives its packets: no bytes are lost or duplicated.
+//! A sender and the streaming program that receives its packets: without resets and permanent
+//! rejections, no bytes are lost or duplicated.
 
 use std::time::Duration;
 

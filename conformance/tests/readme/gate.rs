@@ -1,5 +1,5 @@
-//! The calls of documents that need a build by cargo, Python 3, or minutes. Only `.ci/run` runs
-//! this test; `cargo test --workspace` omits it. The environment variable `ADS_CNC_TOOL` may name a
+//! The calls of documents that need a build by cargo, Python 3, or minutes. `.ci/run` runs this
+//! test; `cargo test --workspace` omits it. The environment variable `ADS_CNC_TOOL` may name a
 //! release build of the tool, which saves minutes.
 
 mod bench;

@@ -62,7 +62,7 @@ fn counting<'v>(content: &StoredContent, value: &'v [u8]) -> &'v [u8] {
     }
 }
 
-/// Each content is little-endian, and can be read at each of its addresses.
+/// Each content that can be read is little-endian, and has the same value at each of its addresses.
 fn contents_are_read_at_their_addresses(target: &TestCnc) -> CheckResult {
     let all = target.cnc().stored_contents();
     ensure(all.len() > 100, format_args!("{} contents", all.len()))?;

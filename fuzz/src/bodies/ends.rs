@@ -13,9 +13,10 @@ use crate::{Defect, Outcome};
 /// lengths are short) and its line end (the lower two bits). Then one byte for each event, which the
 /// `match` below interprets. The characters of a line depend on its byte, so that lines differ.
 ///
-/// With any acknowledgements and reads, a sender loses no line, repeats no line and counts
-/// correctly. The interface is a bounded queue, whose output is the accepted text of the sender if
-/// nobody else writes or resets, and no packet counts as accepted that was not written.
+/// With any acknowledgements and reads, a sender offers each packet until it is accepted, offers
+/// none after a permanent rejection, and counts the accepted packets and lines. The interface is a
+/// bounded queue, whose output is the accepted text of the sender if nobody else writes or resets,
+/// and no packet counts as accepted that was not written.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let lines = input.byte() % 8;

@@ -12,9 +12,9 @@ use crate::world::{Action, ServiceMutation, StepOutcome, TestRequest, World};
 use crate::{Defect, Outcome};
 
 /// Input: the settings (1 byte): one host for both services (bit 0); the interface never clears
-/// REQUEST_STATE (bit 1); chaos (bit 2): the program gives up, the CNC is reset and hosts restart. Then the
-/// number of requests and a byte for each; with chaos, the same again for the requests after the chaos.
-/// Then one byte for each action, see [`actions`].
+/// REQUEST_STATE (bit 1); chaos (bit 2): the program may give up, the CNC be reset and a host
+/// restart. Then the number of requests and a byte for each; with chaos, the same again for the
+/// requests after the chaos. Then one byte for each action, see [`actions`].
 ///
 /// Without chaos, every request is served once, by the service to which it is sent, and gets its
 /// own answer, whichever steps fail (with two hosts, [`World::luck_of_two`] replaces some actions).

@@ -6,7 +6,7 @@ use ads_cnc_vectors::{Pieces, SequenceInput, sequences, vectors};
 use super::{LONGEST, Seed};
 use crate::common;
 
-/// The NC texts of the accepted and rejected sequences.
+/// The NC texts of at most 4096 bytes of the accepted and rejected sequences.
 pub(super) fn programs() -> Vec<Seed> {
     let of = |given: &SequenceInput| match given {
         SequenceInput::NcText(text) => Some(text.bytes()),

@@ -187,8 +187,8 @@ fn said() -> Vec<Seed> {
     seeds
 }
 
-/// The words of the dictionary: words of the files and lines above, the addresses of the sample
-/// calls, and for each length up to 64 bytes one golden vector.
+/// The words of the dictionary: words of the files and lines above and of the small model, the
+/// addresses of the sample calls, and one golden vector of each length up to 64 bytes that occurs.
 pub(crate) fn words() -> BTreeSet<Vec<u8>> {
     let files = [PROFILE, MORE_PROFILE, WAIVERS, ALLOW, session::MODEL];
     let said = SAID.join(" ");

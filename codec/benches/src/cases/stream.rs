@@ -14,9 +14,9 @@ pub(crate) struct Entry {
     pub(crate) alike: fn(),
 }
 
-/// Declares the cases of a stream. The inputs are the samples of the codec, or faulty variants of
-/// them in the cases of rejection. The encoding cases encode the owned type, or the only type of
-/// the stream.
+/// Declares the cases of a stream. The inputs are the samples of the codec's tests, or, in the
+/// cases of rejection, the inputs of `inputs::rejected`. The encoding cases encode the owned type,
+/// or the only type of the stream.
 macro_rules! stream {
     ($subject:literal, $stream:ident, $both:ty, by hand $hand:ty) => {
         $crate::cases::stream::Entry {

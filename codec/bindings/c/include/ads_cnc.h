@@ -305,14 +305,14 @@ typedef struct AdsCncGroup {
     AdsCncBytes object_class;  /* for SDA and GEO: "decoder" and so on */
     AdsCncBytes attribute;     /* for SDA and GEO: "content", "name", "type", "length", "unit", "write flag" or
                                   "object address" */
-    uint32_t instance;         /* number of the channel, axis or spindle; 0 if the group has none */
+    uint32_t instance;         /* number or index of the channel, axis or spindle; 0 if the group has none */
 } AdsCncGroup;
 
 /* Parses an index group; returns false if it is not documented. */
 bool ads_cnc_group(uint32_t index_group, AdsCncGroup *parts);
 
-/* Converts axis and element to an index offset, and back. Axis 0 is the channel itself. The stride is 0x10000
- * for SDA and GEO; for COM, the manuals print both 0x10000 and 0x1000. */
+/* Converts axis and element to an index offset, and back. Axis 0 is the channel itself. The stride is 0x10000;
+ * for axes of COM and for a platform axis of the HLD, the manuals also print offsets with 0x1000 (E-01). */
 bool ads_cnc_offset(uint32_t stride, uint32_t axis, uint32_t element, uint32_t *offset, AdsCncError *error);
 bool ads_cnc_offset_parts(uint32_t stride, uint32_t offset, uint32_t *axis, uint32_t *element,
                           AdsCncError *error);
@@ -337,7 +337,7 @@ typedef struct AdsCncFrame {
     AdsCncAddress target;
     AdsCncAddress source;
     uint32_t command;
-    uint32_t state_flags;  /* ADS_CNC_REQUEST or ADS_CNC_RESPONSE */
+    uint32_t state_flags;  /* such as ADS_CNC_REQUEST or ADS_CNC_RESPONSE */
     uint32_t error;        /* AMS error number, 0 for none */
     uint32_t invoke_id;    /* a response has the invoke ID of its request */
     AdsCncBytes data;      /* for a request, from ads_cnc_call_write; for the reply to it, the stream "read-reply",
@@ -358,7 +358,7 @@ bool ads_cnc_frame_read(const uint8_t *data, uint32_t length, uint32_t max_data,
 bool ads_cnc_call_write(const AdsCncCall *call, uint8_t *buffer, uint32_t room, uint32_t *length,
                         AdsCncError *error);
 
-/* Decodes the call in the frame of a request. */
+/* Decodes the call in the frame of a Read, Write or ReadWrite request. Does not check the state flags. */
 bool ads_cnc_call_read(const AdsCncFrame *frame, AdsCncCall *call, AdsCncError *error);
 
 /* ------------------------------------------------------------- sender of an NC program */
@@ -444,7 +444,7 @@ bool ads_cnc_service_id(const char *text, uint32_t length, AdsCncServiceId *id, 
 /* Starts a host of these services. The IDs must stay in place while the host is used. */
 bool ads_cnc_host_start(AdsCncHost *host, const AdsCncServiceId *ids, uint32_t count, AdsCncError *error);
 
-/* The next step. Returns the same step until its completion is reported. */
+/* The next step. Returns the same step until a read value, an answer or an event is reported. */
 bool ads_cnc_host_step(const AdsCncHost *host, AdsCncHostStep *step);
 
 /* Reports the value that was read. After an error, the host waits or reads again. */

@@ -1,4 +1,4 @@
-//! Index groups, index offsets and names, parsed into their parts.
+//! Index groups, index offsets and names, parsed into their parts; index offsets are also built.
 
 use codec::address::{
     Access, Addressing, Attribute, AxisStride, Class, ComTable, Group, IndexGroup, IndexOffset,
@@ -26,7 +26,7 @@ pub struct AdsCncGroup {
     pub object_class: AdsCncBytes,
     /// For SDA and GEO: the attribute of the element.
     pub attribute: AdsCncBytes,
-    /// The number of the channel, axis or spindle; 0 if the group has none.
+    /// The number or index of the channel, axis or spindle; 0 if the group has none.
     pub instance: u32,
 }
 

@@ -19,7 +19,8 @@ pub struct AdsCncError {
     /// The number of the field at fault; `ADS_CNC_NONE` for the stream as a whole, or without a
     /// stream.
     pub field: u32,
-    /// The offset of the fault in the stream, in bytes; in a text or name, in characters.
+    /// The offset of the fault in the stream, in bytes; in a text or name, in characters; for a
+    /// line of an NC program, its column; for an error without a position, 0.
     pub offset: u32,
     /// A number whose meaning depends on the kind, such as the expected length.
     pub expected: u32,

@@ -28,7 +28,7 @@ pub struct AdsCncFrame {
     pub source: AdsCncAddress,
     /// The AMS command.
     pub command: u32,
-    /// `ADS_CNC_REQUEST` or `ADS_CNC_RESPONSE`.
+    /// The state flags, such as `ADS_CNC_REQUEST` or `ADS_CNC_RESPONSE`.
     pub state_flags: u32,
     /// The AMS error number, 0 for none.
     pub error: u32,
@@ -154,7 +154,8 @@ pub unsafe extern "C" fn ads_cnc_call_write(
     unsafe { told(write(), error) }
 }
 
-/// Decodes the call in a frame that is a Read, Write or ReadWrite request.
+/// Decodes the call in a frame with the request of a Read, Write or ReadWrite. The state flags are
+/// not checked.
 ///
 /// # Safety
 /// `frame` points to a frame, and the frame to its data; `call` and `error` are null or point to

@@ -309,8 +309,8 @@ pub unsafe extern "C" fn ads_cnc_host_start(
     unsafe { told(start(), error) }
 }
 
-/// Returns the next step in `step`. The step stays the same until its completion is reported.
-/// Returns false if the host was never started.
+/// Returns the next step in `step`. The step stays the same until a read value, an answer or an
+/// event is reported. Returns false if the host was never started.
 ///
 /// # Safety
 /// `host` points to memory that is zero, or to a host that was started and whose IDs are still

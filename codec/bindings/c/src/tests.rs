@@ -179,7 +179,7 @@ fn names_equal_those_that_the_codec_displays() {
 }
 
 /// A request with the arguments that the table lists for a function is encoded, and dispatch sets
-/// exactly these arguments.
+/// exactly these arguments. The offset of `CountElements` is listed but 0.
 #[test]
 fn functions_take_the_arguments_that_they_list() {
     let mut seen = Vec::new();

@@ -205,7 +205,7 @@ export type Step =
 /** Hosts the services of a channel: returns the variable to read or write next. */
 export class Host {
   constructor(services: string[]);
-  /** The next step. Returns the same step until its completion is reported. */
+  /** The next step. Returns the same step until a read value, an answer or an event is reported. */
   step(): Step;
   /** Reports the value that was read. */
   read(value: Uint8Array): void;

@@ -623,7 +623,7 @@ export class Host {
     this.#it.use((at, kept) => call('host_start', at, kept, services.length));
   }
 
-  /** The next step. Returns the same step until its completion is reported. */
+  /** The next step. Returns the same step until a read value, an answer or an event is reported. */
   step() {
     const [kind, service, requestState, variable, data] = this.#it.use((at) => {
       const out = room(28);

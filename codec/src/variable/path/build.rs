@@ -110,8 +110,7 @@ impl<'a> VariablePath<'a> {
     }
 
     /// Converts a name for the channel interface to the name for the axis interface, by removing the
-    /// part that [`axis`](Self::axis) returns. This is the inverse of
-    /// [`write_axis`](Self::write_axis).
+    /// part that [`axis`](Self::axis) returns. This reverses [`write_axis`](Self::write_axis).
     ///
     /// ```
     /// use ads_cnc::VariablePath;

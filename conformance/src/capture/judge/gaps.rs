@@ -101,7 +101,8 @@ impl TrafficJudge {
         self.rules.records.on(case, observation).open(rule, found);
     }
 
-    /// Makes the requirement of the requested function inconclusive after a lost reply.
+    /// Makes the requirement of the requested function inconclusive after a lost reply, if the
+    /// function returns data.
     fn open_function(
         &mut self,
         request_frame: &CapturedFrame,

@@ -29,7 +29,7 @@ impl OutgoingRequest {
         }
     }
 
-    /// Whether the request addresses the decoder's function with this index offset.
+    /// Whether the request addresses the contents of the decoder of a channel at this index offset.
     const fn is(&self, offset: u32) -> bool {
         self.group & 0xFF00 == 0x2300 && self.offset == offset
     }

@@ -30,8 +30,8 @@ fn rejected(id: &str, title: &str, text: &[u8], rule: ClauseId) -> Scenario {
     scenario
 }
 
-/// A program with lines of various lengths: packets of a fixed number of bytes, such as 500 or 992,
-/// split lines.
+/// A program with lines of various lengths. If it is long, packets of a fixed number of bytes, such
+/// as 500 or 992, split lines.
 fn lines(count: usize, end: &str) -> Vec<u8> {
     let line = |number: usize| {
         let block = number * 10;

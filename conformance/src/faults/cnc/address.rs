@@ -1,4 +1,4 @@
-//! Defects in index groups and offsets (ADR).
+//! Defects in index groups and offsets (mainly ADR).
 
 use ads_cnc::address::{Access, Class, ComTable};
 use ads_cnc::ads::AdsError;
@@ -187,8 +187,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
 ];
 
-/// The functions of the decoder whose requests the defect `cnc.adr.stride-1000` passes on
-/// unchanged, because the stride applies only to elements.
+/// Functions of the decoder to which the defect `cnc.adr.stride-1000` does not apply its stride,
+/// because the stride applies only to elements.
 const FUNCTIONS: &[Function] = &[
     Function::AxisHandleByName,
     Function::AxisReadByName,

@@ -1,4 +1,4 @@
-//! Defects of the ADS services (ADS).
+//! Defects of the ADS services (mainly ADS).
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{AdsService, Call};

@@ -5,8 +5,8 @@ use ads_cnc_vectors::ids::*;
 
 use super::{CncDefect, ReplyData, Upstream, function, group, of_decoder, offset, row};
 
-/// The axis index that a call to the axis interface addresses, and the lower 16 bits of its index offset,
-/// which select the function; `None` for other calls.
+/// The axis index that a call to the axis interface addresses, and the lower 16 bits of its index
+/// offset, which select the function or a reserved place; `None` for other calls.
 fn of_axis(call: &Call<'_>) -> Option<(u32, u32)> {
     let offset = of_decoder(call)?;
     let (axis, function) = (offset >> 16, offset & 0xFFFF);

@@ -1,4 +1,4 @@
-//! Defects in the object lists of COM and in the contents of the platform (COM, OBJ).
+//! Defects in the object lists of COM and in the contents of the platform (mainly COM).
 
 use ads_cnc::address::{Access, ComTable};
 use ads_cnc::ads::AdsError;

@@ -1,4 +1,4 @@
-//! Defects of elements and of dynamic parameters, most of which show only if replies to different
+//! Defects of elements and of dynamic parameters, many of which show only if replies to different
 //! requests are compared (SDA, DYN).
 
 use ads_cnc::address::Class;
@@ -16,8 +16,8 @@ const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The reply to a `FindInstance` request whose number at the offset `place` is changed by `other`: the
-/// channel at 0 or the axis at 4.
+/// The reply to a `FindInstance` request whose number at the offset `place` is changed by `other`:
+/// the channel at 0 or the axis at 4.
 fn with_number(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -106,8 +106,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
 ];
 
-/// Whether the call addresses this attribute of the element in the manual's example, element 1 of the
-/// HLD of channel 1.
+/// Whether the call addresses this attribute of the element in the manual's example, element 1 of
+/// the HLD of channel 1.
 fn feedhold(call: &Call<'_>, attribute: u32) -> bool {
     group(call) & 0xEF_FFFF == 0x02_3001 | attribute && offset(call) == 1
 }

@@ -17,8 +17,8 @@ use crate::simulator::{Cnc, Frames, Model, Responder, respond};
 
 /// A simulated CNC with at most one seed, or with several field defects.
 ///
-/// A field defect changes the streams of requests before the CNC decodes them, and the streams of its
-/// replies.
+/// A field defect changes the data of requests before the CNC decodes this data, and the headers
+/// and the data of its replies.
 #[derive(Debug)]
 pub struct Faulty {
     cnc: Arc<Cnc>,
@@ -62,8 +62,8 @@ impl Faulty {
         &self.cnc
     }
 
-    /// Whether a field defect has changed at least one byte; true for other seeds. A field defect that
-    /// sets a field to the value that it already has is not detectable.
+    /// Whether a field defect has changed at least one byte; true for other seeds. A field defect
+    /// that sets a field to the value that it already has is not detectable.
     pub(crate) fn has_shown(&self) -> bool {
         self.fields.is_empty() || self.shown.load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! Defects of frames (ADS).
+//! Defects of frames (mainly ADS).
 
 use ads_cnc::ads::{Command, FrameRef};
 use ads_cnc_vectors::ClauseId;

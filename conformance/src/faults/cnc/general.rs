@@ -1,5 +1,5 @@
-//! Defects that violate the general rules (GEN): byte order, padding, code page, tasks and the
-//! sizes of types.
+//! Defects that violate the general rules (GEN), such as those for byte order, padding, code page,
+//! tasks and the sizes of types.
 
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::layout::{FieldSpec, Size, Type};

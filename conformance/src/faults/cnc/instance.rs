@@ -31,8 +31,9 @@ fn with_instance(
     cnc.with(call, &data)
 }
 
-/// Replies with the object address (0, 0) to requests for the instances for which `is_absent` returns
-/// true; its arguments are the class in bits 12 to 15 of the index group, the channel and the axis.
+/// Replies with the object address (0, 0) to requests for the instances for which `is_absent`
+/// returns true; its arguments are the class in bits 12 to 15 of the index group, the channel and
+/// the axis.
 pub(in crate::faults) fn absent(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -5,7 +5,7 @@ use ads_cnc::operation::{AdsService, Call};
 
 use super::{Key, Upstream, dimensions, group, offset, records, text, u32_at};
 
-/// The number in the low byte of the index group: a channel, axis or spindle.
+/// The number in the low byte of the index group, such as that of a channel, axis or spindle.
 pub(super) const fn instance(call: &Call<'_>) -> u32 {
     group(call) & 0xFF
 }

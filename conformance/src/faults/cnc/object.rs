@@ -1,4 +1,4 @@
-//! Defects in the contents of objects (COM).
+//! Defects in the contents of objects (mainly COM).
 
 use ads_cnc::address::{Access, ComGroup, ComTable};
 use ads_cnc::ads::AdsError;

@@ -16,8 +16,8 @@ const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 const WRITE: &[Function] = &[Function::WriteElement];
 
-/// Overwrites a text field of 32 bytes in each record without clearing it first, so that the rest of
-/// the longer text of the previous record remains after a shorter text.
+/// Overwrites a text field of 32 bytes in each record without clearing it first, so that the rest
+/// of the longer text of the previous record remains after a shorter text.
 fn run_on(records: &mut [[u8; 84]], field: usize) {
     let mut before: Vec<u8> = Vec::new();
     for record in records {

@@ -99,8 +99,8 @@ pub(in crate::faults) fn com_group(call: &Call<'_>) -> Option<ComGroup> {
     }
 }
 
-/// The index offset of a call to the contents of the decoder of any channel, in logical addressing or
-/// addressing by index; `None` for other groups.
+/// The index offset of a call to the contents of the decoder of any channel, in logical addressing
+/// or addressing by index; `None` for other groups.
 pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
     (group(call) & 0xFFEF_FF00 == 0x02_2300).then(|| offset(call))
 }
@@ -112,8 +112,8 @@ pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool 
     of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))
 }
 
-/// Whether a call looks up a name on the channel interface: a ReadWrite at the offset of a function in
-/// `NAMED`.
+/// Whether a call looks up a name on the channel interface: a ReadWrite at the offset of a function
+/// in `NAMED`.
 pub(in crate::faults) fn is_lookup(call: &Call<'_>) -> bool {
     is_at(call, NAMED) && call.service == AdsService::ReadWrite
 }

@@ -32,7 +32,8 @@ pub(in crate::faults) struct CncDefect {
     pub(in crate::faults) breaks: &'static [ClauseId],
     pub(in crate::faults) what: &'static str,
     pub(in crate::faults) fault: CncFault,
-    /// The only edition in which the defect is detectable; `None` for both.
+    /// The only edition in which the defect is detectable; `None` if the defect is not limited to
+    /// an edition.
     pub(in crate::faults) edition: Option<Edition>,
     /// Whether the CNC still claims to reply literally as in the manuals' printed examples.
     pub(in crate::faults) printed: bool,

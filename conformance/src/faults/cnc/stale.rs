@@ -1,4 +1,4 @@
-//! Defects of elements, parameters, variables and ADS services, most of which depend on earlier
+//! Defects of elements, parameters, variables and ADS services, many of which depend on earlier
 //! requests or occur in replies to rejected requests.
 
 use ads_cnc::ads::{AdsError, Command};

@@ -1,4 +1,4 @@
-//! Defects of the stream object and of the writes to it (STM).
+//! Defects of the stream object and of the writes to it (mainly STM).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Call, Function};

@@ -24,7 +24,8 @@ pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
 /// The memory of a defect between requests.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
-    /// A number that the defect keeps, such as a count of requests or the handle of an earlier request.
+    /// A number that the defect keeps, such as a count of requests or the handle of an earlier
+    /// request.
     pub(in crate::faults) count: u32,
     /// Bytes that the defect stored, with their keys.
     stored: Vec<(Key, Vec<u8>)>,
@@ -155,8 +156,8 @@ pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> Re
     })
 }
 
-/// The reply, changed by `other` if the call requests one of these functions; the error `INVALID_SIZE`
-/// if the changed reply is longer than the read length.
+/// The reply, changed by `other` if the call requests one of these functions; the error
+/// `INVALID_SIZE` if the changed reply is longer than the read length.
 pub(in crate::faults) fn reply(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

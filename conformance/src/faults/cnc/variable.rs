@@ -9,7 +9,8 @@ use super::{
     text, u32_at,
 };
 
-/// The description of the variable that a request to read or write a value addresses by handle or name.
+/// The description of the variable that a request to read or write a value addresses by handle or
+/// name.
 pub(super) fn described(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<Vec<u8>> {
     let handle = match function(call)? {
         Function::ReadByHandle | Function::WriteByHandle => u32_at(call.data, 0)?,

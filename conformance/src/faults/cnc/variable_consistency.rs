@@ -1,4 +1,4 @@
-//! Defects of variables, most of which show only if several replies are compared (VAR).
+//! Defects of variables, many of which show only if several replies are compared (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Call, Function};

@@ -1,4 +1,4 @@
-//! Defects in writes of variables (VAR).
+//! Defects in writes of variables (mainly VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;

@@ -101,8 +101,8 @@ fn forgotten_checks() -> Vec<SeededDefect> {
     pairs.into_iter().filter_map(each).collect()
 }
 
-/// The defects that reject a stream of maximum length: one for each stream of variable length that has
-/// an accepted vector of this length.
+/// The defects that reject a stream of maximum length: one for each stream of variable length that
+/// has an accepted vector of this length.
 fn too_strict() -> Vec<SeededDefect> {
     let longest = |stream: &Stream| -> Vec<&'static Vector> {
         let layout = stream.layout();
@@ -162,8 +162,8 @@ fn swapped() -> Vec<SeededDefect> {
         .collect()
 }
 
-/// The defects that read and write numbers with the most significant byte first: one for each stream
-/// with numbers of several bytes, except the list of object descriptors.
+/// The defects that read and write numbers with the most significant byte first: one for each
+/// stream with numbers of several bytes, except the list of object descriptors.
 fn turned() -> Vec<SeededDefect> {
     let each = |stream: Stream| {
         let layout = stream.layout();

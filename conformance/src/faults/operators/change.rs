@@ -72,8 +72,8 @@ pub(super) fn asked(
     }
 }
 
-/// The reply to the request with another value of an argument, if the CNC accepts the changed request
-/// and, unless the service is Write, the original request; otherwise the correct reply.
+/// The reply to the request with another value of an argument, if the CNC accepts the changed
+/// request and, unless the service is Write, the original request; otherwise the correct reply.
 pub(super) fn mistaken(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -116,9 +116,9 @@ pub(super) fn changed(
     Ok(bytes)
 }
 
-/// Reads the old value, executes the write, and then executes a second write to the same address,
-/// whose value is the result of `other` for the new and the old value. Returns the reply to the
-/// first write, or an error if the old value could not be read.
+/// Reads the old value, executes the write and, if both succeed, executes a second write to the
+/// same address, whose value is the result of `other` for the new and the old value. Returns the
+/// reply to the first write, or an error if the old value could not be read.
 pub(super) fn rewritten(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

@@ -41,8 +41,8 @@ pub(super) fn differs_by_channel(spec: &FunctionSpec) -> bool {
     first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
 }
 
-/// Whether the simulated CNC sends the same reply for every channel and for every axis of a class:
-/// the number of elements, and their types, lengths, units and write flags.
+/// Whether the simulated CNC with the default model sends the same reply for every channel, and for
+/// every axis, of a class: the number of elements, and their types, lengths, units and write flags.
 pub(super) fn is_alike(spec: &FunctionSpec) -> bool {
     matches!(spec.group, GroupRule::Elements(attribute) if attribute != Attribute::Name)
         && !spec.is_content()

@@ -78,7 +78,8 @@ fn hidden(seeds: &[&'static SeededDefect]) -> Vec<&'static str> {
     hidden
 }
 
-/// All questions in the testee protocol that the cases of the suite send to a codec.
+/// The questions in the testee protocol that the cases of the suite send to a codec, for the
+/// edition `en-1.05`.
 fn questions() -> Vec<Question> {
     let cases = suite::cases();
     cases.iter().flat_map(|case| testee::questions(case, "en-1.05")).collect()

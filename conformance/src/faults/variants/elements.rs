@@ -24,8 +24,8 @@ fn is_number(call: &Call<'_>) -> bool {
     of_content && call.service == AdsService::Read && offset(call) & 0xFFF == 0
 }
 
-/// Changes the stride of the axes from 0x10000 to 0x1000 in the classes for which the manuals do not
-/// print a stride.
+/// Changes the stride of the axes from 0x10000 to 0x1000 in the classes for which the manuals do
+/// not print a stride.
 fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let of = |at: Class| {
         matches!(at, Class::PositionController | Class::Interpolator | Class::PathPreparation)

@@ -42,7 +42,8 @@ name = "S {}"
 "#
 );
 
-/// A CNC whose first channel is not channel 1, which the manuals name for the objects of the platform.
+/// A CNC whose first channel is not channel 1, which the manuals name for the objects of the
+/// platform.
 const THIRD: &str = with_names!(
     r#"
 [platform]

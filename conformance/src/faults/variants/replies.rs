@@ -86,8 +86,9 @@ pub(super) const ROWS: &[CncDefect] = &[
     unprinted(row("different.texts-end", &[],
         "a read of a STRING variable returns no bytes after the NUL",
         |cnc, call| {
-            // The key under which the variant stores the handle of a STRING when it sends a description.
-            // The key omits the bit of logical addressing, because a handle is valid with and without it.
+            // The key under which the variant stores the handle of a STRING when it sends a
+            // description. The key omits the bit of logical addressing, because a handle is valid
+            // with and without it.
             let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
             let is_text =
                 |bytes: &[u8]| (u32_at(bytes, 4), u32_at(bytes, 16)) == (Some(9), Some(0));

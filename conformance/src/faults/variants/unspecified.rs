@@ -11,8 +11,8 @@ use crate::faults::cnc::{
 
 const STREAM: &[Function] = &[Function::WriteProgramStream];
 
-/// If the CNC does not find the name in the request, replaces it by the listed name that differs only
-/// in case.
+/// If the CNC does not find the name in the request, replaces it by the listed name that differs
+/// only in case.
 fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let answer = cnc.answer(call);
     if !is(call, NAMED) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
@@ -53,7 +53,8 @@ fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
     (u32_at(&described, 4) == Some(9)).then_some(size)
 }
 
-/// The reply with a REAL64 changed by a little more at each read, like the position of a moving axis.
+/// The reply with a REAL64 changed by a little more at each read, like the position of a moving
+/// axis.
 fn moved(cnc: &Upstream<'_>, answer: ReplyData) -> ReplyData {
     answer.map(|bytes| match bytes.first_chunk::<8>() {
         Some(value) if bytes.len() == 8 => {
@@ -201,7 +202,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         CncFault::Model(NUMBERS))),
 ];
 
-/// A CNC with the largest channel number and the largest index offset, with axis numbers up to
+/// A CNC with the channel number 255 and an object at the offset 0xFFFF, with axis numbers up to
 /// 65535, and with extreme values.
 const NUMBERS: &str = with_names!(
     r#"

@@ -75,8 +75,8 @@ fn a_handle_allows_writes_to_its_variable() {
     assert_eq!(ambiguity(&gate, &by_handle(7)), unconfirmed());
 }
 
-/// A write by a handle is rejected if any reply contained the handle for a name that is not in the
-/// file.
+/// A write by a handle is rejected if a reply of the same channel contained the handle for a
+/// variable that is not in the file.
 #[test]
 fn a_handle_with_several_names_is_rejected() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\

@@ -31,9 +31,10 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Adds the objects of a list, if it is selected, except those at the addresses `known`.
-    /// Returns the addresses of the objects that were read: of a list that is not selected, only
-    /// those of the platform. `None` if the target does not have the list, or if it is empty.
+    /// Adds the objects of a list whose names are selected, if the list is selected, except those
+    /// at the addresses `known`. Returns the addresses of the objects that were read: of a list
+    /// that is not selected, only those of the platform. `None` if the target does not have the
+    /// list, or if it is empty.
     fn list(
         &mut self,
         objects: ObjectList,

@@ -68,11 +68,11 @@ pub struct WalkResult {
 /// The progress of a walk.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkProgress {
-    /// The list being read.
+    /// The selected list that was begun last.
     pub list: ValueList,
     /// Number of objects that were added so far.
     pub objects: usize,
-    /// Number of requests that were sent so far.
+    /// Number of requests so far, including the one that is sent next.
     pub requests: u64,
 }
 
@@ -136,7 +136,7 @@ struct Walk<'w> {
     options: &'w Options,
     watch: &'w mut dyn FnMut(WalkProgress),
     found: WalkResult,
-    /// The list that is being read.
+    /// The selected list that was begun last, if any.
     list: Option<ValueList>,
     /// Number of bytes of all names and units so far.
     names: usize,

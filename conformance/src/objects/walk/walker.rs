@@ -50,6 +50,7 @@ pub(crate) trait Walker: Sized {
     type Error;
 
     /// Sends a request and returns the data of the reply; `None` if the target rejects the request.
+    /// A tool also returns `None` if the task GEO does not answer, or rejects with an AMS error.
     fn request<'r>(
         &mut self,
         request: impl Into<Request<'r>>,
@@ -99,8 +100,8 @@ pub(crate) trait Walker: Sized {
     }
 
     /// Reads the descriptors of a list with `count` objects: up to `range` descriptors per request,
-    /// or one per request after a request for several was rejected. Ends after [`GAP`] consecutive
-    /// rejections.
+    /// or one per request after a request for several was rejected or returned no valid or too many
+    /// descriptors. Ends after this has happened to [`GAP`] consecutive requests for one.
     fn objects_of(
         &mut self,
         list: ObjectList,

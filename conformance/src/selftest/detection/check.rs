@@ -14,8 +14,8 @@ use crate::text::plural;
 /// The defects that are measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Every defect that changed since the table was written, and [`SAMPLE`] others, which this random
-    /// seed selects.
+    /// Every defect that changed since the table was written, and [`SAMPLE`] others, which this
+    /// random seed selects.
     Sample(u32),
     /// Every defect that changed since the table was written; every defect if [`inputs`] changed.
     Changed,
@@ -35,8 +35,8 @@ pub struct CheckedTable {
     pub table: DetectionTable,
     /// Number of defects that were measured again without an error.
     pub measured: usize,
-    /// Differences from the committed table, changed inputs, errors of measurements, and
-    /// unnecessary witnesses.
+    /// Findings such as differences from the committed table, changed inputs, errors of
+    /// measurements, and unnecessary witnesses.
     pub differences: Vec<String>,
 }
 

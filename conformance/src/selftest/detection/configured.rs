@@ -1,5 +1,5 @@
-//! Witnesses: correct CNCs with a configuration that differs from that of the simulated CNC. The
-//! replies of a witness equal those of the simulated CNC with a defect.
+//! Witnesses: correct CNCs with a configuration that differs from that of the tested device. In at
+//! least one mode, the replies of a witness equal those of the device with a defect.
 
 use std::sync::Arc;
 
@@ -148,8 +148,8 @@ fn read_only(line: &str) -> String {
     line.replace(WRITABLE, "")
 }
 
-/// Makes the value of a line writable. A read-only axis number also becomes an ordinary number, because
-/// the simulated CNC does not let a client write the number of a platform axis.
+/// Makes the value of a line writable. A read-only axis number also becomes an ordinary number,
+/// because the simulated CNC does not let a client write the number of a platform axis.
 fn writable(line: &str) -> String {
     let own = if line.contains(WRITABLE) { line } else { &line.replace(AXIS_NUMBER, NUMBERS) };
     read_only(own).replace(", type = ", &format!("{WRITABLE}, type = "))
@@ -180,8 +180,8 @@ impl Witness {
         model.lines().map(|line| changed(line) + "\n").collect()
     }
 
-    /// The simulated CNC of the witness; `None` if the mode uses the profile of the device and the profile
-    /// does not apply to the witness.
+    /// The simulated CNC of the witness; `None` if the mode uses the profile of the device and the
+    /// profile does not apply to the witness.
     pub(super) fn cnc(
         &self,
         device: &Device,
@@ -192,7 +192,7 @@ impl Witness {
     }
 }
 
-/// The unnecessary witnesses: those whose replies equal the replies of their defect in no mode.
+/// The unnecessary witnesses: those that the results of their defect name in no mode.
 pub(super) fn stale(rows: &[DetectionRow]) -> Vec<String> {
     let is_needed = |defect: &str, what: &str| {
         let results = rows.iter().filter(|row| row.id == defect).flat_map(|row| row.modes.values());

@@ -12,7 +12,7 @@ pub enum Mode {
     ReadOnly,
     /// Queries only, with a complete profile of the device.
     Profiled,
-    /// Without a profile; the file of `--allow-write` names every writable value except the axis
+    /// Without a profile; the file of `--allow-write` names the writable values except the axis
     /// numbers.
     Writes,
     /// The `--allow-write` file of `Writes`, the profile of `Profiled`, and malformed requests.
@@ -60,8 +60,9 @@ pub enum DetectionResult {
     Elsewhere,
     /// No requirement fails, although the reply to this request shows the defect.
     Missed(String),
-    /// No requirement fails, and no request of the mode distinguishes the CNC from a correct CNC: the
-    /// CNC without the defect, or this witness.
+    /// No requirement fails, and the CNC is correct for the reason in this text, or no request of
+    /// the mode distinguishes it from a correct CNC: the CNC without the defect, or the witness
+    /// that this text names.
     Undetectable(String),
     /// A valid variant, and no requirement fails.
     Quiet,

@@ -24,11 +24,11 @@ pub(super) struct Device {
     pub(super) model: &'static str,
     settings: Settings,
     profile: Profile,
-    /// The contents of an `--allow-write` file that allows all writes to values that the profile does
-    /// not exclude. It excludes the axis numbers, because writing them exchanges axes.
+    /// The contents of an `--allow-write` file that names the writable values that the profile does
+    /// not exclude. The profile excludes the axis numbers, because writing them exchanges axes.
     allowed: Allowed,
-    /// The digests of the correct replies, by the requests that the gate allows: queries; queries and
-    /// writes; queries, writes and malformed requests.
+    /// The digests of the correct replies, by the requests that the gate allows: queries; queries
+    /// and writes; queries, writes and malformed requests.
     correct_digests: [OnceLock<Vec<u64>>; 3],
     /// Digests like those in `correct_digests`, but without the values that the configuration of a
     /// CNC determines.
@@ -76,8 +76,8 @@ impl Device {
         Ok(Arc::new(Faulty::new(self.correct_cnc()?, defect)))
     }
 
-    /// A simulated CNC with another model and edition, optionally a valid variant; `None` if the mode uses
-    /// the profile of this device and this profile does not apply to that CNC.
+    /// A simulated CNC with another model and edition, optionally a valid variant; `None` if the
+    /// mode uses the profile of this device and this profile does not apply to that CNC.
     pub(super) fn cnc_with_model(
         &self,
         model: &str,
@@ -87,8 +87,8 @@ impl Device {
     ) -> Result<Option<Arc<Faulty>>, ToolError> {
         let settings = Settings { edition: edition.or(self.settings.edition), ..self.settings };
         let model = built(model, settings)?;
-        // The profiles may differ in `unwritten`, which lists the values that the suite does not write and
-        // claims nothing about the CNC.
+        // The profiles may differ in `unwritten`, which lists the values that the suite does not
+        // write and claims nothing about the CNC.
         let unwritten = self.profile.unwritten.clone();
         let profile = Profile { unwritten, ..model.profile() };
         if mode.has_profile() && format!("{profile:?}") != format!("{:?}", self.profile) {
@@ -97,7 +97,8 @@ impl Device {
         Ok(Some(Arc::new(Faulty::new(Cnc::new(model).with_stopped_clock(), variant))))
     }
 
-    /// The digests of the replies without a defect to every request that a mode may send.
+    /// The digests of the replies without a defect to the generated requests that the gate of a
+    /// mode allows.
     pub(super) fn correct_answers(
         &self,
         mode: Mode,
@@ -119,8 +120,8 @@ impl Device {
         Ok(correct_digests.get().map_or(&[], Vec::as_slice))
     }
 
-    /// The axis indices to which the suite does not write, as channel and index: those that have no axis
-    /// according to the profile; without a profile, all in channels other than the first.
+    /// The axis indices to which the suite does not write, as channel and index: those that have no
+    /// axis according to the profile; without a profile, all in channels other than the first.
     fn unwritten_places(&self, mode: Mode) -> Vec<(u32, u32)> {
         if mode.has_profile() {
             return self.profile.empty_places.to_vec();
@@ -171,8 +172,8 @@ fn built(model: &str, settings: Settings) -> Result<Model, ToolError> {
     model.map_err(|error| ToolError::Internal(format!("the model: {error}")))
 }
 
-/// The contents of an `--allow-write` file with every value that the CNC describes as writable,
-/// except the values that the profile excludes, with the writable values that no list of the CNC
+/// The contents of an `--allow-write` file with the listed values that the CNC describes as
+/// writable, except those that the profile excludes, with writable values that no list of the CNC
 /// contains, and with the stream and the Service Interface of each channel.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError> {
     let cnc = Arc::new(cnc.with_stopped_clock());
@@ -200,7 +201,7 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError
     Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
 }
 
-/// The digests of a CNC's replies to every request that a mode may send to the device.
+/// The digests of a CNC's replies to the generated requests that the gate of a mode allows.
 pub(super) fn answers(
     device: &Device,
     cnc: Arc<Faulty>,
@@ -229,8 +230,8 @@ fn of_model(model: &'static str) -> Result<&'static Device, ToolError> {
 }
 
 /// The devices on which a defect is tried: for a variant with its own model, the device with this
-/// model; otherwise the device of the edition of the defect, or of both editions if the defect has no
-/// edition.
+/// model; otherwise the device of the edition of the defect, or of both editions if the defect has
+/// no edition.
 pub(super) fn devices(defect: &SeededDefect) -> Result<Vec<&'static Device>, ToolError> {
     if let Some(model) = defect.own_model() {
         return of_model(model).map(|device| vec![device]);

@@ -41,9 +41,9 @@ pub fn measure(defect: &SeededDefect) -> Result<DetectionRow, ToolError> {
     Ok(DetectionRow { id: defect.id.clone(), hash: hash(defect)?, modes })
 }
 
-/// A hash of the defect's row without its description, which does not change what is detected, and of
-/// the replies of the first of its devices with the defect in the mode `All`, up to the first reply
-/// that differs from the reply without the defect.
+/// A hash of the defect's ID, requirements and edition, and of the replies of the first of its
+/// devices with the defect in the mode `All`, up to the first reply that differs from the reply
+/// without the defect.
 ///
 /// # Errors
 /// An error of the simulated CNC.

@@ -1,4 +1,5 @@
-//! Tests, with pairs of defects, that the failure of one clause does not hide the violation of another.
+//! Tests, with pairs of defects, that the failure of one clause does not hide the violation of
+//! another.
 
 use serde::Serialize;
 
@@ -22,9 +23,10 @@ pub const PAIRS: usize = 200;
 /// for the pairs that this seed selects.
 const SEED: u32 = 24;
 
-/// Pairs of ID prefixes: a defect whose ID starts with the first prefix can hide a defect whose ID starts
-/// with the second. Only a read of elements by handle detects a wrong dimension in a description (VAR-4).
-/// The value of a dynamic parameter is compared with the value of the variable of the same name.
+/// Pairs of ID prefixes: a defect whose ID starts with the first prefix can hide a defect whose ID
+/// starts with the second. For example, a read of elements by handle detects a wrong dimension in a
+/// description (VAR-4), and the value of a dynamic parameter is compared with the value of the
+/// variable of the same name.
 const MASKED: [(&str, &str); 3] = [
     ("variable-handle-read", "variable-description.dimensions"),
     ("variable-handle-read", "dynamic-value.value"),
@@ -96,7 +98,7 @@ fn chosen(table: &DetectionTable) -> Vec<(FieldDefect, FieldDefect)> {
     pairs.take(PAIRS).map(|(one, other)| (one.clone(), other.clone())).collect()
 }
 
-/// For each of the two defects, whether a requirement that the defect breaks fails.
+/// For each of the two defects, whether the defect is caught.
 fn try_pair((one, other): &(FieldDefect, FieldDefect)) -> Result<(bool, bool), ToolError> {
     let device = Device::of_edition(Edition::English)?;
     let outcomes = device.outcomes_with(vec![one.clone(), other.clone()], Mode::ReadOnly)?;
@@ -128,8 +130,8 @@ fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     listed || is_of_frames(masking) || is_of_frames(masked) || depends
 }
 
-/// The functions whose request or reply is the stream, or contains the stream as a record; empty for a
-/// stream of frames.
+/// The functions whose request or reply is the stream, or contains the stream as a record; empty
+/// for a stream of frames.
 fn functions(stream: Stream) -> Vec<Function> {
     let stream = match stream {
         Stream::ObjectDescriptor => Stream::ObjectDescriptors,

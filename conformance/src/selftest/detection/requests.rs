@@ -88,8 +88,9 @@ pub(super) struct RecordedAnswers {
     pub(super) difference: Option<String>,
 }
 
-/// Sends all requests that the client's gate allows. `correct_digests` contains the digests of the
-/// replies of another CNC: the function stops at the first reply with a different digest.
+/// Sends the generated requests that the client's gate allows. `correct_digests` contains the
+/// digests of the replies of another CNC: the function stops at the first reply with a different
+/// digest.
 pub(super) fn ask_everything<'t>(
     client: Client,
     cnc: Arc<Cnc>,
@@ -170,9 +171,9 @@ impl ReplyRecorder<'_> {
         data
     }
 
-    /// Sends variants of a request, each with one change: data, service, port, read length, or one
-    /// bit of the index group or offset. `answered` is the number of bytes of data in the reply to
-    /// the correct request.
+    /// Sends variants of a request, each with at most one change: data, service, port, read length,
+    /// or one bit of the index group or offset. `answered` is the number of bytes of data in the
+    /// reply to the correct request.
     fn send_malformed(&mut self, call: &Call<'_>, answered: usize) {
         let longer = [call.data, &[0]].concat();
         let shorter = |count: usize| call.data.get(..call.data.len().checked_sub(count)?);
@@ -307,8 +308,9 @@ fn set_to_one(number: &mut [u8]) {
     }
 }
 
-/// Index lists for an array with these dimensions: the first, the second and the last element in all
-/// dimensions, an index after the last and index 1 in each dimension alone, and one index too many.
+/// Index lists for an array with these dimensions: the first, the second and the last element in
+/// all dimensions, an index after the last and index 1 in each dimension alone, and one index too
+/// many.
 fn parts(dimensions: &[u32]) -> Vec<Vec<u32>> {
     let mut parts: Vec<Vec<u32>> = [0, 1, u32::MAX]
         .map(|at| dimensions.iter().map(|&count| at.min(count.saturating_sub(1))).collect())

@@ -25,7 +25,8 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DetectionRow {
     pub id: String,
-    /// The hash of the defect and of the CNC's replies with the defect, as `super::hash` returns it.
+    /// The hash of the defect and of the CNC's replies with the defect, as `super::hash` returns
+    /// it.
     pub hash: String,
     /// The result in each mode.
     pub modes: BTreeMap<Mode, Detection>,
@@ -49,8 +50,7 @@ pub struct Figures {
     pub elsewhere: usize,
     /// Defects with which no requirement fails, although the reply to a request shows the defect.
     pub missed: usize,
-    /// Defects with which no requirement fails, and no reply distinguishes the CNC from a correct
-    /// CNC.
+    /// Defects that are [`DetectionResult::Undetectable`].
     pub undetectable: usize,
     /// Valid variants without a failed requirement.
     pub quiet: usize,
@@ -112,8 +112,8 @@ impl DetectionTable {
         figures
     }
 
-    /// The number of requirements that fail for one defect in the mode `ReadOnly`: median and 90th
-    /// percentile over the defects for which at least one requirement fails. With `of_fields`, the
+    /// The number of [`Detection::requirements`] for one defect in the mode `ReadOnly`: median and
+    /// 90th percentile over the defects with at least one such requirement. With `of_fields`, the
     /// defects of a single field are counted, otherwise all other defects of a CNC.
     pub fn blame(&self, of_fields: bool) -> (usize, usize) {
         let of_field = |row: &&DetectionRow| {

@@ -37,7 +37,8 @@ const ONE_TO_ONE: &[FieldChange] =
 const ANY: &[FieldChange] =
     &[FieldChange::FlipLow, FieldChange::Invert, FieldChange::SwapBytes, FieldChange::Zero];
 
-/// Prefixes of the IDs of defects whose effects are all undocumented or assumed, each with the reason.
+/// Prefixes of the IDs of defects whose effects are all undocumented or assumed, each with the
+/// reason.
 const UNDOCUMENTED: &[(&str, &str)] = &[
     ("cnc.var.axis-handle-own", "how handles of the axis interface are used is assumed (VAR-10)"),
     ("cnc.var.handle-changes", "a name may have several handles (VAR-10)"),

@@ -64,7 +64,7 @@ impl Model {
     /// Like [`with_settings`](Self::with_settings), but reads a file.
     ///
     /// # Errors
-    /// Those of [`from_toml`](Self::from_toml), or if the file cannot be read.
+    /// Those of [`from_toml`](Self::from_toml), or if the file cannot be read or is not UTF-8.
     pub fn load(path: &Path, settings: Settings) -> Result<Self, ModelError> {
         let file = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| ModelError::of_file(&file, error))?;
@@ -79,8 +79,8 @@ impl Model {
         self.edition
     }
 
-    /// The version of the CNC, which determines its features; with `None`, the CNC has all
-    /// features.
+    /// The version of the CNC, which determines its features; with `None`, the CNC has all features
+    /// of its edition.
     pub const fn version(&self) -> Option<CncVersion> {
         self.version
     }

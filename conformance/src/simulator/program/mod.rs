@@ -2,15 +2,15 @@
 //!
 //! - [`StreamingProgram`]: the streaming program. It receives its lines through the streaming
 //!   interface and executes them at a configured pace.
-//! - [`Script`]: a program that repeatedly sends requests to services through the Service
-//!   Interface.
+//! - [`Script`]: a program that sends a list of requests to services through the Service Interface,
+//!   once or repeatedly.
 //! - [`StreamingInterface`], [`service`]: the two interfaces, and a single request of a program to
 //!   a service.
 //!
-//! The programs use no threads, clocks or sockets. Before each access, the caller passes the time
-//! since any fixed point, which must never decrease, and the program executes all steps that are
-//! due. The result does not depend on the number of these calls, except if a [`Script`] has too
-//! many steps that are due.
+//! The programs use no threads or sockets, and not the clock of the system. Before each access, the
+//! caller passes the time since any fixed point, which must never decrease, and the program
+//! executes the steps that are due. The result does not depend on the number of these calls, unless
+//! more steps of a [`Script`] are due than one call executes.
 //!
 //! ```
 //! use std::time::Duration;

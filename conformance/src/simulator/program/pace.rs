@@ -96,7 +96,8 @@ impl LineClock {
         Self { since: now, units: 0 }
     }
 
-    /// Returns whether a line has been executed by `now`, and counts the line in this case.
+    /// Returns whether a line has been executed by `now`; in this case, counts the line, unless the
+    /// pace is [`Pace::Fast`].
     pub(super) fn pass(&mut self, pace: Pace, line: &[u8], now: Duration) -> bool {
         let (rate, cost) = match pace {
             Pace::Fast => return true,

@@ -17,7 +17,8 @@ pub struct ScriptConfig {
     pub requests: Vec<ServiceRequest>,
     /// The number of times that the list of requests is executed.
     pub repeat: Repeat,
-    /// The pause between a response, or the end of the maximum wait, and the next request.
+    /// The pause between a response, or the end of the maximum wait, and the next request; a pause
+    /// that is shorter than `cycle` lasts one cycle.
     pub pause: Duration,
     /// The time between two steps, each of which writes or reads a variable; a time of less than a
     /// microsecond counts as a microsecond.
@@ -164,7 +165,7 @@ pub struct Script {
     cycle: Duration,
     repeat: Repeat,
     passes: u32,
-    /// The current request with its index; `None` after the last request.
+    /// The current request with its index; `None` if no request is left.
     present: Option<(usize, ServiceCall)>,
     /// The time at which the next step is due; `None` before the first step, which is due at once.
     due: Option<Duration>,
@@ -177,8 +178,8 @@ impl Script {
     /// Maximum number of stored outcomes.
     pub const ANSWERS_MAX: usize = CompletedRequests::STORED_MAX;
 
-    /// Maximum number of steps that one call of [`advance`](Self::advance) executes. It skips reads
-    /// of RESPONSE_STATE that cannot find a response.
+    /// Maximum number of steps that one call of [`advance`](Self::advance) executes. Reads of
+    /// RESPONSE_STATE that cannot find a response are skipped.
     const STEPS: u32 = 100_000;
 
     /// Creates a program that begins when it is first [advanced](Self::advance).
@@ -219,7 +220,7 @@ impl Script {
         self.present = self.requests.first().filter(|_| any).map(|call| (0, call.clone()));
     }
 
-    /// Executes the steps that are due.
+    /// Executes the steps that are due, at most a fixed number of them.
     pub fn advance(&mut self, now: Duration, interface: &mut ServiceInterface) {
         for _ in 0..Self::STEPS {
             let due = *self.due.get_or_insert(now);
@@ -277,7 +278,7 @@ impl Script {
         self.go_on(at, now);
     }
 
-    /// The next step; `None` after the last request.
+    /// The next step; `None` if no request is left.
     pub fn next_step(&self) -> Option<CallStep<'_>> {
         self.present.as_ref().map(|(_, call)| call.step())
     }
@@ -307,8 +308,8 @@ impl Script {
         self.answers.timed_out
     }
 
-    /// Continues with the request after the one with the index `at`; of the last request, with the
-    /// first one, unless the list has been executed as often as configured.
+    /// Continues with the request after the one with the index `at`; after the last request, with
+    /// the first one, unless the list has been executed as often as configured.
     fn go_on(&mut self, at: usize, now: Duration) {
         let mut next = at.saturating_add(1);
         if next >= self.requests.len() {

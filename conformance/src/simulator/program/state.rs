@@ -75,6 +75,8 @@ pub enum StartError {
     /// The streaming program has no name, so streaming is disabled (STM-13).
     #[error("P-CHAN-00158 streaming_prog_file is empty: name of the streaming program expected")]
     NoName,
+    /// The program has started, and is [running](ProgramState::Running) or
+    /// [dry](ProgramState::Dry).
     #[error("the streaming program is running")]
     Running,
     /// The program was aborted; an NC reset is required first (assumed).

@@ -17,7 +17,7 @@ pub struct ProgramConfig {
     /// Name of the streaming program, P-CHAN-00158 `streaming_prog_file`. An empty name disables
     /// streaming (STM-13); this is the default of a CNC, but not of this type.
     pub name: String,
-    /// The events that start the program.
+    /// The events that start the program, besides [`StreamingProgram::start`].
     pub start: Start,
     /// Speed of execution; 1000 lines/s by default (assumed).
     pub pace: Pace,
@@ -27,11 +27,11 @@ pub struct ProgramConfig {
     pub kept: usize,
 }
 
-/// The events that start a streaming program (STM-14). No manual documents an ADS function that
-/// starts a streaming program.
+/// The events that start a streaming program, besides a call of [`StreamingProgram::start`]
+/// (STM-14). No manual documents an ADS function that starts a streaming program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// Only [`StreamingProgram::start`].
+    /// No other event.
     ByHand,
     /// Power-on of the channel.
     #[default]
@@ -66,9 +66,10 @@ impl Default for ProgramConfig {
 ///   in the interface remain for the next start (STM-10).
 /// - An NC reset ends streaming mode and empties the interface (STM-11).
 ///
-/// The lines are not interpreted: each line is executed once, in order, without branches and jumps.
-/// A line with `L`, which calls a subroutine in another file, is executed like any other line: the
-/// M17 or M29 of the subroutine is in that file and does not end the stream (STM-18).
+/// Apart from program ends, loops and jumps, the lines are not interpreted: they are executed in
+/// order, each at most once. A line with `L`, which calls a subroutine in another file, is executed
+/// like any other line: the M17 or M29 of the subroutine is in that file and does not end the
+/// stream (STM-18).
 ///
 /// The program needs memory for the interface, the same amount for read lines, the labels of the
 /// [`Checker`], and the stored executed lines.
@@ -146,7 +147,8 @@ impl StreamingProgram {
     /// lines from 1 again.
     ///
     /// # Errors
-    /// [`StartError`], if the program has no name, is running, or was aborted.
+    /// [`StartError`], if the program has no name, is running (also without lines to execute), or
+    /// was aborted.
     pub fn start(&mut self, now: Duration) -> Result<(), StartError> {
         self.advance(now);
         if self.config.name.is_empty() {
@@ -205,7 +207,8 @@ impl StreamingProgram {
         self.interface.len() == 0 && matches!(segment.next(), Next::Nothing)
     }
 
-    /// The lines executed up to the last access, including those before starts and resets.
+    /// The lines executed up to the last access, including those before starts and resets, but not
+    /// those before [`forget_executed`](Self::forget_executed).
     pub fn executed(&self) -> &Executed {
         &self.executed
     }

@@ -15,8 +15,8 @@ use crate::profile::Claim;
 use crate::suite::kit::{ChannelItems, Probe, RawCall, ask_if_claimed, content_reads, name_of};
 use crate::text::plural;
 
-/// Sends requests in pieces of 37, 6 and 1 bytes. TCP may split a frame anywhere, so only the
-/// length field of the frame determines where the frame ends.
+/// Sends requests in pieces of at most 37, 6 and 1 bytes. TCP may split a frame anywhere, so only
+/// the length field of the frame determines where the frame ends.
 pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 2] =
@@ -37,12 +37,12 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
     probe.finish("the target claims no function that can be requested")
 }
 
-/// Whether a requirement fixes the length of the data of a reply.
+/// Whether a case judges the length of the data of a reply as fixed by a requirement.
 #[derive(Clone, Copy)]
 enum LengthRule {
     /// The length is fixed by this requirement.
     Fixed(Rule),
-    /// No requirement fixes the length; it may depend on the length of a text.
+    /// The length is not judged as fixed, because it may depend on the length of a text.
     Open,
 }
 
@@ -147,8 +147,8 @@ fn lengths(
         let rules = [rule.into(), own];
         probe.check(&rules[..], fits, expected, shown(found));
     }
-    // If a large read length is accepted, a read length that is one byte smaller must return the
-    // same number of bytes.
+    // If a large read length is accepted for a reply of fixed length, a read length that is one
+    // byte smaller must return the same number of bytes.
     let is_number =
         request.function().spec().reply.is_some_and(|stream| stream.layout().is_fixed());
     let much = there.saturating_add(0x1_0000);

@@ -44,7 +44,8 @@ pub(super) const CASES: &[CaseRow] = &[
         "Another service reads an acknowledged value, and the value written before is unchanged"),
 ];
 
-/// Maximum number of items that the cases in this module request of a list.
+/// Maximum number of descriptors, descriptions and elements that are requested of a list in
+/// [`read_addresses`], [`read_write_addresses`] and [`elements_agree`].
 const ITEMS_MAX: u32 = 8;
 
 /// Sends a request to a function that the target must have, and checks that it succeeds. Returns

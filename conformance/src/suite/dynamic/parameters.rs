@@ -12,7 +12,7 @@ use crate::suite::kit::{IntoRawCall, PendingCheck, Probe, steadily};
 /// Maximum number of parameters of a kind that are read.
 pub(super) const PARAMETERS_MAX: u32 = 1_000;
 
-/// The prefix of the names of a kind, which is also the name of the kind.
+/// The prefix of the names of a kind, which also denotes the kind in messages.
 pub(super) const fn prefix(kind: DynamicKind) -> &'static str {
     match kind {
         DynamicKind::P => "P",

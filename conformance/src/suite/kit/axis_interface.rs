@@ -10,8 +10,8 @@ use crate::objects::ValueAddress;
 use crate::suite::kit::Probe;
 
 /// The highest axis index of a channel that the cases request on the axis interface to find the
-/// indices with a handle. A run without a profile treats the axis indices up to this one, in all
-/// channels but the first, as possibly without an axis.
+/// indices with a handle. A run without a profile, if it may write, treats the axis indices up to
+/// this one, in all channels but the first, as possibly without an axis.
 pub(crate) const PLACES_MAX: u32 = 64;
 /// Maximum number of consecutive axis indices without a handle after which a search continues: at
 /// an axis index without an axis, the CNC need not return a handle.

@@ -1,4 +1,5 @@
-//! Values that cases have changed and not restored.
+//! The values that cases have changed with `Probe::changing`, and those of them that have not been
+//! restored.
 
 #![cfg_attr(
     not(test),

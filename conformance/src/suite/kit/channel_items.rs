@@ -48,8 +48,8 @@ impl ChannelItems {
     }
 
     /// Queries about these items and about the first entries of the lists of variables and
-    /// parameters. The queries address `channel`: the channel of the items by its number or by its
-    /// rank, or another channel.
+    /// parameters. The queries address `channel`, usually the channel of the items, by its number
+    /// or by its rank.
     pub(crate) fn requests(&self, channel: Channel) -> Step<Vec<Request<'_>>> {
         let mut requests = Vec::new();
         for variable in &self.variables {

@@ -29,7 +29,7 @@ fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
 }
 
 /// Whether any V.P, V.L or V.S of [`dynamic_names`] can be read by name as a variable, as the
-/// German edition states.
+/// German edition states for certain versions.
 pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     let (channel, all) = (probe.channel()?, dynamic_names(probe)?);
     for (_, name) in &all {
@@ -41,8 +41,8 @@ pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
     Ok(false)
 }
 
-/// The V.P, V.L and V.S of the first channel, if they are also variables. Ends the case as not
-/// applicable if none exists at the moment, or if they are only parameters: according to the
+/// The V.P, V.L and V.S of [`dynamic_names`], if they are also variables. Ends the case as not
+/// applicable if there are none, or if they are taken to be only parameters: according to the
 /// edition or the version in the profile, or, if the version leaves this open, because the first
 /// of them cannot be read by name as a variable.
 pub(crate) fn dynamic_among_variables(

@@ -1,5 +1,5 @@
-//! The lists of a target, which are stored when a case first reads them: objects of the COM task,
-//! instances of the classes of SDA and GEO, and descriptions of variables.
+//! The lists of a target, which are stored after they were read: objects of the COM task, instances
+//! of the classes of SDA and GEO, and descriptions of variables.
 
 mod variables;
 
@@ -22,8 +22,8 @@ use crate::objects::{CLASSES, ListedValue, ValueAddress, ValueList, Walker};
 use crate::profile::Claim;
 use crate::suite::kit::{Instance, ItemKind, Probe};
 
-/// Maximum number of objects of a list, and of elements of an instance, that a case reads without
-/// sampling.
+/// Limit of the number of objects of a list, and of elements of an instance, in most reads without
+/// sampling. The case `com-descriptors-in-sequence` also reads a longer list with one request.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
 /// The highest axis number and spindle index that the search for instances requests.
 pub(crate) const INSTANCES_MAX: u32 = 255;
@@ -32,7 +32,7 @@ pub(crate) const INSTANCES_MAX: u32 = 255;
 pub(crate) const OF_PLACES: [Class; 3] =
     [Class::Interpolator, Class::Decoder, Class::PathPreparation];
 
-/// The requests for the attributes of an element.
+/// The requests for the name, type, length, unit and write flag of an element.
 pub(crate) fn attribute_reads(element: ElementAddress) -> [Request<'static>; 5] {
     [
         ReadElementName::new(element).into(),
@@ -97,7 +97,7 @@ impl Probe<'_> {
     }
 
     /// Whether an object of a channel may belong to an axis index that has no axis, or may have
-    /// none. A value that is written at an axis index without an axis is lost.
+    /// none. A value that is written at an axis index without an axis may be lost.
     pub(crate) fn is_blank(&self, object: &ListedValue) -> bool {
         let ValueList::Channel(number) = object.list else { return false };
         self.empty_places().filter(|at| at.0 == u32::from(number)).any(|at| object.is_of_axis(at.1))
@@ -131,7 +131,8 @@ impl Probe<'_> {
     }
 
     /// The objects that the cases read, of all [`lists`](Self::lists). Ends the case as not
-    /// applicable if there are none. Other cases judge descriptors that cannot be read.
+    /// applicable if there are none, or if the profile does not claim the requests. Other cases
+    /// judge descriptors that cannot be read.
     pub(crate) fn objects(&mut self) -> Step<Vec<ListedValue>> {
         if self.target.objects.is_none() {
             let mut all = Vec::new();
@@ -163,8 +164,10 @@ impl Probe<'_> {
     /// The instances of the claimed channels, of the platform and of the spindles, for which the
     /// target returns an address. Axes and spindles are requested up to the first one for which the
     /// target returns no address of an element, or the address of a known instance of the same
-    /// class. Ends the case as not applicable if there are no instances, or if the profile does not
-    /// claim the request for their addresses. Other cases judge the addresses.
+    /// class; the last axis number and spindle index that are requested are [`INSTANCES_MAX`]. Ends
+    /// the case as not applicable if there are no instances, or if the profile does not claim the
+    /// requests for their addresses, their numbers of elements and the names of elements. Other
+    /// cases judge the addresses.
     pub(crate) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
@@ -200,7 +203,7 @@ impl Probe<'_> {
         let reported = self.count_elements(first)?.unwrap_or_default();
         let reached = self.last_named(first, reported.min(OBJECTS_MAX))?;
         // If the number of the last element with a name is one less than the reported number, the
-        // reported number is taken to include element 0.
+        // reported number is taken to include element 0, unless no element has a name.
         let is_itself = reported > 0
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);

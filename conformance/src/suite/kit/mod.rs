@@ -1,5 +1,5 @@
-//! Functions that the cases share: requests, checks, lists of items, and writes after which the
-//! original value is restored.
+//! Functions and types that several cases share, such as requests, checks, lists of items, and the
+//! restoring of written values.
 
 mod axis_interface;
 mod changes;

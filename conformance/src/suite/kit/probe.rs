@@ -97,7 +97,8 @@ impl<'s> Probe<'s> {
     }
 
     /// Whether the function of a request is claimed and the [gate](crate::gate) allows the request.
-    /// For a write by handle, first sends the queries that confirm the handle to the gate.
+    /// For a write by handle, first tries to [confirm](Self::confirm_handle) the handle to the
+    /// gate.
     pub(crate) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
         if self.claims(request.function()) == Claim::No {
@@ -315,8 +316,8 @@ impl<'s> Probe<'s> {
         Ok(())
     }
 
-    /// Sends a request; before a write by handle, also the queries that confirm the handle to the
-    /// gate.
+    /// Sends a request; before a write by handle, also the missing queries that confirm the handle
+    /// to the gate.
     pub fn send<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Exchange> {
         let request = request.into();
         self.confirm_handle(&request)?;

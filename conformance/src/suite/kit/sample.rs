@@ -98,9 +98,10 @@ impl SampleSizes {
     pub(crate) const DEFAULT: Self =
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 
-    /// The sizes for these lists, given by kind and number of items. If the lists of a kind have
-    /// many items in total, the size for this kind is smaller, so that all cases together send
-    /// about 50,000 requests to a CNC with seven channels.
+    /// The sizes for these lists, given by kind and number of items: for each kind, the largest
+    /// size with which the samples of all lists of this kind have, in total, at most a fixed number
+    /// of items; at least [`LEAST`](Self::LEAST) and at most [`MOST`](Self::MOST). These numbers
+    /// limit the requests of a run, see `tests/library/large.rs`.
     pub(crate) fn new(lists: &[(ItemKind, u32)]) -> Self {
         let size = |kind, budget| {
             let counts = || lists.iter().filter(move |list| list.0 == kind).map(|list| list.1);
@@ -148,8 +149,8 @@ mod tests {
         assert_eq!(Sample::All.of(0..u32::MAX, 256).len(), 10_000);
     }
 
-    /// If the lists have few items in total, a list of 256 items is read completely; otherwise the
-    /// maximum number of items of each list is smaller.
+    /// If the lists have few items in total, a list of 256 items is read completely; for more or
+    /// longer lists, the maximum number of items of each list is smaller.
     #[test]
     fn many_lists_share_the_requests() {
         let sizes = |lists: &[u32]| {

@@ -33,8 +33,8 @@ pub(crate) enum Compared<B, R> {
 }
 
 /// Compares the result of `other` with the value that `value` reads before it, at most [`TRIES`]
-/// times, until `same` returns true. After a difference, `value` is called again, to detect a value
-/// that changes by itself.
+/// times, until `same` returns true, or one of the two readings gives no value. After a difference,
+/// `value` is called again, to detect a value that changes by itself.
 pub(crate) fn compare<B: PartialEq, R>(
     probe: &mut Probe<'_>,
     mut value: impl FnMut(&mut Probe<'_>) -> Step<Option<B>>,
@@ -170,9 +170,9 @@ impl Steady {
 /// `found` is whether the reply is the expected one, or `None` if it is not a success.
 ///
 /// A correct reply passes `clause` and ADR-12, the requirement that both forms of an address exist.
-/// A function that has returned an error although the index equals the logical number is taken to
-/// lack the groups without the logical bit: its errors violate ADR-12 only. Any other wrong reply
-/// is taken to come from a wrong instance, which violates `clause`.
+/// A function that has returned no success although the index equals the logical number is taken to
+/// lack the groups without the logical bit: its replies that are no success violate ADR-12 only.
+/// Any other wrong or missing reply is taken to concern a wrong instance, which violates `clause`.
 pub(crate) fn rules_by_index(
     probe: &mut Probe<'_>,
     clause: ClauseId,
@@ -199,7 +199,8 @@ pub(crate) fn rules_by_index(
 }
 
 /// Calls `guard`, `act` and `guard` again, and returns the result of `act`; `None` if the results
-/// of `guard` differ. If the first result of `guard` is `None`, `act` is not called.
+/// of `guard` differ. If the first result of `guard` is `None`, `act` is not called, and the
+/// function returns `None`.
 pub(crate) fn between<G: PartialEq, T>(
     probe: &mut Probe<'_>,
     guard: impl Fn(&mut Probe<'_>) -> Step<Option<G>>,
@@ -210,11 +211,11 @@ pub(crate) fn between<G: PartialEq, T>(
     Ok((guard(probe)?.as_ref() == Some(&before)).then_some(found))
 }
 
-/// Maximum number of attempts of [`steadily`]: an attempt does not count if the data of its guards,
-/// such as the number of parameters, changes meanwhile.
+/// Maximum number of attempts of [`steadily`], including attempts that give no result because the
+/// data of their guards, such as the number of parameters, changes meanwhile.
 const TRIES_OF_PARAMETERS: usize = 5;
-/// Minimum number of failed attempts for which [`steadily`] records a failure, if no attempt
-/// passes.
+/// Minimum number of attempts with a result that must fail before [`steadily`] records a failure,
+/// if no attempt passes.
 const FAILURES: usize = 3;
 
 /// A check before it is recorded.
@@ -254,8 +255,8 @@ impl PendingCheck {
 /// attempt passes and at least [`FAILURES`] attempts fail, records the checks of the last of these;
 /// otherwise records no check.
 ///
-/// An attempt counts only if the requests `guards` succeed and return the same data before and
-/// after `act`, which receives this data.
+/// An attempt passes or fails only if the requests `guards` succeed and return the same data before
+/// and after `act`, which receives this data.
 pub(crate) fn steadily(
     probe: &mut Probe<'_>,
     guards: &[Request<'_>],

@@ -1,4 +1,4 @@
-//! The state of a target during a run, shared by all cases.
+//! The state of a target during a run, shared by the cases that are run on the target.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -14,16 +14,18 @@ use crate::rules::RuleBook;
 use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
 use crate::text::plural;
 
-/// A connection to a target, and the data that the cases of a run have collected about the target.
+/// A connection to a target, the settings of a run, and the data that the run has collected about
+/// the target.
 #[derive(Debug)]
 pub struct TargetState {
     /// The connection.
     pub client: Client,
     /// The claims of the target.
     pub profile: Profile,
-    /// Axis indices (each as channel number and axis index) that a run without a profile treats as
-    /// possibly without an axis, see [`Probe::is_blank`](crate::suite::Probe::is_blank). A value
-    /// that is written without an axis is lost.
+    /// Axis indices (each as channel number and axis index) that a run without a profile, if it may
+    /// write, treats as possibly without an axis, see
+    /// [`Probe::is_blank`](crate::suite::Probe::is_blank). A value that is written at an axis index
+    /// without an axis may be lost.
     pub(in crate::suite) unwritten_places: Vec<(u32, u32)>,
     /// Which items of a long list the cases read.
     pub(in crate::suite) sample: Sample,
@@ -32,11 +34,12 @@ pub struct TargetState {
     pub(in crate::suite) sample_sizes: SampleSizes,
     /// The variables that were counted or described, by the number of the channel and the kind.
     pub(in crate::suite) variables: BTreeMap<(u32, &'static str), DescribedList>,
-    /// The objects, read when a case first needs them.
+    /// The objects that the cases read; `None` until they are first needed.
     pub(in crate::suite) objects: Option<Vec<ListedValue>>,
-    /// The instances, read when a case first needs them.
+    /// The instances; `None` until they are first needed.
     pub(in crate::suite) instances: Option<Vec<Instance>>,
-    /// Number of requests sent, including all attempts to restore values.
+    /// Number of requests sent, including all attempts to restore values, even if the gate rejects
+    /// a request of such an attempt.
     pub frames: usize,
     /// Services to which the target has sent a valid reply.
     pub(in crate::suite) answered: Vec<AdsService>,
@@ -45,11 +48,13 @@ pub struct TargetState {
     /// groups without the bit for logical addressing.
     /// ADR-12
     pub(in crate::suite) without_index_groups: HashSet<Function>,
-    /// Whether any reply to a Read, Write or ReadWrite was a success.
+    /// Whether any reply to a Read, Write or ReadWrite was a success, not counting requests that
+    /// restore values after a change.
     pub(in crate::suite) any_success: bool,
     /// The last error reply that contained data.
     pub(in crate::suite) error_with_data: Option<Evidence>,
-    /// Number of consecutive requests without a reply, up to now.
+    /// Number of consecutive requests without a reply, up to now, not counting requests that
+    /// restore values after a change.
     pub(in crate::suite) silences: usize,
     /// The reason why the target counts as no longer answering, after which only requests that
     /// restore values are sent; `None` while the target answers.
@@ -63,7 +68,8 @@ pub struct TargetState {
     /// Violations in received frames, found by the client.
     /// ADS-1 to ADS-5, ADS-8, ADS-9
     pub(in crate::suite) broken: Record,
-    /// The checks of all valid replies without a violation, and what these replies have shown about
+    /// The checks of the valid replies without a violation to requests that
+    /// [`Probe::call`](crate::suite::Probe::call) sends, and what these replies have shown about
     /// the target.
     pub(in crate::suite) rules: RuleBook,
     /// The deadline of the run. After it, only requests that restore values are sent.
@@ -74,7 +80,8 @@ pub struct TargetState {
     pub(in crate::suite) changes: Changes,
 }
 
-/// How a target rejects the requests of [`Probe::rejects`](crate::suite::Probe::rejects).
+/// How a target rejects the requests of [`Probe::rejects`](crate::suite::Probe::rejects) whose
+/// `sibling` has succeeded.
 #[derive(Debug, Default)]
 pub(in crate::suite) struct Rejections {
     /// Number of rejections with an error number, in the AMS header or in the service.

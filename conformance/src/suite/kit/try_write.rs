@@ -18,7 +18,7 @@ use crate::suite::kit::{Probe, RawCall};
 use crate::text::plural;
 use crate::values::until_nul;
 
-/// Why a case that writes is not applicable.
+/// One of the reasons why a case that writes is not applicable.
 pub(crate) const NOTHING_WRITABLE: &str = "no such value may be written";
 
 /// Whether a request can be encoded: a long value together with a long name cannot.
@@ -26,9 +26,9 @@ pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()
 }
 
-/// Returns a value that differs from `value` as little as possible: in one bit of the first byte. A
-/// text gets another first character; a text of less than two bytes has no space for a character,
-/// and is returned unchanged.
+/// Returns a value that differs from `value`: a value that is not a text, in one bit of its first
+/// byte; a text, in its first character. An empty value has no such byte, and a text of less than
+/// two bytes has no space for a character: they are returned unchanged.
 pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
@@ -140,10 +140,10 @@ impl Probe<'_> {
     /// restores the original value, also if a step fails. Writes nothing if the current value
     /// cannot be read, is empty, or does not fit into a write.
     ///
-    /// Before the restoring, `then` is called with the original and the written value, unless the
+    /// Before the restoring, `then` is called with the original and the written value, unless a
     /// write was rejected, or the value changes by itself and was not read back as written. If the
-    /// gate allows malformed requests, a value that is not a text and was read back as written is
-    /// then also changed in every byte.
+    /// gate allows malformed requests, a value of at least two bytes that is not a text and was
+    /// read back as written is then also changed in every byte, unless `then` returns an error.
     pub(crate) fn try_write(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -200,7 +200,8 @@ impl Probe<'_> {
     /// Writes a value of at least two bytes that differs from the original one in every byte. If
     /// the CNC accepts the write, the value that is read back must have the same length, and must
     /// not be the original one nor a mixture of the bytes of both values. It may be another value
-    /// than the written one, because the CNC may limit a value to its range.
+    /// than the written one, because the CNC may limit a value to its range. A value that changes
+    /// by itself is not judged.
     fn change_every_byte(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -243,10 +244,10 @@ impl Probe<'_> {
         Ok(passed)
     }
 
-    /// Checks that a write of the current value to a read-only address is rejected. Before that,
-    /// the current value of `sibling`, a writable address, is written to `sibling`: if this write
-    /// is not accepted, the case is inconclusive. If a current value cannot be read, nothing is
-    /// checked.
+    /// Checks that a write of the current value to a read-only address is rejected. Before that, if
+    /// there is a `sibling`, a writable address, its current value is written to it: if this write
+    /// is not accepted, the case is inconclusive. If a current value cannot be read, or the value
+    /// at the read-only address is empty or does not fit into a write, nothing is checked.
     pub(crate) fn write_rejected(
         &mut self,
         write_check: &WriteCheck<'_>,

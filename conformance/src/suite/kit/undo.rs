@@ -1,4 +1,5 @@
-//! Restores the values that cases change, and reads them back, however the case ends.
+//! Restores the values that cases change with [`Probe::changing`], and reads them back, however the
+//! case ends.
 
 #![cfg_attr(
     not(test),
@@ -20,8 +21,8 @@ use crate::suite::kit::changes::Change;
 use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, WriteCheck, same};
 use crate::text::Moment;
 
-/// Maximum number of attempts to write a value back, each time that its restoring is tried: at the
-/// end of the change, and again at the end of the run.
+/// Maximum number of attempts to write a value back, each time that its restoring is tried, such as
+/// at the end of the change, and again at the end of the run.
 const WRITES_MAX: u32 = 5;
 
 /// Pause before the third attempt; it doubles for each further attempt and for the read after the
@@ -83,8 +84,8 @@ impl Probe<'_> {
     }
 
     /// Ends the case if the file of `--allow-write` would expire before a changed value could be
-    /// restored. Called before each change, and before each further request of a case while a
-    /// changed value is not restored.
+    /// restored. Called before a change with [`changing`](Self::changing), and before each request
+    /// of a case while a changed value is still to be restored.
     pub(crate) fn check_time_to_restore(&self) -> Step {
         let client = &self.target.client;
         let target = client.target();
@@ -167,8 +168,8 @@ impl Probe<'_> {
             .as_ref()
             .is_some_and(|sent| matches!(sent.outcome, Err(ExchangeError::NotPermitted(_))))
         {
-            // On a new connection, the gate has not yet recorded the handle or the list of objects
-            // that allows this write.
+            // The gate may not have recorded the handle or the list of objects that allows this
+            // write, for example on a new connection.
             self.request_again(change);
             sent = send(self, change);
         }
@@ -180,7 +181,8 @@ impl Probe<'_> {
     }
 
     /// Sends the queries whose replies show the gate that a handle, or the address of an object,
-    /// belongs to a name in the file of `--allow-write`. Sends nothing for other addresses.
+    /// belongs to a name in the file of `--allow-write`. Sends nothing for other addresses, nor for
+    /// a handle whose name is unknown.
     fn request_again(&mut self, change: &mut Change) {
         match (&change.address, change.name.clone()) {
             (ValueAddress::Handle { channel, .. }, Some(name)) => {

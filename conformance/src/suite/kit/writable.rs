@@ -1,4 +1,4 @@
-//! Writable values, and whether writes to them are accepted.
+//! Values to which cases write, and whether the target accepts a request.
 
 use ads_cnc::address::{Channel, ElementAddress};
 use ads_cnc::operation::{
@@ -82,9 +82,9 @@ impl WritableNumber {
     }
 }
 
-/// For each type, the first variable that is a single number, may be written, and can be read by
-/// name with the described size. Ends the case as not applicable if there are none. Other cases
-/// judge the other variables.
+/// For each type except STRING, the first variable that is not an array and does not belong to the
+/// Service Interface, may be written, and can be read by name with the described size. Ends the
+/// case as not applicable if there are none. Other cases judge the other variables.
 pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
     let mut all: Vec<WritableNumber> = Vec::new();
     for channel in probe.channels()? {
@@ -150,9 +150,9 @@ pub(crate) struct WritableElement {
     pub(crate) is_text: bool,
 }
 
-/// Those elements among the ones that the cases read that have this write flag, and that the gate
-/// and the profile permit to write, except those at axis indices that have no axis, or may have
-/// none.
+/// Those elements among the ones that the cases read that have this write flag and a length that
+/// can be read, and that the gate and the profile permit to write, except those at axis indices
+/// that have no axis, or may have none.
 pub(crate) fn elements_with_flag(
     probe: &mut Probe<'_>,
     is_writable: bool,

@@ -11,7 +11,8 @@ use crate::judge::{Checks as _, OrStop as _, Rule, Step, applicable, assumed};
 use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe, attribute_reads};
 
 /// Requests an instance that must exist, and the number of its elements. Another task than SDA may
-/// serve a class, so an error is judged only for the decoder, which SDA serves.
+/// serve a class, so an error in reply to the first request is judged only for the decoder, which
+/// SDA serves.
 fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, axis: u32) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
     let exchange = probe.send(request)?;
@@ -155,12 +156,13 @@ fn last_axis(all: &[Instance], class: Class, channel: u32) -> Option<u32> {
     class_last.map(|one| one.axis).max()
 }
 
-/// Checks that the classes that have axes of a channel have the same number of them, and likewise
-/// the classes that have axes of the platform.
+/// Checks that the interpolator, the decoder and the path preparation have the same number of axes
+/// of a channel, and likewise the position controller and the HLD for the platform. A class without
+/// an instance of the channel, or of the platform, is left out.
 pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let mut any = false;
-    // A channel must have the same number of axes in all of these classes.
+    // A channel must have the same number of axes in all classes of `OF_PLACES` that have it.
     for channel in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
         let lasts = OF_PLACES.map(|class| (class, last_axis(&all, class, channel)));
         let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
@@ -193,9 +195,9 @@ fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Ste
 
 /// Checks that no instance exists after the last one that was found: no axis of a channel
 /// (interpolator, decoder, path preparation), no axis of the platform (position controller, HLD),
-/// and no spindle. Also checks that the three classes with axes of a channel have no instance in
-/// channel 0, and the position controller none in the claimed channels. The numbers of axes and
-/// spindles in the profile are not used.
+/// and no spindle. Also checks that the three classes with axes of a channel have no instance with
+/// the axis 0 or 1 in channel 0, and the position controller none with the axis 1 in the claimed
+/// channels. The numbers of axes and spindles in the profile are not used.
 pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let has = |class| all.iter().any(|one| one.class == class);

@@ -27,7 +27,7 @@ pub(crate) fn line(mark: char, offset: usize, bytes: &[u8], name: &str) -> Strin
     line.trim_end().to_owned()
 }
 
-/// Formats bytes as lines of 16 bytes, each with offset, bytes and characters.
+/// Formats bytes as lines of at most 16 bytes, each with offset, bytes and characters.
 pub fn dump(bytes: &[u8]) -> Vec<String> {
     let chunks = (0_usize..).step_by(LINE).zip(bytes.chunks(LINE));
     chunks.map(|(offset, chunk)| line(' ', offset, chunk, "")).collect()

@@ -1,4 +1,5 @@
-//! In captured traffic, a defect of the CNC or of the client fails the requirement that it violates.
+//! In captured traffic, each of the defects of a CNC or of a client that these tests name fails the
+//! requirement that it violates.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::layout::Stream;

@@ -215,7 +215,7 @@ fn preceding_packets_may_be_missing() {
     is_open(&talk(&service, &[SHAKE, SHAKE + 1]), "what was read");
 }
 
-/// A reply without a request fails in a complete capture, whatever the order of the packets is.
+/// A reply without a request fails in a complete capture, also if packets are out of order.
 #[test]
 fn a_reply_without_a_request_fails() {
     let mut talk = conversation(None, everything);
@@ -260,7 +260,7 @@ fn a_request_without_a_reply_fails() {
     blames_nobody(&checked(&pcap_every(&lone, Link::Raw, 60_000)), "nothing behind it");
 }
 
-/// Defects are detected whatever the order of the packets is.
+/// These defects are detected in some other orders of the packets too.
 #[test]
 fn defects_fail_in_any_order() {
     for (defect, requirement) in [

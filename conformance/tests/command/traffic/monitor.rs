@@ -124,7 +124,8 @@ fn without_tcp_defects_fail() {
     }
 }
 
-/// A capture may begin with replies to requests before its beginning, but a request without a reply fails.
+/// A capture may begin with replies to requests before its beginning. A request without a reply
+/// fails if the capture continues long enough after the request.
 #[test]
 fn a_capture_may_begin_anywhere() {
     let ams = first(12);

@@ -76,7 +76,7 @@ class Host:
         invoke("host_start", ctypes.byref(self._it), self._ids, UINT32(len(services)))
 
     def step(self) -> Step:
-        """The next step. Returns the same step until its completion is reported."""
+        """The next step. Returns the same step until a read value, an answer or an event is reported."""
         it = _abi.HostStep()
         _abi.function("host_step")(ctypes.byref(self._it), ctypes.byref(it))
         kind, data = ("wait", "read", "write", "serve")[it.kind], it.data.get()

@@ -263,8 +263,8 @@ impl Transcript<'_> {
             &[&[&[b'X'; 700][..], b"\r\n"].concat(), &[b'X'; 700]],
         ];
         for text in texts {
-            // `Start::Once` executes lines as they arrive; `Start::ByHand` executes them only at the call
-            // of `start` below.
+            // `Start::Once` executes lines as they arrive; `Start::ByHand` executes them only at
+            // the calls of `start` below.
             for (pace, start) in [(Pace::Fast, Start::Once), (Pace::Fast, Start::ByHand)] {
                 self.cnc.set_program(1, hold(pace, start)).unwrap();
                 for packet in text {
@@ -315,8 +315,8 @@ impl Transcript<'_> {
         }
     }
 
-    /// Records the executed lines, the states and the numbers of buffered bytes of the programs of
-    /// channels 1 and 2.
+    /// Records the recently executed lines, the states and the numbers of buffered bytes of the
+    /// programs of channels 1 and 2.
     pub(super) fn record_programs(&mut self) {
         for channel in [1, 2] {
             let reply = self.cnc.with_program(channel, |program| {

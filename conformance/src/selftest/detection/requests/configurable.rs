@@ -1,5 +1,5 @@
-//! Replies that depend on the configuration of a CNC: any valid reply is correct, if all replies to the
-//! same request are equal.
+//! Replies that depend on the configuration of a CNC: any valid reply is correct, if all replies to
+//! the same request are equal.
 
 use std::collections::BTreeMap;
 
@@ -16,9 +16,9 @@ use crate::text::plural;
 pub(in crate::selftest::detection) enum Compare {
     /// All differences count.
     Bytes,
-    /// Only differences that no configuration of the CNC explains. Configurable are names, types and
-    /// units of elements, extended descriptions and, in a mode without writes, the write flags of
-    /// elements and the contents of objects.
+    /// Only differences that no configuration of the CNC explains. Configurable are names, types
+    /// and units of elements, extended descriptions and, in a mode without writes, the write flags
+    /// of elements and the contents of objects.
     Configured,
 }
 

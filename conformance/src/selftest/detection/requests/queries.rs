@@ -84,8 +84,8 @@ impl ReplyRecorder<'_> {
         }
     }
 
-    /// Reads the whole value of a variable and its elements: by name, by the handle that the CNC returns
-    /// for the name, and by the handle in the description.
+    /// Reads the whole value of a variable and some of its elements: by name, by the handle that
+    /// the CNC returns for the name, and by the handle in the description.
     fn variable(&mut self, variable: &Variable) {
         let Variable { channel, name, handle, dimensions, .. } = variable;
         let text = name.to_string();

@@ -16,8 +16,8 @@ use super::configurable::by_number;
 use super::{AXES, ContentAddress, ReplyRecorder, Variable, brackets, number, parts};
 
 impl ReplyRecorder<'_> {
-    /// Writes two other values and then the original value to each value for which the gate allows
-    /// a write.
+    /// Writes two other values and then the original value to each listed value for which the gate
+    /// allows a write, except at the axis indices in `unwritten_places`.
     pub(super) fn writes(&mut self) {
         for variable in std::mem::take(&mut self.variables) {
             if variable.writable {

@@ -1,4 +1,4 @@
-//! Resolves a kind and an index, a handle or a name to a variable.
+//! Resolves a kind and an index, a handle or a name to a variable, and a name also to a parameter.
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::ads::AdsError;
@@ -19,8 +19,9 @@ pub(super) enum Resolved {
     Parameter,
 }
 
-/// The error for an unknown name or kind, for a place on the axis interface that does not exist,
-/// and for the name of an element where only the name of a variable is allowed.
+/// The error for an unknown name or kind, for a kind that the function does not serve, for a place
+/// on the axis interface that does not exist, and for the name of an element where only the name of
+/// a variable is allowed.
 pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
 
 impl AnsweringCnc<'_> {

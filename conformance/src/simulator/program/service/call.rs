@@ -82,8 +82,8 @@ pub enum CallStep<'a> {
     },
     /// The service has responded.
     Done { state: u32, response: CncStr<'a> },
-    /// No response arrived within the maximum wait. The variables keep the request until the next
-    /// request is written.
+    /// No response arrived within the maximum wait. The program leaves the request in the
+    /// variables, so a service may still respond.
     TimedOut,
 }
 

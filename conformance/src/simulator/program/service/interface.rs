@@ -41,8 +41,8 @@ pub struct ServiceInterface {
     clears: Clears,
 }
 
-/// The event at which the interface sets REQUEST_STATE to 0 (SVC-4). The event is not documented; a
-/// [`Host`] works with each of these events.
+/// The event at which the interface sets REQUEST_STATE to 0, if any (SVC-4). The event is not
+/// documented; a [`Host`] works with each of these variants.
 ///
 /// [`Host`]: ads_cnc::service::Host
 ///
@@ -120,7 +120,7 @@ impl ServiceInterface {
         Ok(())
     }
 
-    /// Resets all variables to their initial values, as a reset of the CNC does.
+    /// Resets all variables to their initial values; a reset of the CNC is assumed to do this.
     pub fn reset(&mut self) {
         *self = Self::with(self.clears);
     }

@@ -70,7 +70,7 @@ fn value_of(text: CncStr<'_>) -> Vec<u8> {
     text.bytes().chain([0]).collect()
 }
 
-/// Checks the bytes that were written to a STRING variable, and returns their text with one NUL.
+/// Checks the bytes of a STRING variable, and returns their text with one NUL.
 fn text_value(value: &[u8], variable: ServiceVariable) -> Result<Vec<u8>, Error> {
     variable.text(value).map(value_of)
 }

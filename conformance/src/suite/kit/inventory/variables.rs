@@ -33,7 +33,7 @@ impl Probe<'_> {
 
     /// The descriptions of the variables of a channel that the cases read, except those whose name
     /// is too long for a request. A stored description is not requested again. Ends the case as not
-    /// applicable if there are none.
+    /// applicable if there are none, and as inconclusive if one of the replies cannot be used.
     pub(crate) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {
@@ -46,9 +46,9 @@ impl Probe<'_> {
         Ok(all)
     }
 
-    /// All descriptions of a channel, except those whose name is too long for a request, for a case
-    /// that must know which names or handles do not exist. `None` if the channel has more than
-    /// [`VARIABLES_MAX`] variables of a kind.
+    /// All descriptions of a channel's variables of the claimed kinds, except those whose name is
+    /// too long for a request, for a case that must know which names or handles do not exist.
+    /// `None` if the channel has more than [`VARIABLES_MAX`] variables of a claimed kind.
     pub(crate) fn all_variables(&mut self, channel: Channel) -> Step<Option<Vec<Description>>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {

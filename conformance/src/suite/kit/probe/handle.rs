@@ -10,11 +10,12 @@ use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
 
 impl Probe<'_> {
-    /// Confirms the handle of a write to the [gate](crate::gate), which allows the write only after
-    /// HandleByName and a description have returned the handle for a name in the file of
-    /// `--allow-write`. Sends the queries that are missing on the current connection: HandleByName
-    /// and descriptions. Sends nothing if the request is not a write by handle, or if the gate
-    /// already allows the write.
+    /// Tries to confirm the handle of a write to the [gate](crate::gate), which, except for a
+    /// simulated CNC of this process, allows the write only after HandleByName and a description
+    /// have returned the handle for a name in the file of `--allow-write`. Sends the missing ones
+    /// of these queries that the profile claims, if a stored description has the handle, or the
+    /// gate knows a name for it. Sends nothing if the request is not a write by handle, or if the
+    /// gate already allows the write.
     pub(crate) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
         let Request::WriteByHandle(op) = request else { return Ok(()) };
         if self.check_gate(request)?.is_ok() {
@@ -45,8 +46,8 @@ impl Probe<'_> {
         Ok(())
     }
 
-    /// The name that belongs to the handle of a write; `None` if the handle needs no confirmation
-    /// or no query can confirm it.
+    /// The name for the handle of a write, if the gate rejects the write only because one of the
+    /// two queries for this name is missing; otherwise `None`.
     fn unconfirmed(&self, request: &Request<'_>) -> Step<Option<CncString>> {
         Ok(match self.check_gate(request)? {
             Err(Some(GateRejection {

@@ -9,10 +9,11 @@ use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
     /// Sends a request that must be rejected. `sibling` is the same request without the fault; it
-    /// is sent first, and must succeed.
+    /// is sent first, because a rejection proves nothing if the target also rejects `sibling`.
     ///
     /// A success without data counts as a rejection, because it returns no value of an object that
-    /// does not exist; the case `ads-every-refusal` judges it if a rule has the level *must*.
+    /// does not exist; the case `ads-every-refusal` judges it if `sibling` has succeeded and a rule
+    /// has the level *must*.
     pub(crate) fn rejects<'a, 'b>(
         &mut self,
         rules: impl Rules,

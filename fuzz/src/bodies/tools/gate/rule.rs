@@ -30,7 +30,7 @@ fn at(channel: Channel) -> ChannelBits {
     (channel.addressing() == Addressing::Logical, channel.number().into())
 }
 
-/// The channel of a group, if it is a group of the decoder.
+/// The channel of a group, if the group addresses the content of a decoder (such as 0x122301).
 fn decoder(group: u32) -> Option<ChannelBits> {
     (group & !0x10_00FF == 0x2_2300).then_some((group >> 20 == 1, group & 0xFF))
 }
