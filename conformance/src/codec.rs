@@ -54,8 +54,9 @@ pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
 /// Encodes fields as the stream of this name.
 ///
 /// # Errors
-/// If the fields are not a value of the stream, the codec rejects them, the stream is unknown, or
-/// the context is incomplete.
+/// If a required field of the stream is missing or its value does not fit the field, the codec
+/// rejects the fields, the stream is unknown, or the context is incomplete. Unknown fields, and the
+/// type tags of most numbers, are ignored.
 pub fn encode(name: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, CodecError> {
     let of = FieldReader(fields);
     match name {

@@ -9,7 +9,7 @@ use crate::limits::STREAM_PACKET_MAX;
 /// CR LF is not copied: its packets are slices of the text. A line that is joined to the next line
 /// by `\` is treated like any other line, so the two lines may be in different packets (assumed).
 ///
-/// Manual: `stream-en`, sections 2.2 and 3.1 (STM-2, STM-4, STM-7).
+/// Manual: `stream-en`, sections 2.2, 3.1, 3.2 and 5 (STM-2, STM-4, STM-7).
 ///
 /// ```
 /// use ads_cnc::limits::STREAM_PACKET_MAX;

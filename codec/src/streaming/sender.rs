@@ -134,7 +134,7 @@ pub struct UnexpectedAck;
 /// The sender contains a buffer for one packet, for text whose line ends must be replaced or added:
 /// see [`NcText::is_wire`].
 ///
-/// Manual: `stream-en`, sections 2.2, 4.2 and 5 (STM-2, STM-4, STM-6).
+/// Manual: `stream-en`, sections 2.2, 3.1, 4.2 and 5 (STM-2, STM-4, STM-6).
 ///
 /// ```
 /// use ads_cnc::streaming::{Ack, NcText, Sender, SenderState};

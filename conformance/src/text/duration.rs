@@ -1,4 +1,5 @@
-//! Durations on the command line and in models: a number with a unit.
+//! Durations: parses a number with the unit ms, s or min, as in models and in options with the value
+//! TIME, and formats a number of seconds for messages.
 
 use std::time::Duration;
 

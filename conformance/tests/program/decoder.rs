@@ -100,8 +100,8 @@ fn a_dry_stream_waits_for_the_next_write() {
     assert_eq!((program.state(), program.executed().line_count()), (ProgramState::Dry, 2));
 }
 
-/// Lines that the decoder read together with a program end are discarded; lines that were written later
-/// remain for the next start.
+/// Lines after a program end that the decoder read together with it are discarded; lines that were
+/// written later remain for the next start.
 #[test]
 fn program_ends_discard_read_lines() {
     for (word, end) in [
