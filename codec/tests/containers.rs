@@ -106,7 +106,7 @@ fn owned_lists_return_all_items() {
 #[test]
 fn an_owned_descriptor_is_made_from_a_view() {
     let descriptor = Descriptor::new("mc_active_single_block_r", "BOOL").unwrap().with_id(82);
-    let bytes = descriptor.encode_to_vec().unwrap();
-    let view = DescriptorRef::decode(&bytes).unwrap();
+    let mut buf = [0; limits::DESCRIPTOR_LEN];
+    let view = DescriptorRef::decode(descriptor.encode(&mut buf).unwrap()).unwrap();
     assert_eq!(Descriptor::from(view), descriptor);
 }
