@@ -1,7 +1,7 @@
 //! `BinRead` and `BinWrite`: reading and writing one row of a stream that `stream!` declares, and
-//! implementations for streams whose types are written by hand, except `NoData`. A count is checked
-//! against its maximum before memory is allocated for its items. The offset of an error found while
-//! reading a row counts from the start of the reader.
+//! implementations for streams whose types are written by hand, except `NoData`. No more items than the
+//! maximum of a count are read, and memory is allocated only as the bytes arrive. The offset of an
+//! error found while reading a row counts from the start of the reader.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -65,12 +65,9 @@ impl<R: Read> Pull for Source<'_, R> {
     fn counted(&mut self, each: usize, max: u32) -> io::Result<()> {
         let before = self.bytes.len();
         self.exact(size_of::<u32>())?;
-        match self.bytes.get(before..).and_then(<[u8]>::first_chunk) {
-            Some(count) if u32::from_le_bytes(*count) <= max => {
-                self.exact(to_usize(u32::from_le_bytes(*count)).saturating_mul(each))
-            }
-            _ => Ok(()),
-        }
+        let count = self.bytes.get(before..).and_then(<[u8]>::first_chunk);
+        let count = count.map_or(0, |count| u32::from_le_bytes(*count).min(max));
+        self.exact(to_usize(count).saturating_mul(each))
     }
 }
 

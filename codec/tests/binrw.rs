@@ -6,7 +6,7 @@ use ads_cnc::ads::WriteRequest;
 // `binrw::io` exists without `std`, too.
 use ads_cnc::binrw::io::{self, Cursor, Read, Seek, SeekFrom};
 use ads_cnc::binrw::{self, BinRead, BinWrite};
-use ads_cnc::{Description, Error, ErrorKind, ExtendedReply, Handle, HandleRead};
+use ads_cnc::{Decode, Description, Error, ErrorKind, ExtendedReply, Handle, HandleRead};
 
 /// A reader that returns one byte at a time, each after an interruption, and then an error.
 struct Broken<'a> {
@@ -76,7 +76,7 @@ fn invalid_values_are_not_written() {
     assert!(written.into_inner().is_empty());
 }
 
-/// A length of 4 MiB or of 4 294 967 295 bytes that only three bytes follow, and a count of
+/// A length of 4 MiB or 4 294 967 295 bytes with only three bytes after it, and a count of
 /// 4 294 967 295 dimensions, are errors.
 #[test]
 fn lengths_are_checked_before_memory_is_allocated() {
@@ -87,5 +87,13 @@ fn lengths_are_checked_before_memory_is_allocated() {
     }
     let count = [&[0; 16], &u32::MAX.to_le_bytes()[..]].concat();
     let error = Description::read(&mut Cursor::new(&count)).unwrap_err();
-    assert_eq!(own(&error).kind(), ErrorKind::TooMany);
+    assert_eq!((own(&error).kind(), own(&error).expected()), (ErrorKind::TooMany, 0));
+    // The error has the maximum, or the number of items that fit, like that of `decode`.
+    let bytes = [&count[..], &[1; 3000]].concat();
+    let error = Description::read(&mut Cursor::new(&bytes)).unwrap_err();
+    let decoded = Description::decode(&bytes[..2048]).unwrap_err();
+    assert_eq!(
+        (own(&error).kind(), own(&error).expected()),
+        (ErrorKind::TooMany, decoded.expected())
+    );
 }

@@ -59,7 +59,7 @@ pub(crate) trait Pull {
     fn rest(&mut self, max: u32) -> binrw::io::Result<()>;
     /// Reads the bytes up to and including the first NUL, at most `max`.
     fn until_nul(&mut self, max: u32) -> binrw::io::Result<()>;
-    /// Reads a count and that number of items of `each` bytes; only the count if it exceeds `max`.
+    /// Reads a count and that number of items of `each` bytes, but at most `max` items.
     fn counted(&mut self, each: usize, max: u32) -> binrw::io::Result<()>;
 }
 
