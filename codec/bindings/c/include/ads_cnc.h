@@ -39,7 +39,7 @@ extern "C" {
 /* The ABI that this header describes: the minor version of the library. */
 #define ADS_CNC_ABI 2
 
-/* Stands for no function, stream or field. */
+/* Means no function, stream or field. */
 #define ADS_CNC_NONE 0xFFFFFFFFu
 
 /* The ABI of the library. */
@@ -460,8 +460,8 @@ bool ads_cnc_host_answer(AdsCncHost *host, const uint8_t *response, uint32_t len
 bool ads_cnc_host_event(AdsCncHost *host, uint32_t event);
 
 /* The outcome of the last answer: ADS_CNC_ANSWERED, or ADS_CNC_ABANDONED if the variables no longer contained the
- * request. ADS_CNC_NO_OUTCOME before the first answer, until the outcome of an answer is known, and if the host
- * was never started. */
+ * request. It is ADS_CNC_NO_OUTCOME before the first answer, until the outcome of an answer is known, and if
+ * the host was never started. */
 uint32_t ads_cnc_host_outcome(const AdsCncHost *host);
 
 #ifdef __cplusplus

@@ -16,8 +16,8 @@ pub struct AdsCncError {
     pub kind: u32,
     /// The number of the stream at fault, or `ADS_CNC_NONE`.
     pub stream: u32,
-    /// The number of the field at fault; `ADS_CNC_NONE` for the stream as a whole, or without a
-    /// stream.
+    /// The number of the field at fault; `ADS_CNC_NONE` for a fault of the whole stream, or if
+    /// there is no stream.
     pub field: u32,
     /// The offset of the fault in the stream, in bytes; in a text or name, in characters; for a
     /// line of an NC program, its column; for an error without a position, 0.

@@ -30,7 +30,7 @@ pub use request::{AdsCncCall, AdsCncRequest};
 pub use stream::{AdsCncField, AdsCncPart};
 pub use tables::{AdsCncFieldInfo, AdsCncFunctionInfo, AdsCncStreamInfo, AdsCncType};
 
-/// Stands for no function, stream or field.
+/// Means no function, stream or field.
 pub const ADS_CNC_NONE: u32 = u32::MAX;
 
 /// The ABI of the library. Programs built with a header of another ABI must not use this library.

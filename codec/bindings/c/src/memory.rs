@@ -38,7 +38,7 @@ pub(crate) fn to_usize(length: u32) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }
 
-/// Checks that a slice can have this number of items, and that the pointer is not null unless they
+/// Checks that a slice can have this number of items, and that the pointer is null only if they
 /// have no bytes. Returns the number.
 fn items<T>(data: *const T, count: u32) -> Result<usize, Fault> {
     let count = to_usize(count);

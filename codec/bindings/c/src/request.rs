@@ -128,11 +128,12 @@ impl<'a> Arguments<'a> {
     }
 
     fn list(&self) -> Result<op::ObjectList, Fault> {
-        Ok(match (self.it.channel, self.it.axis) {
-            (0, 0) => op::ObjectList::PLATFORM,
-            (0, axis) => PlatformAxis::new(axis)?.into(),
-            _ => self.channel()?.into(),
-        })
+        match (self.it.channel, self.it.axis, self.by_index()?) {
+            (0, 0, false) => Ok(op::ObjectList::PLATFORM),
+            (0, axis, false) => Ok(PlatformAxis::new(axis)?.into()),
+            (_, 0, _) => Ok(self.channel()?.into()),
+            _ => Err(Fault::Argument("axis")),
+        }
     }
 
     fn axis(&self) -> Result<ChannelAxis, Fault> {

@@ -23,13 +23,15 @@ fn null_and_impossible_lengths_are_errors() {
             null_mut(),
             null_mut()
         ));
-        assert!(!ads_cnc_encode(
-            &AdsCncRequest { channel: 1, by_index: 2, ..zero() },
-            null_mut(),
-            0,
-            null_mut(),
-            null_mut()
-        ));
+        for request in [
+            AdsCncRequest { channel: 1, by_index: 2, ..zero() },
+            // Channels count from 1, and a list of objects is that of a channel or of a platform axis.
+            AdsCncRequest { by_index: 1, ..zero() },
+            AdsCncRequest { by_index: 1, axis: 1, ..zero() },
+            AdsCncRequest { channel: 1, axis: 1, ..zero() },
+        ] {
+            assert!(!ads_cnc_encode(&request, null_mut(), 0, null_mut(), null_mut()));
+        }
         assert!(!ads_cnc_decode(0, null(), most, null_mut(), most, null_mut(), null_mut()));
         assert!(!ads_cnc_decode(38, null(), 0, null_mut(), 0, null_mut(), &mut error));
         assert_eq!(error.kind, 34);
