@@ -112,7 +112,7 @@ impl fmt::Display for Ambiguity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Shared(name) => {
-                write!(f, "the device also uses it for {name}, which is not in the file")
+                write!(f, "the device also uses it for {name}")
             }
             Self::Several(name) => write!(f, "the device has several for {name}"),
             Self::Unconfirmed(name) => {

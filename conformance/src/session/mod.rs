@@ -139,14 +139,14 @@ impl Session {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate, print)
     }
 
-    /// Closes the connection, and connects to the same simulated CNC with another gate; a deadline
-    /// of the session is dropped. The session must have started the simulated CNC: for a device,
-    /// only the file of `--allow-write` can allow more.
+    /// Closes the connection, and connects to the same simulated CNC with another gate. The session
+    /// must have started the simulated CNC: for a device, only the file of `--allow-write` can
+    /// allow more.
     ///
     /// # Errors
     /// [`ToolError::Usage`] for any other session, and those of [`connect`](Self::connect).
     pub fn with_gate(self, gate: Gate) -> Result<Self, ToolError> {
-        let Self { client, simulated: Some(server), .. } = self else {
+        let Self { client, simulated: Some(server), deadline, print, .. } = self else {
             return Err(ToolError::Usage("only a simulated CNC can have another gate".to_owned()));
         };
         let target = *client.target();
@@ -155,7 +155,7 @@ impl Session {
         drop(before);
         let client = Client::connect(target, gate);
         let client = client.map_err(|error| ToolError::unreachable(&target, &error))?;
-        let session = Self::over(client, Some(server));
+        let session = Self { deadline, print, ..Self::over(client, Some(server)) };
         Ok(match capture {
             Some(capture) => session.with_capture(capture),
             None => session,
@@ -260,8 +260,8 @@ impl Session {
     /// device that does not reply cannot be judged.
     ///
     /// # Errors
-    /// If the request is not sent, or there is no reply. An ADS error counts as a reply, and so
-    /// does an AMS frame that violates a rule of AMS/TCP. An AMS error alone does not.
+    /// If the request is not sent, or there is no reply. An ADS error is a reply, and so is an AMS
+    /// frame that violates a rule of AMS/TCP. An AMS error alone is not.
     pub(crate) fn check_reachable(&mut self, profile: &Profile) -> Result<(), ToolError> {
         let request: Request<'_> = match profile.claims(Function::CountObjects) {
             Claim::No => {

@@ -105,7 +105,8 @@ impl Write for Lines {
 fn written(model: Model, seed: &SeededDefect, named: &Named) -> BTreeSet<String> {
     let lines = Lines::default();
     let writer = lines.clone();
-    // The log of the client would be most of the work: the writes are in the log of the simulated CNC.
+    // The writes are in the log of the simulated CNC; the log of the client would be most of the
+    // work.
     let simulator = Targets::new().with_target("ads_cnc_conformance::simulator", Level::DEBUG);
     let lines_of_log = fmt::layer().with_ansi(false).with_writer(move || writer.clone());
     let log = tracing_subscriber::registry().with(lines_of_log).with(simulator);
@@ -126,7 +127,7 @@ fn written(model: Model, seed: &SeededDefect, named: &Named) -> BTreeSet<String>
     lines.lines().filter_map(|line| Some(line.split_once("write to a ")?.1.to_owned())).collect()
 }
 
-/// The only defects with which values are written that the file does not name: the CNC returns
+/// The only defects that write values that the file does not name. With them, the CNC returns
 /// correct handles and addresses, but decodes the handle, name or address of an allowed write as
 /// another one.
 const MISREAD: [&str; 3] = [
@@ -292,7 +293,7 @@ fn a_handle_of_another_variable_is_not_written() {
         let shown = String::from_utf8(output.stdout).unwrap();
         // The gate rejects the write for safety; no requirement fails.
         assert_eq!(output.status.code(), Some(4), "{shown}");
-        assert!(shown.contains("which is not in the file"), "{shown}");
+        assert!(shown.contains("the device also uses it for "), "{shown}");
         assert!(!shown.contains("FAIL"), "{shown}");
         assert_eq!(cnc.end(), BTreeMap::new());
 
@@ -347,8 +348,8 @@ fn a_lost_connection_leaves_nothing_changed() {
     assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
 }
 
-/// After a lost connection, the list contains the address of another object for the changed object:
-/// the run does not restore the value, and the last line of stderr contains the reason.
+/// After a lost connection, the list gives the changed object the address of another one: the run
+/// does not restore the value, and the last line of stderr contains the reason.
 #[test]
 fn a_value_that_is_not_restored_has_a_reason() {
     let cnc = Logged::start(&[]);

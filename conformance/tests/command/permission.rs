@@ -150,11 +150,11 @@ fn nothing_is_changed_shortly_before_the_file_expires() {
     let shown = text(&ended.stdout);
     let above = shown.lines().rev().nth(1).unwrap();
     assert!(
-        above.starts_with("REJECTED  write-by-name: restoring a value may take 128 s"),
+        above.starts_with("REJECTED  write-by-name: restoring 1 value may take 128 s"),
         "{shown}"
     );
     let report = std::fs::read_to_string(&json.0).unwrap();
-    assert!(report.contains("restoring a value may take 128 s, and the file"), "{report}");
+    assert!(report.contains("restoring 1 value may take 128 s, and the file"), "{report}");
     assert!(!report.contains("\"fail\""), "{report}");
 }
 

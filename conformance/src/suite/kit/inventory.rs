@@ -91,7 +91,7 @@ impl Probe<'_> {
     }
 
     /// Axis indices, each as channel number and axis index: those without an axis according to the
-    /// profile, and those of `unwritten_places`, of which it is unknown whether they have an axis.
+    /// profile, and those of `unwritten_places`, which may or may not have an axis.
     fn empty_places(&self) -> impl Iterator<Item = &(u32, u32)> {
         self.target.profile.empty_places.iter().chain(&self.target.unwritten_places)
     }
@@ -162,12 +162,11 @@ impl Probe<'_> {
     }
 
     /// The instances of the claimed channels, of the platform and of the spindles, for which the
-    /// target returns an address. Axes and spindles are requested up to the first one for which the
-    /// target returns no address of an element, or the address of a known instance of the same
-    /// class; the last axis number and spindle index that are requested are [`INSTANCES_MAX`]. Ends
-    /// the case as not applicable if there are no instances, or if the profile does not claim the
-    /// requests for their addresses, their numbers of elements and the names of elements. Other
-    /// cases judge the addresses.
+    /// target returns an address. Axes and spindles are requested until the target returns no
+    /// address of an element, or the address of a known instance of the same class, but at most up
+    /// to the number or index [`INSTANCES_MAX`]. Ends the case as not applicable if there are no
+    /// instances, or if the profile does not claim the requests for their addresses, their numbers
+    /// of elements and the names of elements. Other cases judge the addresses.
     pub(crate) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
             return Err(Stop::not_applicable("the profile does not claim object addresses"));
@@ -202,9 +201,9 @@ impl Probe<'_> {
         }
         let reported = self.count_elements(first)?.unwrap_or_default();
         let reached = self.last_named(first, reported.min(OBJECTS_MAX))?;
-        // If the number of the last element with a name is one less than the reported number, the
-        // reported number is taken to include element 0, unless no element has a name.
-        let is_itself = reported > 0
+        // If an element has a name, and the number of the last one is one less than the reported
+        // number, the reported number is taken to include element 0.
+        let is_itself = (1..=OBJECTS_MAX).contains(&reported)
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
         let count = if is_itself { reached } else { reported };
@@ -224,8 +223,8 @@ impl Probe<'_> {
     }
 
     /// The number of the last element that has a name, at most `count`; 0 if no name of an element
-    /// after element 0 is found. Unless element `count` has a name, the search starts at element 1,
-    /// and [`GAP`](crate::objects::GAP) consecutive elements without a name end it.
+    /// after element 0 is found. If element `count` has no name, the search starts at element 1 and
+    /// ends after [`GAP`](crate::objects::GAP) consecutive elements without a name.
     fn last_named(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
         if self.is_named(first, count)? {
             return Ok(count);

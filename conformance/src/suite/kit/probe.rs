@@ -131,9 +131,9 @@ impl<'s> Probe<'s> {
         self.has_subject = true;
     }
 
-    /// Ends a case that has tried all items. The case is not applicable for the reason `why` unless
-    /// [`found_subject`](Self::found_subject) was called or a check was recorded, which shows that
-    /// the target has an item that the case applies to.
+    /// Ends a case that has tried all items. A call of [`found_subject`](Self::found_subject) or a
+    /// recorded check shows that the target has an item that the case applies to. Without either,
+    /// the case is not applicable for the reason `why`.
     pub(crate) fn finish(&self, why: &str) -> Step {
         applicable(self.has_subject || self.record.checks > 0, why)
     }
@@ -251,7 +251,7 @@ impl<'s> Probe<'s> {
             return Err(Stop::Interrupted);
         }
         if self.target.changes.any_pending() {
-            self.check_time_to_restore()?;
+            self.check_time_to_restore(0)?;
         }
         if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
             return Err(Stop::Inconclusive(deadline.to_string()));

@@ -19,10 +19,10 @@ use crate::judge::{Step, Stop};
 use crate::objects::ValueAddress;
 use crate::suite::kit::changes::Change;
 use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, WriteCheck, same};
-use crate::text::Moment;
+use crate::text::{Moment, plural};
 
-/// Maximum number of attempts to write a value back, each time that its restoring is tried, such as
-/// at the end of the change, and again at the end of the run.
+/// Maximum number of attempts to write a value back each time that restoring is tried: at the end
+/// of the change, for example, and again at the end of the run.
 const WRITES_MAX: u32 = 5;
 
 /// Pause before the third attempt; it doubles for each further attempt and for the read after the
@@ -51,7 +51,7 @@ impl Probe<'_> {
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
         self.found_subject();
-        self.check_time_to_restore()?;
+        self.check_time_to_restore(1)?;
         let by_name = match (address, write_check.name) {
             (ValueAddress::Handle { channel, indices, .. }, Some(name)) => {
                 let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
@@ -83,19 +83,21 @@ impl Probe<'_> {
         changed.and(restored).and(restored_all)
     }
 
-    /// Ends the case if the file of `--allow-write` would expire before a changed value could be
-    /// restored. Called before a change with [`changing`](Self::changing), and before each request
-    /// of a case while a changed value is still to be restored.
-    pub(crate) fn check_time_to_restore(&self) -> Step {
+    /// Ends the case if the file of `--allow-write` would expire before the changed values, and
+    /// `next` more, could be restored. Called before a change with [`changing`](Self::changing), and
+    /// before each request of a case while a changed value is still to be restored.
+    pub(crate) fn check_time_to_restore(&self, next: usize) -> Step {
         let client = &self.target.client;
         let target = client.target();
+        let values = self.target.changes.all().len().saturating_add(next);
         // Each request may have to wait for a connection and for a reply.
         let request = target.timeout.saturating_mul(2).saturating_add(target.pace);
-        let time = request.saturating_mul(REQUESTS_MAX).saturating_add(PAUSES);
+        let each = request.saturating_mul(REQUESTS_MAX).saturating_add(PAUSES);
+        let time = each.saturating_mul(u32::try_from(values).unwrap_or(u32::MAX));
         let end = Moment::now().after(time);
         client.gate().check_target(target.net_id, end).map_err(|why| {
-            let time = time.as_secs();
-            Stop::NotPermitted(format!("restoring a value may take {time} s, and {why}"))
+            let (values, time) = (plural(values, "value"), time.as_secs());
+            Stop::NotPermitted(format!("restoring {values} may take {time} s, and {why}"))
         })
     }
 
