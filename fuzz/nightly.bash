@@ -3,8 +3,8 @@
 
 # The sources whose change voids the recorded executions of a target: those of its laws and of the code under
 # test. Seeds, dictionaries and the replay determine only where a fuzzer begins.
-SOURCES=(codec/src codec/tests/common fuzz/src fuzz/fuzz_targets ':!fuzz/src/seeds*' ':!fuzz/src/dictionary.rs'
-    ':!fuzz/src/replay.rs')
+SOURCES=(codec/Cargo.toml codec/src codec/tests/common fuzz/Cargo.toml fuzz/src fuzz/fuzz_targets
+    ':!fuzz/src/seeds*' ':!fuzz/src/dictionary.rs' ':!fuzz/src/replay.rs')
 CODEC_SOURCES=("${SOURCES[@]}" ':!fuzz/src/bodies/tools')
 TOOL_SOURCES=("${SOURCES[@]}" conformance/src conformance/tests/common conformance/tests/program spec-vectors/src
     spec-vectors/data)
@@ -139,7 +139,7 @@ sources_of() {
 digest_of_sources() {
     local sources
     mapfile -t sources < <(sources_of "$1")
-    git grep -hv -E '^[[:space:]]*(//.*)?$' "$commit" -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
+    git grep -hv -E '^[[:space:]]*(//.*|# .*)?$' "$commit" -- "${sources[@]}" | git hash-object --stdin | cut -c 1-10
 }
 
 # Begins the table, if it is empty, and stores the commit whose sources are built.
@@ -242,8 +242,8 @@ summary() {
 # Lists the inputs that libFuzzer named, with the digest of their bytes as the name.
 digests() { find "$1" -maxdepth 1 -type f 2>/dev/null | grep -E '/[0-9a-f]{40}$' || true; }
 
-# Collects the kept and new inputs that add coverage to the committed ones; if the corpus is the committed one, to
-# those committed inputs whose name is not a digest, which always stay.
+# Collects the kept and new inputs that add coverage to the committed ones. If the corpus is the committed one,
+# collects those that add coverage to the committed inputs without a digest as name, which always stay.
 minimise() {
     local target="$1" base into="$output/corpus/$1" path before options folders status=0
     base="$(mktemp -d)"
@@ -294,8 +294,8 @@ prove_target() {
     [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
 }
 
-# Runs one target with one seeded defect. The defect counts as found only if the finding is a crash (for the
-# defect `hang`, a timeout), and if its input passes without the defect.
+# Runs one target with one seeded defect. The defect is found only if the finding is a crash (for the defect
+# `hang`, a timeout) and its input passes without the defect.
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took kind=crash
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))

@@ -109,8 +109,9 @@ def listed(results):
 
 
 def check(results):
-    """Fails if a case exceeds its limit, or the committed count by more than 5 %, or if a case has no committed
-    count or a committed count has no case. Checks only the limits if the committed counts are for a different
+    """Fails if a case exceeds its limit, exceeds its committed count by more than 5 %, or lacks a committed
+    count, or if a committed count has no case. Checks only the limits if the committed counts are for a
+    different
     toolchain."""
     counts, cases = counted(results), listed(results)
     faults = [text for build in BUILDS for text in missed(cases, counts, build)]

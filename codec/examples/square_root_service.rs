@@ -3,7 +3,7 @@
 //!     cargo run -p ads-cnc --example square_root_service -- 127.0.0.1:48898 127.0.0.1.1.1 1 [ANSWERS]
 //!
 //! With ANSWERS, the program ends after it has written this number of answers. An answer whose last
-//! write fails is not counted unless the write is repeated.
+//! write fails is counted only if the write is repeated.
 
 mod transport;
 

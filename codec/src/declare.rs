@@ -1,16 +1,16 @@
-//! The declaration of a stream, in the form of a table like those in the manuals. The macro
-//! `stream!` generates the field table and the types of the stream, with trait implementations and
-//! documentation, from the declaration; for `packed`, only the table and a type for the bytes of
-//! the stream.
+//! The declaration of a stream, in the form of a table like those in the manuals. From it, the
+//! macro `stream!` generates the field table and the types of the stream, with trait
+//! implementations and documentation. For `packed`, it only generates the table and a type for the
+//! bytes of the stream.
 
 #[cfg(feature = "arbitrary")]
 use crate::rows::Owned;
 
-/// The kinds of rows. A line that begins with `$q`, except the last, defines the type of the row in
-/// a borrowed type (a view) and in an owned type, the implementation of `Row`, and the documented
-/// size and type. The lines before these define the size and the type of a row in its field table,
-/// and the rows of `packed` types. The lines that begin with `@` select one of these items; the
-/// last line rejects any other kind. `as` selects a Rust type for a number, or `Kind` for a text.
+/// The kinds of rows. The first lines define the size and the type of a row in its field table, and
+/// the rows of `packed` types. The lines that begin with `$q` define the type of the row in a
+/// borrowed type (a view) and in an owned type, the implementation of `Row`, and the documented
+/// size and type; the last of them rejects any other kind. The lines that begin with `@` select one
+/// of these items. `as` selects a Rust type for a number, or `Kind` for a text.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
     (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
@@ -64,10 +64,10 @@ macro_rules! row {
 /// | `tuple X` | one type with a single number |
 /// | `packed XLayout` | the bytes of a stream of fixed length whose type is written by hand |
 ///
-/// A row consists of the offset (`@20 + 4m` after `m` counted items of 4 bytes, `@1 + text` after a
-/// text and its NUL), the field (and its name in errors and golden vectors if it differs), the kind
-/// of row, the requirement and the meaning. The row before a list, or before data with a length, is
-/// its `count`.
+/// A row consists of the offset, the field, its name in errors and golden vectors if that differs,
+/// the kind of row, the requirement and the meaning. The offset is, for example, `@20 + 4m` after
+/// `m` counted items of 4 bytes, and `@1 + text` after a text and its NUL. The row before a list,
+/// or before data with a length, is its `count`.
 macro_rules! stream {
     (
         $(#[$doc:meta])*

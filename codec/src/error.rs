@@ -85,8 +85,8 @@ pub enum ErrorKind {
     /// example of it) and the value, or numbers of both, such as their lengths or the numbers of
     /// their types.
     Mismatch,
-    /// The index offset of a function, where the offset of content or of the first element of an
-    /// instance is required. Expected: 0. Found: the offset.
+    /// An index offset that is that of a function, but must be that of content or of the first
+    /// element of an instance. Expected: 0. Found: the offset.
     Function,
     /// The buffer is too small for the encoded stream, value or name, or the read length of a
     /// received request is too small for the reply. Expected: bytes needed. Found: bytes available.

@@ -140,8 +140,8 @@
 //!   the same streams as `decode`, and leaves the bytes after a stream in the reader. A stream that
 //!   ends in text of variable length, in data without a length or in records without a count
 //!   extends to the end of the reader.
-//! - `std`: enables `alloc`, and the feature `std` of the dependencies that have one. No other
-//!   feature but `arbitrary` requires it.
+//! - `std`: enables `alloc`, and the feature `std` of the dependencies that have one. Only the
+//!   feature `arbitrary` requires it.
 //! - `arbitrary`: `Arbitrary` for the types of the streams that own their data.
 //! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the types of
 //!   the streams that own their data.

@@ -43,8 +43,8 @@ pub trait Decode<'a>: Sized {
     /// data with a length, ends after its counted items. A stream that ends in text of variable
     /// length, in data without a length or in records without a count extends to the end of the
     /// bytes. An [`ElementLength`](crate::sda::ElementLength) consists of the first four bytes, or
-    /// of all bytes if there are fewer. An [`ExtendedReply`](crate::ExtendedReply) is empty, and an
-    /// ADS reply ends after its result, only if no bytes follow there.
+    /// of all bytes if there are fewer. Only if no bytes follow, an
+    /// [`ExtendedReply`](crate::ExtendedReply) is empty, and an ADS reply ends after its result.
     ///
     /// ```
     /// use ads_cnc::{Decode, Handle, HandleReadRef, U32List};

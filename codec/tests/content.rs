@@ -77,9 +77,9 @@ fn the_count_of_a_platform_axis_is_a_read_of_content() {
     assert_eq!(canonical.encode(&mut []), Ok(sent));
 }
 
-/// With logical addressing, the content of a platform axis has two addresses, those of the table in
-/// section 2.1 and of the example in section 2.1.2 of the manual (E-04). Its descriptors have only
-/// one address: their group without an axis is rejected.
+/// With logical addressing, the content of a platform axis has two addresses: that of the table in
+/// section 2.1, and that of the example in section 2.1.2 (E-04). Its descriptors have only one
+/// address: their group without an axis is rejected.
 #[test]
 fn content_of_a_platform_axis_has_two_addresses() {
     let call = |group, offset| Call {

@@ -1,6 +1,6 @@
 //! Every sample is decoded truncated at every length, and with one extra byte. The result is an
-//! error with field and offset, or a requirement or an erratum permits the changed bytes. The
-//! result is the same for each type of the stream.
+//! error with field and offset, unless a requirement or erratum permits the changed bytes. It is
+//! the same for each type of the stream.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ use super::common::{Fault, Sample, check, each_sample, fault};
 enum Expected {
     /// The bytes are accepted, because this requirement or erratum permits them.
     Accepted(&'static str),
-    Refused(Fault),
+    Rejected(Fault),
 }
 
 fn rejected(
@@ -24,7 +24,7 @@ fn rejected(
     offset: usize,
     numbers: (usize, usize),
 ) -> Expected {
-    Expected::Refused(fault(kind, field, offset, numbers))
+    Expected::Rejected(fault(kind, field, offset, numbers))
 }
 
 const ADS_6: &str = "ADS-6: an error reply may stop behind the result";
@@ -65,9 +65,9 @@ const ALLOWED: [&str; 16] = [
     STM_5,
 ];
 
-/// The requirement that permits bytes other than a text, in any number up to a maximum, at the end
-/// of the stream; `None` for a stream that does not end in such bytes, such as one with a field for
-/// their length. `ProgramStream` has at least one such byte.
+/// The requirement that permits bytes (not a text) at the end of the stream, in any number up to a
+/// maximum; `None` for a stream with another end, such as bytes with a field for their length.
+/// `ProgramStream` has at least one such byte.
 fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
     match stream {
         Stream::VariableValue | Stream::VariableHandleWrite | Stream::VariableNameWrite => {
@@ -228,8 +228,8 @@ fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
 fn observed(verdict: Result<(), Error>, expected: Expected) -> Expected {
     match (verdict, expected) {
         (Ok(()), Expected::Accepted(_)) => expected,
-        (Ok(()), Expected::Refused(_)) => Expected::Accepted("no clause"),
-        (Err(error), _) => Expected::Refused(Fault::of(error)),
+        (Ok(()), Expected::Rejected(_)) => Expected::Accepted("no clause"),
+        (Err(error), _) => Expected::Rejected(Fault::of(error)),
     }
 }
 
@@ -258,8 +258,8 @@ fn truncated_and_extended_samples_have_the_expected_result() {
     assert_eq!(met, BTreeSet::from(ALLOWED));
 }
 
-/// A byte other than NUL after the NUL of the text that ends a request makes the bytes from its
-/// position on trailing, also after further NULs (E-34).
+/// If a request ends in a text, a byte other than NUL after its NUL, or after further NULs, makes
+/// the bytes from this position on trailing (E-34).
 #[test]
 fn text_after_the_nul_of_a_request_is_trailing() {
     for (stream, bytes, end) in [

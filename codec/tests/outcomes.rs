@@ -1,6 +1,6 @@
-//! The codec accepts, rejects and dispatches the same inputs as version 0.1.0, with the same bytes
-//! and, with one exception, the same errors: the error of a write by name whose name has no NUL
-//! counts only the bytes in which a NUL was searched.
+//! The codec accepts, rejects and dispatches the same inputs as version 0.1.0, with the same bytes.
+//! The errors are the same, with one exception: if the name of a write by name has no NUL, the
+//! error counts only the bytes searched for it.
 //!
 //! `outcomes.tsv` has rows for vectors of streams, vectors of frames, samples of calls, index
 //! groups, and replies to samples of calls. A row has a digest of the inputs made of the vector,
@@ -10,10 +10,10 @@
 //! exception has changed five rows of vectors `name-write-…`.
 //!
 //! A new vector or sample adds rows and changes no existing row. Compare the new rows with version
-//! 0.1.0: check out 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename
-//! `DispatchError` to `Refusal`, the fields of `DispatchError::Service` to `takes` and `asked`, the
-//! type `AdsService` to `Service`, and `subject().name()` to `stream()`, run the test there and
-//! here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
+//! 0.1.0: check out 8993f4c, and copy `spec-vectors`, this file and `common/calls.rs` into it.
+//! Rename `DispatchError` to `Refusal`, the fields of `DispatchError::Service` to `takes` and
+//! `asked`, the type `AdsService` to `Service`, and `subject().name()` to `stream()`. Run the test
+//! there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -72,8 +72,9 @@ impl Random {
     }
 }
 
-/// The computed rows by kind and by name. The name is that of the vector, sample or index group of
-/// which the inputs are made; for a reply that is a vector, those of the sample and of the vector.
+/// The computed rows by kind and by name. The name is that of the vector, sample or index group
+/// from which the inputs are made. A reply that is a vector has the names of the sample and of the
+/// vector.
 type Rows = BTreeMap<(&'static str, String), Row>;
 
 /// The number of inputs, their digest, the number of accepted inputs, and the digest of the
@@ -273,8 +274,8 @@ fn data(rows: &mut Rows) {
 }
 
 /// Adds the rows of replies. Each sample of a call has a row for an empty reply and a reply of one
-/// byte 0. A vector of the stream of the reply only has a row if the request has another outcome
-/// than the stream, because the reply is longer than the request permits.
+/// byte 0. A vector of the reply's stream only has a row if the outcomes of request and stream
+/// differ, because the reply is longer than the request permits.
 fn replies(rows: &mut Rows) {
     for CallSample { slug, call, .. } in CALLS {
         // Skip a sample that is rejected: the rows of data show its rejection.

@@ -1,5 +1,5 @@
-//! Tests of operations and replies, such as that their parts equal the arguments with which the
-//! operations and replies were made.
+//! Tests of operations and replies; for example, their parts equal the arguments with which they
+//! were made.
 
 use ads_cnc::address::{
     Access, Attribute, Channel, ChannelAxis, Class, ClassGroup, ComGroup, ComTable, ElementAddress,

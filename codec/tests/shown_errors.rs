@@ -114,9 +114,8 @@ fn errors_explain_the_fault() {
     }
 }
 
-/// The text of an error about the range of an argument names the argument; that of an error at a
-/// character of the name of a variable has the offset in the name; that of an error about a type
-/// names both types.
+/// Errors about the range of an argument name the argument, errors at a character of the name of a
+/// variable have the offset in the name, and errors about a type name both types.
 #[test]
 fn errors_of_arguments_name_the_argument() {
     let text = |error: Error| error.to_string();

@@ -12,7 +12,7 @@ use ads_cnc::*;
 use super::common::CALLS;
 
 /// A snapshot contains the row of each function in the table of functions, and the read length of a
-/// call. The row contains the effect, by which a gateway may decide which calls to permit.
+/// call. By the effect in the row, a gateway may decide which calls to permit.
 #[test]
 fn functions_are_where_the_manuals_put_them() {
     let mut shown = String::new();
@@ -79,7 +79,7 @@ fn offsets_of_dynamic_parameters() {
 }
 
 /// The functions of the axis interface have the elements 4 to 6 of the axes from 1 on. With axis 0,
-/// these offsets are no functions or different functions (VAR-26).
+/// these offsets belong to other functions or to none (VAR-26).
 #[test]
 fn the_axis_interface_begins_at_axis_1() {
     let call = |offset| Call {

@@ -196,8 +196,8 @@ fn elements(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     Ok(format!("{name} {:?}", elements.iter().collect::<Vec<_>>()))
 }
 
-/// Vectors for which the error of the codec has another class than the vector states, with the
-/// class of the codec. The class in a vector is only advisory.
+/// Vectors whose stated class differs from the class of the codec's error, with the latter. The
+/// class in a vector is only advisory.
 const OTHERWISE: &[(&str, &str)] = &[
     // The codec decodes record by record and reports the truncated field.
     ("descriptors-cut", "truncated"),

@@ -60,8 +60,8 @@ enum ConnectMethod {
 /// The pause after each piece of a frame that is sent in pieces.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// For each request, the maximum number of frames that are not taken for the reply, because of
-/// their invoke IDs, and are reported as separate violations; further such frames are only counted.
+/// Maximum number of frames for each request that are reported as separate violations because they
+/// are not taken for the reply, due to their invoke IDs. Further ones are only counted.
 const STRAYS_MAX: u64 = 3;
 
 /// Maximum time to wait for the reply after a second frame that is not the reply.
@@ -76,8 +76,8 @@ impl Client {
     /// address.
     ///
     /// # Errors
-    /// If the connection cannot be opened, the gate allows malformed requests and the address is
-    /// not a loopback address, or the gate is for the address of another simulated CNC.
+    /// If the connection cannot be opened, the gate allows malformed requests although the address
+    /// is not a loopback address, or the gate is for the address of another simulated CNC.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
         Self::connected(target, gate, ConnectMethod::Tcp)
     }
@@ -472,34 +472,4 @@ pub(crate) fn answer(
     let service = service_of(sent.command).unwrap_or(AdsService::Write);
     let (result, data) = decode_reply(service, payload).map_err(ExchangeError::Malformed)?;
     Ok(AdsReply { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })
-}
-
-#[cfg(test)]
-mod tests {
-    use ads_cnc::Kind;
-    use ads_cnc::address::Channel;
-    use ads_cnc::operation::{CountVariables, Request};
-
-    use super::*;
-    use crate::gate::NET_ID;
-    use crate::net;
-
-    /// The first request is sent before the connection is found to be closed. Without a connection,
-    /// the second request is not sent.
-    #[test]
-    fn without_a_connection_no_frame_is_sent() {
-        let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
-        let target = Target::local(listener.local_addr().unwrap(), NET_ID);
-        let mut client = Client::connect(target, Gate::queries()).unwrap();
-        drop(listener.accept().unwrap());
-        drop(listener);
-        let request = Request::from(CountVariables::new(Channel::new(1).unwrap(), Kind::V_E));
-        let mut buf = [0; 64];
-        let call = request.encode(&mut buf).unwrap();
-        let exchanges = [client.call(&call), client.call(&call)];
-        let is_disconnected =
-            |one: &Exchange| matches!(one.outcome, Err(ExchangeError::Disconnected(_)));
-        assert!(exchanges.iter().all(is_disconnected), "{exchanges:?}");
-        assert_eq!(exchanges.map(|one| one.sent.is_empty()), [false, true]);
-    }
 }

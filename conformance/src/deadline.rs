@@ -5,8 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::text::shown_time;
 
-/// The instant after which a command sends no more requests, with exceptions such as those with
-/// which a run restores values.
+/// The instant after which a command sends no more requests, except for example to restore values.
 #[derive(Clone, Copy, Debug)]
 pub struct Deadline {
     at: Option<Instant>,

@@ -81,8 +81,8 @@ impl Evidence {
     }
 }
 
-/// The expected or the actual result of a check. It is not formatted if the check passes: then no
-/// closure is called and no `format_args!` is formatted.
+/// The expected or the actual result of a check. If the check passes, no closure is called and no
+/// `format_args!` is formatted.
 pub trait Describe {
     /// The text in a report.
     fn describe(self) -> String;

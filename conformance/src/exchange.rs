@@ -27,7 +27,7 @@ pub struct Exchange {
     pub read_length: u32,
     pub data: Vec<u8>,
     /// The whole frame of the request; empty if the request was rejected by the gate, cannot be
-    /// encoded, or belongs to a dry run, or if there was no connection on which to send it.
+    /// encoded, belongs to a dry run, or had no connection.
     pub sent: Vec<u8>,
     /// The frame received, or the bytes that arrived instead.
     pub received: Vec<u8>,
@@ -263,8 +263,8 @@ fn header(frame: &[u8]) -> Option<AmsHeader> {
     AmsHeader::decode(header).ok()
 }
 
-/// Whether the received bytes are taken for a reply over AMS: either their AMS header contains the
-/// source or the target address of the request, or they end between a valid AMS/TCP header and the
+/// Whether the received bytes are taken for a reply over AMS. Either their AMS header contains the
+/// source or target address of the request, or they end after a valid AMS/TCP header, before the
 /// end of the AMS header.
 pub(crate) fn is_of_ads(sent: &[u8], received: &[u8]) -> bool {
     let Some((sent, got)) = header(sent).zip(header(received)) else {

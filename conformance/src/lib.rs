@@ -39,8 +39,8 @@
 //! | [`number`], [`mutex`] | converts numbers and lengths, and forms a digest of bytes; locks a mutex |
 //!
 //! The simulated CNC encodes the headers and streams that it sends with [`ads_cnc`]. To detect
-//! errors of [`ads_cnc`], [`client_suite`] also compares requests with bytes, and sends replies,
-//! that are not made by it.
+//! errors of [`ads_cnc`], [`client_suite`] also compares requests with bytes that [`ads_cnc`] did
+//! not make, and sends such replies.
 //!
 //! The stable interface is the command `ads-cnc`; the section *Stability* of `TOOLS.md` says in
 //! which points. This library is public only for the command, for its tests, for `conformance/load`

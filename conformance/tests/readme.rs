@@ -47,12 +47,13 @@ fn calls_print_the_output_in_the_documents() {
     assert!(made >= 15, "{made} calls");
 }
 
-/// CONTRIBUTING names each script of this repository that the gate, `.ci/run`, names, except those
-/// of the adapters.
+/// CONTRIBUTING names each script of this repository that the gate, `.ci/run`, or the workflow of a
+/// change names, except those of the adapters.
 #[test]
 fn every_script_of_the_gate_is_documented() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
-    let (gate, told) = (read(".ci/run"), read(".github/CONTRIBUTING.md"));
+    let gate = read(".ci/run") + &read(".github/workflows/ci.yml");
+    let told = read(".github/CONTRIBUTING.md");
     let words = gate.lines().filter(|line| !line.trim_start().starts_with('#'));
     let words =
         words.flat_map(|line| line.split(|at: char| at.is_whitespace() || "\"$()".contains(at)));

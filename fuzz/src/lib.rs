@@ -19,8 +19,8 @@
 #[path = "../../codec/tests/common/mod.rs"]
 mod common;
 
-// Models of the streaming interface and the Service Interface of the simulated CNC, with which the
-// tests of the suite compare it.
+// Models of the streaming interface and the Service Interface. The tests of the suite compare the
+// simulated CNC with them.
 #[cfg(feature = "tools")]
 #[path = "../../conformance/tests/program/machines.rs"]
 mod machines;

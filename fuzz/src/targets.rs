@@ -188,8 +188,8 @@ targets! {
          replies that the codec reads, and the same replies to the same requests";
     #[cfg(feature = "tools")]
     TOOLS_GATE: "tools_gate", tools::gate::check, tools::gate::DEFECTS,
-        "The gate passes a request that is not a query only if the file names it for this target \
-         and time, and never one of the requests that are never sent. It always passes queries";
+        "The gate always passes queries. It passes any other request only if the file names it for \
+         this target and time, and never one of the requests that are never sent";
     #[cfg(feature = "tools")]
     CNC_SESSION: "cnc_session", tools::session::check, tools::session::DEFECTS,
         "Each valid frame on a connection, with any data, is answered once, with the frame's \

@@ -46,9 +46,9 @@ impl std::error::Error for LoadError {}
 
 /// All data of the crate.
 ///
-/// If a file does not match the types of this crate, this function returns an error, and the
-/// functions that list or look up entries of the data, such as [`vectors()`] and [`vector()`],
-/// return empty lists or `None`. The tests of the crate verify that all files match.
+/// If a file does not match the types of this crate, this function returns an error. The functions
+/// that list or look up entries of the data, such as [`vectors()`] and [`vector()`], then return
+/// empty lists or `None`. The tests of the crate verify that all files match.
 ///
 /// ```
 /// let catalogue = ads_cnc_vectors::catalogue()?;

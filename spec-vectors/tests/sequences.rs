@@ -116,9 +116,9 @@ const ONLY_ACCEPTED: [(&str, &str); 2] = [
     ("STM-18", "no stream shows whether the subroutine is executed"),
 ];
 
-/// Each requirement of the areas STM and SVC that the catalogue does not exclude has an accepted
-/// and a rejected vector or sequence, apart from those in `UNSHOWN` and `ONLY_ACCEPTED`, and those
-/// with a reason why nothing violates them (`no_reject`).
+/// Each requirement of the areas STM and SVC has an accepted and a rejected vector or sequence.
+/// Exceptions are those that the catalogue excludes, those in `UNSHOWN` and `ONLY_ACCEPTED`, and
+/// those with a reason why nothing violates them (`no_reject`).
 #[test]
 fn requirements_have_both_verdicts() {
     let (mut accepted, mut rejected) = (BTreeSet::new(), BTreeSet::new());

@@ -30,7 +30,7 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// The implementation of the other case, with which the limit compares the case.
+    /// The implementation of the reference: the limit compares the case with it.
     pub fn against(&self) -> &'static str {
         match self {
             Self::Instructions(other, _) | Self::Time(other, _) | Self::Over(other, _) => other,

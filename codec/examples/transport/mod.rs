@@ -7,8 +7,8 @@ use ads_cnc::operation::{AdsService, Operation};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Converts an ADS error with a number from 0x700 on, such as a CNC returns, to `None`. Returns any
-/// other error, such as an error of the network, of decoding, or with a lower number.
+/// Converts an ADS error with a number from 0x700 on, as a CNC returns, to `None`. Returns any
+/// other error, for example of the network, of decoding, or with a lower number.
 #[allow(dead_code, reason = "the examples that write need every error")]
 pub(crate) fn unless_rejected<T>(result: Result<T>) -> Result<Option<T>> {
     match result {

@@ -71,8 +71,8 @@ def read(features):
 
 
 def source(parts, extra=(), owned=False):
-    """Returns Rust code that keeps the functions of these parts, those of `extra` and, if `owned`, those that exist
-    with the feature alloc in a program, and their number without those of src/generic.rs."""
+    """Returns Rust code that keeps functions in a program: those of these parts, those of `extra` and, if `owned`,
+    those that exist with the feature alloc. Also returns their number, without those of src/generic.rs."""
     paths = [path for of, path in read("none")[0] if of in parts] + list(extra)
     if owned:
         paths += [path for _, path in read("alloc")[0]]
@@ -88,8 +88,8 @@ def by_hand():
 
 
 def missing(gone="\0"):
-    """Returns the generic functions that are not in the text of src/generic.rs after `gone` is removed from it, and
-    the number of functions that are not generic."""
+    """Removes `gone` from the text of src/generic.rs. Returns the generic functions that are not in the rest, and
+    the number of other functions."""
     kept, generic = read("none")
     text = re.sub(r"::<[^>]*>", "", by_hand()).replace(gone, "")
     lost = [path for path in generic if not re.search(rf"(?<![\w:]){path}\b", text)]

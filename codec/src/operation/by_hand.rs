@@ -250,8 +250,8 @@ impl ReadElement {
     ///
     /// # Errors
     /// [`ErrorKind::Function`] for an element of the decoder whose index offset is that of a
-    /// function, and for an index offset that is a multiple of 0x10000, at which [`CountElements`]
-    /// reads the first element of an instance; [`ErrorKind::TooLong`] for a size greater than
+    /// function, and for any multiple of 0x10000 as the index offset: there, [`CountElements`]
+    /// reads the first element of an instance. [`ErrorKind::TooLong`] for a size greater than
     /// [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX).
     pub fn new(address: ElementAddress, size: u32) -> Result<Self, Error> {
         Ok(Self { element: element(address)?, length: length(size)? })
@@ -268,7 +268,7 @@ impl<'a> WriteElement<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Function`] for an element of the decoder whose index offset is that of a
-    /// function, and for an index offset that is a multiple of 0x10000, which is that of the first
+    /// function, and for a multiple of 0x10000 as the index offset, which is that of the first
     /// element of an instance.
     pub fn new(address: ElementAddress, content: impl Into<WriteValue<'a>>) -> Result<Self, Error> {
         Ok(Self { element: element(address)?, content: content.into() })

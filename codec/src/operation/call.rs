@@ -73,8 +73,8 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, except access to content with a service
-    /// other than that of the request.
+    /// No function of the index group has this offset, or only access to content by a different
+    /// service has it.
     Offset(IndexOffset),
     /// The function requires another service.
     Service {

@@ -1,11 +1,11 @@
 //! The function table: one row for each function. Macros generate the type of an operation, its
 //! implementation of [`Operation`] and its dispatch from its row.
 //!
-//! A row contains the function, its name in reports, ADS service, task and effect, index groups,
-//! index offsets, requirement, section; the origin of the constructor; the parts of the address
-//! and, after `;`, the fields of the request, with their [`field!`] kinds; the stream of the
-//! request, built from these fields; the type of the reply. A row of a Read has no fields and no
-//! stream of a request.
+//! A row contains the function, its name in reports, ADS service, task, effect, index groups, index
+//! offsets, requirement and section. The origin of the constructor follows, then the parts of the
+//! address and, after `;`, the fields of the request, with their [`field!`] kinds. The last parts
+//! are the stream of the request, built from these fields, and the type of the reply. A row of a
+//! Read has no fields and no stream of a request.
 //!
 //! - `plain`: the constructor is generated and cannot fail; `checked`: the constructor is generated
 //!   and can fail; `by_hand`: the constructor is in `by_hand.rs`.

@@ -11,9 +11,9 @@ pub(super) mod sealed {
     pub trait Sealed {}
 }
 
-/// The parts of a call. This trait is used as a trait object, so that all 30 operations share the
-/// code that builds a call; otherwise a program would contain a copy of this code for each
-/// operation whose calls it builds.
+/// The parts of a call. All 30 operations share the code that builds a call, because it uses this
+/// trait as a trait object. Otherwise, a program would contain a copy of it for each operation
+/// whose calls it builds.
 pub(super) trait Parts {
     fn index_group(&self) -> IndexGroup;
     fn index_offset(&self) -> IndexOffset;

@@ -13,7 +13,7 @@ use crate::text::CncStr;
 /// returns the request in [`HostStep::Serve`] (SVC-2). After a call of [`answer`](Self::answer),
 /// the host
 /// 1. reads the three variables once more, and drops the answer if a value has changed, for example
-///    because the program gave up or called another service, or because the CNC was reset,
+///    because the program gave up or called another service, or the CNC was reset,
 /// 2. writes RESPONSE,
 /// 3. writes 0 to REQUEST_STATE, because it is not documented how and when a CNC does so (SVC-4),
 /// 4. writes RESPONSE_STATE, for which the program waits (SVC-5, SVC-6). This write is last,
@@ -33,9 +33,9 @@ use crate::text::CncStr;
 /// variables before it writes again.
 ///
 /// The host does not detect the following: two hosts share a channel, and a write of RESPONSE_STATE
-/// by the first host is reported as failed but took effect. If the program then calls a service of
-/// the second host, which answers, and then the same service of the first host as before, while the
-/// first host reads, the first host writes the state again and may end a request that it has not
+/// by the first host is reported as failed but took effect. While the first host reads, the program
+/// calls a service of the second host, which answers, and then the same service of the first host
+/// as before. The first host then writes the state again, and may end a request that it has not
 /// served. To avoid this, use one host for all services of a channel.
 ///
 /// After a reset of the CNC or on a new connection, call [`restart`](Self::restart).
@@ -221,8 +221,8 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// The outcome of the last answer; `None` before the first answer, and after
-    /// [`answer`](Self::answer) has accepted an answer until the outcome of this answer is known.
+    /// The outcome of the last answer; `None` before the first answer, and while the outcome of an
+    /// answer that [`answer`](Self::answer) has accepted is not known.
     pub const fn outcome(&self) -> Option<Outcome> {
         self.outcome
     }
@@ -272,7 +272,7 @@ impl<'s> Host<'s> {
             Phase::CheckUuid => self.go_on(self.is_own(value), Phase::CheckRequest),
             Phase::CheckRequest => {
                 let next = if self.has_answer() { Phase::Respond } else { Phase::Serving };
-                // `request()` is an error for a text that is too long, which differs from the
+                // If the text is too long, `request()` is an error, and the text differs from the
                 // request.
                 self.go_on(request() == Ok(self.request), next)
             }

@@ -15,10 +15,10 @@ use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 /// - A jump goes back if its label is in the same or an earlier line, and not in a later line *of the
 ///   same part* (assumed). Apart from the next item, the split into parts therefore only affects a
 ///   jump whose label occurs both before and after it.
-/// - Of the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) different labels up to the end of the part,
-///   the checker remembers at least those of the current program, if all of them have at most
-///   [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together; each label counts one
-///   character more than its digits or name. The checker can miss a jump back to an older label.
+/// - The checker can miss a jump back to an old label. It remembers at least the labels of the
+///   current program among the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) different labels up to the
+///   end of the part, if these have at most [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters
+///   together. Each label counts one character more than its digits or name.
 ///
 /// A checker checks neither line ends, nor the length of lines, nor that all characters are ASCII.
 /// [`check_line_ends`](super::check_line_ends) checks line ends; [`NcText`](super::NcText) accepts any line
@@ -93,9 +93,9 @@ impl CheckEvent {
 }
 
 impl Checker {
-    /// The number of recent different labels of which a checker remembers at least those of the
-    /// current program, if all of them have at most [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN)
-    /// characters together.
+    /// Among this number of recent different labels, a checker remembers at least those of the
+    /// current program, if all have at most [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters
+    /// together.
     pub const LABELS_KNOWN: usize = labels::LABELS;
 
     /// The total number of characters up to which [`LABELS_KNOWN`](Self::LABELS_KNOWN) holds; each
@@ -252,10 +252,10 @@ impl fmt::Debug for CheckEvents<'_> {
 ///   label is in the same or an earlier line, and not in a later line (assumed). A missing label
 ///   causes no diagnostic, because a later text may contain it. A jump to an expression
 ///   (`$GOTO NV.E.X`) is not checked.
-/// - A program end is M2, M30, M17 or M29, with any leading zeros (M02: online, the others assumed),
-///   and no `.` or `_` after the digits, outside the names of variables, programs and subroutines.
-///   It counts even if `$IF` or a jump may skip it (assumed), because the lines after it are lost
-///   or remain when it is executed.
+/// - A program end is M2, M30, M17 or M29, with any leading zeros (M02: online, the others
+///   assumed), and no `.` or `_` after the digits, outside the names of variables, programs and
+///   subroutines. It is recognised even if `$IF` or a jump may skip it (assumed), because the lines
+///   after it are lost or remain when it is executed.
 /// - Each line with a program end causes at most one [`AfterEnd`](DiagnosticKind::AfterEnd), for
 ///   the first later line that is neither blank nor a comment (assumed).
 /// - A line that is joined to the next line by `\` is checked as two lines (assumed).

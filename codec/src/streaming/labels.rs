@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use super::scan::Label;
 
 /// The maximum number of labels of a generation of a `Checker`. The checker therefore remembers at
-/// least this number of recent different labels, except those that [`Labels::keep`] removes, if
-/// their keys have at most [`CHARACTERS`] bytes together.
+/// least this number of recent different labels if their keys have at most [`CHARACTERS`] bytes
+/// together, except those that [`Labels::keep`] removes.
 pub(super) const LABELS: usize = 8192;
 
 /// The number of bytes of the keys of a generation of a `Checker` at which the generation is full.

@@ -40,7 +40,7 @@ pub(super) enum PacketBytes<'a> {
 }
 
 impl<'a> Packets<'a> {
-    /// Creates the packets of `rest`; `crlf` is whether all line ends in `rest` are CR LF.
+    /// Creates the packets of `rest`; `crlf` is true if all line ends in `rest` are CR LF.
     pub(super) const fn new(rest: &'a [u8], crlf: bool) -> Self {
         Self { rest, crlf }
     }

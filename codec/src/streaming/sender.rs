@@ -35,10 +35,10 @@ pub enum Ack {
 }
 
 impl Ack {
-    /// The acknowledgement for the ADS result of a write. Which results a CNC returns is not documented.
-    /// It is assumed that an error about the target port or machine, the service, index group,
-    /// index offset, access or size rejects the data, and that any other error means that the CNC
-    /// is busy (STM-6, ADS-7).
+    /// The acknowledgement for the ADS result of a write. Which results a CNC returns is not
+    /// documented. An error about the target port or machine, the service, index group, index
+    /// offset, access or size is assumed to reject the data. Any other error is assumed to mean
+    /// that the CNC is busy (STM-6, ADS-7).
     ///
     /// ```
     /// use ads_cnc::ads::AdsError;

@@ -47,9 +47,9 @@ impl<'a> Shape<'a> {
     /// (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a wrong size. [`Error::expected`] is the size of the elements,
-    /// or `u32::MAX` if that size exceeds 32 bits; for STRING, it is `size` rounded down to a
-    /// multiple of the number of elements, but at least this number, or `u32::MAX` if this number
+    /// [`ErrorKind::Mismatch`] for a wrong size. [`Error::expected`] is the size of the elements
+    /// or, for STRING, `size` rounded down to a multiple of the number of elements, but at least
+    /// this number. It is `u32::MAX` if the size of the elements or, for STRING, their number
     /// exceeds 32 bits. [`Error::found`] is `size`.
     pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));

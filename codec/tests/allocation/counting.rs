@@ -57,7 +57,7 @@ pub(crate) fn allocated() -> (usize, usize) {
     (COUNT.get(), BYTES.get())
 }
 
-/// The counters detect allocations, on which the other tests of this program rely.
+/// The counters detect allocations; the other tests of this program rely on this.
 #[test]
 fn counters_detect_allocations() {
     let before = BYTES.get();

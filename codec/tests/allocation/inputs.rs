@@ -11,8 +11,8 @@ use crate::common::each_sample;
 const HUGE: [u32; 6] = [u32::MAX, 0x8000_0000, 0x7FFF_FFFF, 0x4000_0001, 0x0100_0000, 0xFFFF];
 
 /// The length in bytes to which [`each_long`] extends a sample, unless the maximum length of the
-/// stream is less. It is so great that a decoder that copies an input of this length three times
-/// exceeds the limit in `excess`.
+/// stream is less. A decoder that copies an input of this length three times exceeds the limit in
+/// `excess`.
 pub(crate) const LONG: usize = 0x4000;
 
 /// Every golden vector of a stream, including vectors that the decoder must reject.
@@ -20,10 +20,10 @@ pub(crate) fn each_vector() -> impl Iterator<Item = (Stream, Vec<u8>)> {
     vectors().iter().filter_map(|vector| Some((Stream::by_name(&vector.stream)?, vector.bytes())))
 }
 
-/// Calls `visit` with every vector and sample: unchanged, truncated at every length, and with four
-/// bytes at one offset (see [`ends`]) replaced by a number that is huge ([`HUGE`]) or close to the
-/// number of bytes or numbers after it ([`counts`]). Also calls `visit` with long variants of every
-/// sample ([`each_long`]).
+/// Calls `visit` with every vector and sample: unchanged, truncated at every length, and with
+/// another number in four bytes at one offset (see [`ends`]). The number is huge ([`HUGE`]), or
+/// close to the number of bytes or numbers after it ([`counts`]). Also calls `visit` with long
+/// variants of every sample ([`each_long`]).
 pub(crate) fn each_input(mut visit: impl FnMut(Stream, &[u8])) {
     let samples = || each_sample().map(|(stream, sample)| (stream, sample.bytes()));
     for (stream, bytes) in each_vector().chain(samples()) {
@@ -52,11 +52,10 @@ fn counts(left: u32) -> [u32; 6] {
     [left, left + 1, left.saturating_sub(1), left / 4, left / 4 + 1, (left / 4).saturating_sub(1)]
 }
 
-/// Calls `visit` with an input that repeats the sample as often as fits into the smaller of
-/// [`LONG`] and the maximum length of the stream, and with inputs that extend the sample to this
-/// length and to one byte more than the maximum. In the inputs that are extended to this length,
-/// the four bytes at each offset of the sample, in turn, are also replaced by [`counts`] of the
-/// bytes after them.
+/// Calls `visit` with long inputs. One repeats the sample as often as fits into the smaller of
+/// [`LONG`] and the maximum length of the stream. Others extend the sample to this length, and to
+/// one byte more than the maximum. In those of this length, the four bytes at each offset of the
+/// sample, in turn, are also replaced by [`counts`] of the bytes after them.
 fn each_long(stream: Stream, sample: &[u8], visit: &mut impl FnMut(Stream, &[u8])) {
     let max = stream.layout().max as usize;
     let len = max.min(LONG);

@@ -24,8 +24,8 @@ use inputs::{each_input, each_vector};
 /// A decoder that returns the encoded length of the decoded value.
 type Decoder = fn(&[u8]) -> Result<usize, Error>;
 
-/// The number of bytes by which the memory that decoding holds at its peak exceeds twice the length
-/// of the input plus 4 KiB; 0 if it does not exceed them.
+/// The number of bytes by which the peak memory of decoding exceeds twice the length of the input
+/// plus 4 KiB, or 0.
 fn excess(decode: Decoder, bytes: &[u8]) -> usize {
     let (held, _) = measure(|| {
         let _ = black_box(decode(bytes));

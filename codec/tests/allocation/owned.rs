@@ -72,8 +72,8 @@ fn decoding_allocates_as_much_as_a_copy() {
     }
 }
 
-/// A text without bytes after its NUL is allocated once, without spare capacity, also a text from
-/// UTF-8.
+/// A text without bytes after its NUL, also one from UTF-8, is allocated once, without spare
+/// capacity.
 #[test]
 fn owned_texts_are_allocated_once() {
     use ads_cnc::{CncStr, CncString, Text, TextRef};
@@ -129,7 +129,7 @@ fn encoding_an_owned_value_allocates_nothing() {
     });
 }
 
-/// The allocations of decoding are counted, on which the tests above rely.
+/// The allocations of decoding are counted; the tests above rely on this.
 #[test]
 fn allocations_of_decoding_are_detected() {
     let owned = Subject::of(Stream::VariableHandleRead).owned;

@@ -21,8 +21,8 @@ pub(crate) fn check_lines(
     (findings, ends)
 }
 
-/// The first program end of a text, and its line, unless a comment block is open at the end of the
-/// text: the first `AfterEnd` diagnostic of the text with an appended line names both.
+/// The first program end of a text, and its line. The first `AfterEnd` diagnostic of the text with
+/// an appended line names both, unless a comment block is open at the end of the text.
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
@@ -33,8 +33,7 @@ fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
 }
 
 /// Passes a text to a checker part by part. The diagnostics of each part must equal the diagnostics
-/// of the text so far, without those of the lines before the part and without that of an open
-/// comment block.
+/// that the text so far has in the lines of the part, without that of an open comment block.
 pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,
@@ -71,8 +70,8 @@ impl CheckedLots {
     }
 }
 
-/// Checks for parts of any bytes that the diagnostics of each part are in the order of the text,
-/// and so are its program ends, that their lines exist, and that lines are counted.
+/// Checks parts of any bytes: the diagnostics of each part, and its program ends, must be in the
+/// order of the text, their lines must exist, and lines must be counted.
 pub(crate) fn check_any_lots<'l>(lots: impl IntoIterator<Item = &'l [u8]>) {
     let (mut checker, mut lines) = (Checker::new(), 0);
     for lot in lots {

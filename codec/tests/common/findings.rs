@@ -12,9 +12,9 @@ pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {
     NcText::new(text).expect("a text that can be streamed").diagnostics().collect()
 }
 
-/// Checks that the diagnostics of a text are at lines and columns of the text, that they are in the
-/// order of the text, except that of an open comment block, and that they do not depend on the line
-/// ends. Returns the diagnostics.
+/// Checks that the diagnostics of a text are at its lines and columns, and do not depend on the
+/// line ends. They must be in the order of the text, except that of an open comment block. Returns
+/// the diagnostics.
 pub(crate) fn check_findings(text: &[u8], mutation: DiagnosticsMutation) -> Vec<Diagnostic> {
     let mut all = findings_of(text);
     mutation(&mut all, 0);

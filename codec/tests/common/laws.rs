@@ -234,9 +234,9 @@ fn check_too_small<T: Debug>(
     }
 }
 
-/// Checks that a frame can carry the call, unless it is a Read with data, and that the dispatched
-/// request encodes to a call with the same service, index group, index offset and data, which is
-/// dispatched to the same request. Returns the error of dispatch, if any.
+/// Checks that a frame can carry the call, unless it is a Read with data. The dispatched request
+/// must encode to a call with the same service, index group, index offset and data, and this call
+/// must be dispatched to the same request. Returns the error of dispatch, if any.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Mutation::NONE, |_| ()).map(drop)
 }
@@ -303,9 +303,9 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), D
     verdict
 }
 
-/// Checks that the request of a call accepts and rejects the same replies as the stream of the
-/// reply of its function, except for replies longer than the call permits, and that accepted
-/// replies encode to the same bytes. The call must be valid.
+/// Checks that the request of a valid call accepts and rejects the same replies as its function's
+/// stream of the reply, except for replies longer than the call permits. Accepted replies must
+/// encode to the same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
     check_reply_bent(call, bytes, &Mutation::NONE).map(drop)
 }

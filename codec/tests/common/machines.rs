@@ -85,8 +85,8 @@ impl<'s> CheckedHost<'s> {
         }
     }
 
-    /// Checks that only an invalid value is an error, that a request is only handed out if it was
-    /// read twice in sequence, and that it is only answered if it was read once more.
+    /// Checks that only an invalid value is an error. A request must only be handed out if it was
+    /// read twice in sequence, and only be answered if it was read once more.
     pub(crate) fn read(&mut self, value: &[u8]) {
         let before = self.step();
         let Step::Read(variable) = before else {

@@ -81,7 +81,7 @@ impl NameMutation {
 }
 
 /// Checks that the codec parses CP1252 bytes without NUL, and the same text in UTF-8, with the same
-/// result as [`split`]; then builds a valid name again, or checks the position of the error for an
+/// result as [`split`]. Then builds a valid name again, or checks the position of the error for an
 /// invalid name.
 pub(crate) fn check_name(wire: &[u8], mutation: NameMutation) -> Result<Pieces, Fault> {
     let utf8: String = wire.iter().map(|&byte| cp1252_to_char(byte)).collect();
@@ -124,8 +124,8 @@ fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
     assert_eq!(path.axis().map(|axis| axis.to_string()), axis.map(|(name, _)| name.clone()));
 }
 
-/// Checks that the codec builds the name from the pieces, without leading zeros of indices; that
-/// the variable with the indices at the end is the same element; and that a name of kind V.A is
+/// Checks that the codec builds the name from the pieces, without leading zeros of indices, and
+/// that the variable with the indices at the end is the same element. A name of kind V.A must be
 /// converted to a name for the channel interface and back, unless that name would be too long.
 fn check_built(path: VariablePath<'_>, pieces: &Pieces, mutation: NameMutation) {
     let mut buf = [0x55; NAME_MAX + 1];

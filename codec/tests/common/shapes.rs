@@ -70,9 +70,9 @@ fn place(of: &Described<'_>) -> Result<u128, Fault> {
     Ok(place)
 }
 
-/// Checks that a shape is accepted exactly if its size matches its type and dimensions, that the
-/// index of an element is the expected one, and that a value that fits the shape encodes to the
-/// same bytes. Returns the number of elements, or the kind of the error.
+/// Checks that a shape is accepted exactly if its size matches its type and dimensions, and that
+/// the index of an element is the expected one. A value that fits the shape must encode to the same
+/// bytes. Returns the number of elements, or the kind of the error.
 pub(crate) fn check_shape(of: &Described<'_>, mutation: ShapeMutation) -> Result<u32, ErrorKind> {
     let dimensions = U32List::from(of.dimensions);
     let shape = Shape::new(of.data_type, dimensions, (mutation.size)(of.size));

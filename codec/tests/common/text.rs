@@ -113,9 +113,9 @@ fn check_both(
     shown
 }
 
-/// Checks that a text field has the text and the tail from which it was created, that its length
-/// includes the NUL, if it has a NUL, and that it equals a field with one NUL exactly if its end is
-/// one NUL.
+/// Checks that a text field has the text and the tail from which it was created, and that its
+/// length includes the NUL, if any. It must equal a field with one NUL exactly if its end is one
+/// NUL.
 fn check_field(bytes: &[u8]) {
     let text = CncStr::from_bytes(bytes).expect("text without NUL");
     for (tail, len) in [(None, 0), (Some(&[][..]), 1), (Some(&[0, 0][..]), 3)] {

@@ -74,8 +74,8 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
 }
 
 /// Makes a read and a write of the element after the address in the bytes, and then a read of an
-/// object at the address of this element. The read of an object is rejected, because the group is
-/// that of a class, so the last line does not run.
+/// object at the address of this element. The group is that of a class, so the read of an object is
+/// rejected, and the last line does not run.
 fn elements(bytes: &[u8]) -> Result<usize, Error> {
     let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
     let next = first.nth(black_box(1))?;

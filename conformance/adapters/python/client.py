@@ -60,8 +60,8 @@ def act(where, action, args):
         return {"unsupported": action}
     try:
         return {"result": ACTIONS[action](Cnc(where), *args)}
-    except Refused as refused:
-        return {"error": f"ADS error {refused.args[0]:#x}"}
+    except Rejected as rejected:
+        return {"error": f"ADS error {rejected.args[0]:#x}"}
     except (Wrong, OSError, struct.error, ValueError) as error:
         return {"error": str(error)}
 

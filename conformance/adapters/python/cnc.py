@@ -14,7 +14,7 @@ READ, WRITE, BOTH = 2, 3, 9
 SDA, COM = 552, 553
 
 
-class Refused(Exception):
+class Rejected(Exception):
     """The reply of the CNC contains an error number."""
 
 
@@ -77,10 +77,10 @@ class Cnc:
                 break
         check((got, flags) == (command, 5), "no answer to this command")
         if error:
-            raise Refused(error)
+            raise Rejected(error)
         result = number(frame[32:36])
         if result:
-            raise Refused(result)
+            raise Rejected(result)
         if command == WRITE:
             check(total == 36, "a Write gives no data")
             return b""
@@ -173,9 +173,9 @@ def stream(cnc, channel, file):
             try:
                 cnc.ask(WRITE, COM, 0x120100 + int(channel), 0x90, packet)
                 break
-            except Refused as refused:
+            except Rejected as rejected:
                 # These errors are permanent; any other error may mean that the CNC is busy now.
-                if refused.args[0] in (0x701, 0x702, 0x703, 0x704, 0x705) or tries == 99:
+                if rejected.args[0] in (0x701, 0x702, 0x703, 0x704, 0x705) or tries == 99:
                     raise
                 time.sleep(0.02)
 

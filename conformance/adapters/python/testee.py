@@ -10,7 +10,7 @@ import re
 import struct
 import sys
 
-class Refused(Exception):
+class Rejected(Exception):
     """The bytes or the value are invalid; the argument is the class of the error."""
 
 class Unsupported(Exception):
@@ -28,7 +28,7 @@ def leaf(kind, value):
 
 def within(data, least, most):
     if not least <= len(data) <= most:
-        raise Refused("truncated" if len(data) < least else "too-long")
+        raise Rejected("truncated" if len(data) < least else "too-long")
     return data
 
 def take(data, size):
@@ -46,7 +46,7 @@ def number(kind, least=None):
     def read(data):
         (value,), data = numbers(data, 1, kind)
         if least is not None and int(value["value"]) < least:
-            raise Refused("out-of-range")
+            raise Rejected("out-of-range")
         return value, data
     return read
 
@@ -63,7 +63,7 @@ def elements(context):  # the context contains their type and number
 def texts(data, count):  # the texts of an array have the same size, at least one byte
     size = len(data) // max(count, 1)
     if size * count != len(data) or count > 1 and not size:
-        raise Refused("bad-length")
+        raise Rejected("bad-length")
     return [text()(data[size * place:][:size])[0] for place in range(count)]
 
 def net_id(data):
@@ -87,7 +87,7 @@ def text(least=0, most=math.inf, closed=False, padded=False):
     def read(data):
         found, nul, tail = within(data, least, most).partition(b"\0")
         if closed and not nul or padded and tail.strip(b"\0"):
-            raise Refused("trailing" if nul else "missing-nul")
+            raise Rejected("trailing" if nul else "missing-nul")
         return string(found, nul, tail), b""
     return read
 
@@ -128,7 +128,7 @@ class Record:
             if data or not self.ends(value):
                 value[name], data = read(data)
         if data:
-            raise Refused("trailing")
+            raise Rejected("trailing")
         return value
 
     def put(self, value):
@@ -150,7 +150,7 @@ class Frame:
         tcp, ams, data = STREAMS["ams_tcp_header"].get(data[:6]), STREAMS["ams_header"].get(data[6:38]), data[38:]
         lengths = int(tcp.pop("length")["value"]) - 32, int(ams.pop("data_length")["value"])
         if tcp["reserved"]["value"] != "0" or lengths != (len(data), len(data)):
-            raise Refused("mismatch")
+            raise Rejected("mismatch")
         value = {"ams_tcp_header": tcp, "ams_header": ams}
         service = self.SERVICES.get((ams["command"]["value"], ams["state_flags"]["value"]))
         if data or ams["error"]["value"] == "0":  # an error reply may have no data
@@ -170,7 +170,7 @@ class Path:
     def get(self, data):
         found = re.fullmatch(rb"(V\.[^.\[\]\0]+)((?:%s)+)" % self.PART, within(data, 0, 255))
         if not found or any(int(n) > 4294967294 for n in re.findall(rb"\[([0-9]+)", found[2])):
-            raise Refused("unexpected")
+            raise Rejected("unexpected")
         return {"kind": string(found[1]), "parts": [
             {"name": string(name), "indices": [leaf("UNS32", int(n)) for n in re.findall(rb"[0-9]+", indices)]}
             for name, indices in re.findall(self.PART, found[2])]}
@@ -191,7 +191,7 @@ class Group(Record):
         value = super().get(data)
         group = int(value["index_group"]["value"])
         if self.base and not 0 <= group - int(self.base, 16) <= 255:
-            raise Refused("out-of-range")
+            raise Rejected("out-of-range")
         access, logical, block, table = group >> 16 & ~16, group >> 20 & 1, group >> 12 & 15, group >> 8 & 15
         if access in (2, 3) and block == 0 and table in (1, 2):
             words = {"task": "COM", "table": ["channel", "axis"][table - 1]}
@@ -214,7 +214,7 @@ class Offset(Record):
     def get(self, data):
         axis, element = divmod(int(super().get(data)["offset"]["value"]), self.stride)
         if axis > 0xFFFF:
-            raise Refused("out-of-range")
+            raise Rejected("out-of-range")
         return {"axis": leaf("UNS16", axis), "element": leaf("UNS16", element)}
 
     def put(self, value):
@@ -257,9 +257,9 @@ def encode(stream, value):
     try:
         data = stream.put(value)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, struct.error):
-        raise Refused("mismatch") from None  # the value does not have the structure of the stream
+        raise Rejected("mismatch") from None  # the value does not have the structure of the stream
     if stream.get(data) != value:
-        raise Refused("mismatch")
+        raise Rejected("mismatch")
     return data
 
 OPS, EDITIONS = ["decode", "encode"], ["en-1.05", "de-1.051"]  # the streams do not depend on the edition
@@ -288,7 +288,7 @@ def answer(line):
             return HELLO if asked["cmd"] == "hello" else None
         seq = asked["seq"]
         return {"seq": seq, "ok": work(asked)}
-    except Refused as fault:
+    except Rejected as fault:
         return {"seq": seq, "reject": {"class": fault.args[0]}}
     except Unsupported as fault:
         return {"seq": seq, "unsupported": {"what": fault.args[0]}}

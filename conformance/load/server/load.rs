@@ -122,8 +122,8 @@ impl<'a> Client<'a> {
                 return Err("more replies than requests".into());
             }
             for sent in under_way.drain(..replies) {
-                // A time over 4.29 s (`u32::MAX` ns) counts as 4.29 s. 10 s without a byte are an
-                // error.
+                // A time over 4.29 s (`u32::MAX` ns) is recorded as 4.29 s. 10 s without a byte are
+                // an error.
                 let nano = now.duration_since(sent).as_nanos();
                 nanos.push(to_u32(nano));
             }

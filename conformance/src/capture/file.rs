@@ -14,8 +14,8 @@ use crate::text::plural;
 /// Initial size of the read buffer in bytes.
 const BUFFER: usize = 0x1_0000;
 
-/// A record or block of a pcap or pcapng file must be shorter than this number of bytes, and the
-/// captured part of a NetMon packet not longer; otherwise, reading ends there.
+/// A record or block of a pcap or pcapng file must be shorter than this number of bytes. The
+/// captured part of a NetMon packet must not be longer. Otherwise, reading ends there.
 pub const RECORD_MAX: usize = 0x80_0000;
 
 /// Maximum number of interfaces of a pcapng section; further ones are ignored.

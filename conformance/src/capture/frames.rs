@@ -216,9 +216,9 @@ pub(super) fn is_cnc(port: AmsPort) -> bool {
     Task::from_port(port).is_some()
 }
 
-/// Whether a frame is a reply, according to its state flags. If these are invalid: not a reply if
-/// the target port belongs to a CNC; otherwise a reply if the source port belongs to a CNC;
-/// otherwise according to the lowest bit of the state flags.
+/// Whether a frame is a reply, according to its state flags. If these are invalid, a frame to a
+/// port of a CNC is not a reply, and any other frame from a port of a CNC is one. Between other
+/// ports, the lowest bit of the state flags decides.
 pub(super) fn is_reply(header: &AmsHeader) -> bool {
     match header.state_flags {
         StateFlags::REQUEST => false,

@@ -20,8 +20,7 @@ use serde_json::json;
 use crate::ads_service;
 use crate::client::frame;
 use crate::codec::decode_stream;
-use crate::number::digest;
-use crate::number::to_usize;
+use crate::number::{digest, digest_more, to_usize};
 use crate::rules::TargetVariable;
 use crate::text::json as json_text;
 
@@ -40,8 +39,8 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// Creates a collector that keeps captured texts and NC programs if `keep_texts`; otherwise, it
-    /// replaces the letters of texts (except kinds and type names), and omits NC programs.
+    /// Creates a collector. With `keep_texts`, it keeps captured texts and NC programs. Otherwise,
+    /// it omits NC programs and replaces the letters of texts, except kinds and type names.
     pub fn new(keep_texts: bool) -> Self {
         Self { keep_texts, vectors: BTreeMap::new() }
     }
@@ -55,7 +54,7 @@ impl Collector {
     }
 
     /// Adds vectors of the data of a request, of the data of its reply, and of both frames. `reply`
-    /// is the data of a successful reply; `None` for an error, of which nothing is added.
+    /// is the data of a successful reply; `None` for an error reply, which gives no vector.
     pub(super) fn add(
         &mut self,
         request: &Request<'_>,
@@ -320,8 +319,7 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
     scrubbed
 }
 
-/// A hash function that is the same on every machine, so that the IDs of vectors are.
+/// A hash function that gives a vector the same ID on every machine.
 fn hash<const N: usize>(parts: [&[u8]; N]) -> u64 {
-    let bytes = parts.iter().flat_map(|part| part.iter().copied().chain([0xFF]));
-    digest(&bytes.collect::<Vec<_>>())
+    parts.iter().fold(digest(b""), |hash, part| digest_more(digest_more(hash, part), &[0xFF]))
 }

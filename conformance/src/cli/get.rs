@@ -92,8 +92,8 @@ impl Get {
         Ok(self.judge(&object, &bytes))
     }
 
-    /// The exit code for these bytes. Without --hex, it is a failure if they are not a value of the
-    /// type and, with --plain, also if the type is unknown; the reason is printed to stderr.
+    /// The exit code for these bytes. Without --hex, bytes that are not a value of the type are a
+    /// failure; with --plain, so is an unknown type. The reason is printed to stderr.
     fn judge(&self, object: &ListedValue, bytes: &[u8]) -> Exit {
         match object.ty.elements(bytes) {
             Ok(Some(_)) => Exit::Success,

@@ -30,8 +30,8 @@ impl Listed {
     }
 }
 
-/// The selected cases of a plan in their order, each with the reason of `unmet`, if any, why it
-/// cannot be run; then the selected cases that the edition of --edition does not have.
+/// The selected cases of a plan in their order, each with the reason from `unmet`, if any, why it
+/// cannot be run. The selected cases that the edition of --edition lacks come last.
 pub(super) fn of_plan(plan: &Plan, unmet: impl Fn(Needs) -> Option<String>) -> Vec<Listed> {
     let run = plan.selected().map(|case| Listed::new(case, unmet(case.needs)));
     let foreign = plan.foreign.iter().map(|(case, why)| Listed::new(case, Some(why.clone())));

@@ -166,9 +166,9 @@ impl NameArgs {
         Some(format!("axes of channel {number} with {}: {axes}", self.name))
     }
 
-    /// Lists the channels of the CNC if it does not have the channel of --channel, otherwise the
-    /// names that are most similar to the unknown name: names of variables and, if `objects`, also
-    /// of objects and elements.
+    /// Lists the channels of the CNC if it does not have the channel of --channel. Otherwise, lists
+    /// the names most similar to the unknown name: of variables and, if `objects`, of objects and
+    /// elements.
     fn look_for(&self, target: &TargetArgs, model: &ModelArgs, objects: bool) -> Option<String> {
         // A second session would overwrite the capture of the first session.
         if target.capture().is_some() {

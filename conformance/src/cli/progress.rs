@@ -13,8 +13,8 @@ use crate::text::plural;
 /// Minimum time between two updates of the line on a terminal, except for an event that is shown at
 /// once.
 pub(super) const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
-/// Maximum number of characters of the line on a terminal, so that the line does not wrap on a
-/// terminal of 80 columns: a part of a line that wraps would stay on the screen.
+/// Maximum number of characters of the line on a terminal. A longer line would wrap on a terminal
+/// of 80 columns, and a part of it would stay on the screen.
 pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, overwritten in place on a terminal.

@@ -74,8 +74,7 @@ impl ReportFormats {
         self.requested().map(|(file, _)| file)
     }
 
-    /// Checks that at most one of the requested formats and `json`, another file to be written,
-    /// goes to stdout.
+    /// Checks that at most one of the requested formats and the file `json` goes to stdout.
     pub(super) fn check(&self, json: Option<&Path>) -> Result<(), String> {
         let files = json.into_iter().chain(self.files());
         match files.filter(|file| is_stdout(file)).count() {

@@ -96,9 +96,9 @@ impl Requirements {
 }
 
 /// Whether the word or pattern names the requirement in this row, its area, one of its parts or
-/// sections, a case in the row, or a vector or sequence in the row by the ID of its case (`vec-…`,
-/// `seq-…`); or the word is the name of a stream whose table cites the requirement, or of a function
-/// that the requirement defines.
+/// sections, or a case in the row. It may name a vector or sequence by the ID of its case (`vec-…`,
+/// `seq-…`). A word may also name a stream whose table cites the requirement, or a function that
+/// the requirement defines.
 fn is_named(row: &RequirementRow, word: &str) -> bool {
     let has =
         |ids: &[String], prefix: &str| ids.iter().any(|id| matches(word, &format!("{prefix}{id}")));

@@ -124,9 +124,9 @@ impl Set {
         Ok(judge(&ty, &bytes, new.as_deref()))
     }
 
-    /// Finds the object, reads its value and parses the new value, to find an error that says more
-    /// than the rejection of the write by the gate, such as an unknown name. `None` if no such
-    /// error is found, and if --allow-write is given.
+    /// Finds the object, reads its value and parses the new value. Returns an error that says more
+    /// than the gate's rejection of the write, such as an unknown name. `None` without such an
+    /// error, and with --allow-write.
     fn wrong(&self, question: &Lookup) -> Option<ToolError> {
         if self.target.has_file() {
             return None;

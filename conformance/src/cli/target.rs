@@ -181,8 +181,8 @@ impl TargetArgs {
         self.open_or(default_cnc)
     }
 
-    /// Like [`open_or`](Self::open_or), but without --target and --allow-write, the gate allows the
-    /// writes of this entry to the simulated CNC.
+    /// Like [`open_or`](Self::open_or), except that without --target and --allow-write, the gate
+    /// allows the writes of this entry to the simulated CNC.
     pub(super) fn open_to_write(
         &self,
         entry: Entry,

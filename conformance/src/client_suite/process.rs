@@ -20,7 +20,8 @@ const HELLO: &str = "hello";
 pub struct ClientProcess {
     process: Subprocess,
     stays: bool,
-    /// Lines that the client has printed in addition to its answers: of several at once, the first.
+    /// Lines that the client has printed in addition to its answers; only the first of several at
+    /// once.
     unasked: Vec<String>,
 }
 

@@ -133,8 +133,8 @@ fn one(
         scenario_checks.check(ask.place, false, exchange, || describe(ask), found);
         return;
     }
-    // The manuals state only for the variables of the decoder that they belong to SDA (ADR-10). For
-    // other classes, the port of GEO is accepted too.
+    // The manuals assign only the variables of the decoder to SDA (ADR-10). For other classes, the
+    // port of GEO is accepted too.
     let is_decoder = ask.group & 0xF000 == 0x2000;
     let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
     scenario_checks.check(GEN_4, port, exchange, || format!("port {}", ask.port), || one.port);

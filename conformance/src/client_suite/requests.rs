@@ -130,8 +130,7 @@ fn name(command: Command) -> String {
     }
 }
 
-/// The requirement violated by a request whose address has no function, or no function of the
-/// request's service.
+/// The requirement that a request violates if its address has no function of its service.
 fn address_clause(call: &Call<'_>) -> Rule {
     match (call.dispatch(), call.port) {
         (Err(DispatchError::Group(_)), AmsPort::COM) => ADR_3.into(),

@@ -241,7 +241,7 @@ impl Scenario {
 
     /// The scenario as a case of the suite.
     pub fn case(&self) -> Case {
-        // A client that must not stream a program may send no request at all: then the requirements
+        // A client that must not stream a program perhaps sends no request: then the requirements
         // of frames and ports are not tested.
         let silent = matches!(self.watch, Some(RequestOrder::NoStream(_)));
         let mut requirements =

@@ -25,7 +25,7 @@ use crate::text::plural;
 pub(super) const CONNECTIONS_MAX: usize = 64;
 
 /// After this many bytes of recorded requests and replies that wait to be judged, further requests
-/// are not recorded. Each request counts [`TURN`] bytes more than its length.
+/// are not recorded. [`TURN`] bytes are added to the length of each request.
 pub(super) const RECORDED_BYTES_MAX: usize = 8 << 20;
 const TURN: usize = 128;
 
@@ -92,21 +92,16 @@ impl Recording {
     /// them in their order.
     fn take_answered(&mut self) -> Vec<RecordedExchange> {
         let first = self.open.first().map(|first| first.saturating_sub(self.taken));
-        let rest = first.map(|first| self.kept.split_off(first.min(self.kept.len())));
-        let exchanges = self.take();
-        for exchange in rest.into_iter().flatten() {
-            self.grow(exchange.request.len().saturating_add(TURN));
-            self.grow(exchange.sent.len());
-            self.kept.push(exchange);
-        }
-        exchanges
+        self.take_first(first.unwrap_or(usize::MAX))
     }
 
-    /// Removes all recorded exchanges and returns them in their order.
-    fn take(&mut self) -> Vec<RecordedExchange> {
-        let exchanges = std::mem::take(&mut self.kept);
+    /// Removes at most `count` of the recorded exchanges, the earliest first, and returns them in
+    /// their order.
+    fn take_first(&mut self, count: usize) -> Vec<RecordedExchange> {
+        let exchanges: Vec<_> = self.kept.drain(..count.min(self.kept.len())).collect();
         self.taken = self.taken.saturating_add(exchanges.len());
-        self.bytes = 0;
+        let lengths = self.kept.iter().flat_map(|one| [one.request.len(), one.sent.len(), TURN]);
+        self.bytes = lengths.fold(0, usize::saturating_add);
         exchanges
     }
 }
@@ -312,7 +307,7 @@ impl TestServer {
         for thread in lock(&run.threads).drain(..) {
             let _panicked = thread.join();
         }
-        let exchanges = lock(&run.exchanges).take();
+        let exchanges = lock(&run.exchanges).take_first(usize::MAX);
         self.capture(&run, &exchanges);
         if let Some(mut capture) = self.capture.as_ref().map(lock) {
             capture.switch(None);
@@ -410,13 +405,13 @@ impl TestRun {
     fn exchange(&self, connection: usize, request: &[u8], stream: &TcpStream) -> io::Result<bool> {
         // The request is recorded before the reply is sent, because the scenario may end as soon as
         // the client has received the reply.
-        let place = lock(&self.exchanges).open(RecordedExchange {
+        let number = lock(&self.exchanges).open(RecordedExchange {
             connection,
             request: request.to_vec(),
             ..RecordedExchange::default()
         });
-        let stays = self.reply(connection, request, place, stream);
-        lock(&self.exchanges).close(place);
+        let stays = self.reply(connection, request, number, stream);
+        lock(&self.exchanges).close(number);
         stays
     }
 
@@ -424,14 +419,14 @@ impl TestRun {
         &self,
         connection: usize,
         request: &[u8],
-        place: Option<usize>,
+        number: Option<usize>,
         mut stream: &TcpStream,
     ) -> io::Result<bool> {
         let steps = match lock(&self.script).answer(connection, request) {
             Ok(steps) => steps,
             Err(fault) => {
                 let mut exchanges = lock(&self.exchanges);
-                if let Some(exchange) = place.and_then(|place| exchanges.of_number(place)) {
+                if let Some(exchange) = number.and_then(|number| exchanges.of_number(number)) {
                     exchange.fault = Some(fault);
                 }
                 return Ok(false);
@@ -441,7 +436,7 @@ impl TestRun {
             match deed {
                 SendStep::Send(bytes) => {
                     let mut exchanges = lock(&self.exchanges);
-                    if let Some(exchange) = place.and_then(|place| exchanges.of_number(place)) {
+                    if let Some(exchange) = number.and_then(|number| exchanges.of_number(number)) {
                         exchange.sent.extend(&bytes);
                         exchanges.grow(bytes.len());
                     }
@@ -455,8 +450,8 @@ impl TestRun {
         Ok(true)
     }
 
-    fn record(&self, exchange: RecordedExchange) -> Option<usize> {
-        lock(&self.exchanges).record(exchange)
+    fn record(&self, exchange: RecordedExchange) {
+        lock(&self.exchanges).record(exchange);
     }
 }
 

@@ -11,7 +11,7 @@ use super::Support;
 /// The version of a CNC, such as `V2.11.2077`, `V3.1.3081.07` or `V4.18.0`.
 ///
 /// A version is parsed with or without the V, and with or without a dot after the V: `ads-de` and
-/// `service-*` print versions in different forms. A missing fourth number counts as 0. `Display`
+/// `service-*` print versions in different forms. A missing fourth number is taken as 0. `Display`
 /// omits a fourth number of 0 and writes any other fourth number with at least two digits.
 ///
 /// Manual: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03, section 1.

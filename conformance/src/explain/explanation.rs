@@ -98,8 +98,8 @@ pub struct ExplainedStream {
     pub length: usize,
     /// The address to which the stream is sent, or which returns it.
     pub address: Option<ExplainedAddress>,
-    /// The fields that were read; for NC text, each line; for a value that fits the specified type,
-    /// each element; for bytes that no table describes, at most one row with all bytes.
+    /// The fields that were read. NC text has a row for each line, and a value that fits the
+    /// specified type one for each element. Bytes that no table describes have at most one row.
     pub rows: Vec<ExplainedField>,
     pub faults: Vec<ExplainedFault>,
     /// The bytes after the last field that was read, if an error in the stream ended the reading.

@@ -14,8 +14,8 @@ struct Line<'a> {
     bytes: &'a [u8],
 }
 
-/// Adds a row for each line of NC text, the faults and notes of the codec about the text, and, if
-/// the codec can check the text, a note about the limits of this check.
+/// Adds a row for each line of NC text, and the faults and notes of the codec about the text. If
+/// the codec can check the text, also adds a note about the limits of this check.
 pub(super) fn add(part: &mut ExplainedStream, segment: &Segment<'_>) {
     let (data, whole) = (segment.bytes, row(segment));
     let lines = lines(data);

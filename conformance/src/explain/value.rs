@@ -124,8 +124,8 @@ fn codes_of(row: &mut ExplainedField, stream: Stream, read: u32) {
     }
 }
 
-/// Adds a value or content: if the user has specified a type that fits the bytes, a row for each
-/// element; if the type does not fit, one row and a fault; without a type, one row, with a note
+/// Adds a value or content. If the type that the user has specified fits the bytes, adds a row for
+/// each element; if it does not fit, one row and a fault. Without a type, adds one row with a note
 /// that shows the bytes as the types that [`guesses`] finds.
 fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values: &ValueFormat) {
     let Some(ty) = values.ty else {
@@ -177,7 +177,7 @@ fn value(part: &mut ExplainedStream, mut row: ExplainedField, all: &[u8], values
     }
 }
 
-/// Formats at most `GUESSED` bytes as each type of their size except STRING, and longer bytes, up
+/// Formats at most `GUESSED` bytes as each type of their size except STRING. Formats more bytes, up
 /// to 128, as a STRING if all are graphic ASCII characters, spaces or NULs.
 fn guesses(all: &[u8]) -> String {
     if all.is_empty() || all.len() > GUESSED {

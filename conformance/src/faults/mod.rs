@@ -1,10 +1,10 @@
 //! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
 //! A seed is a defect or a variant: middleware around the codec or the simulated CNC, or another
-//! data model or policy of the CNC. Seeds test the suite: with a defect, at least one of the
-//! requirements that the defect violates must fail or, below the level *must*, have a warning or a
-//! difference, unless the defect changes no byte or the self-test (`selftest`) states a reason;
-//! with a valid variant, no requirement may fail.
+//! data model or policy of the CNC. Seeds test the suite. With a valid variant, no requirement may
+//! fail. With a defect, at least one of the requirements that it violates must fail or, below the
+//! level *must*, have a warning or a difference. Exceptions are defects that change no byte, or for
+//! which the self-test (`selftest`) states a reason.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::{self, DefectKind};
@@ -46,8 +46,8 @@ pub fn by_id(id: &str) -> Option<&'static SeededDefect> {
     all().iter().find(|seed| seed.id == id)
 }
 
-/// The requirements of level *must* that no defect violates, each with the reason; without those
-/// that the catalogue excludes.
+/// The requirements of level *must* that no defect violates, each with the reason. Those that the
+/// catalogue excludes are left out.
 ///
 /// Requirements that concern only clients are not in this list:
 /// [defects of a client](crate::client_suite::defects) violate them.

@@ -1,5 +1,5 @@
-//! Generated defects of one function: an operator, for example, rejects the request, executes
-//! another request instead of the request or in addition to it, or changes the correct reply.
+//! Generated defects of one function. For example, an operator rejects the request, executes
+//! another one instead or in addition, or changes the correct reply.
 //!
 //! ```
 //! use ads_cnc_conformance::faults;

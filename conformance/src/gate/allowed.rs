@@ -61,7 +61,7 @@ pub struct Allowed {
     pub address: Option<IpAddr>,
     /// Whether malformed requests may be sent to the target.
     pub malformed: bool,
-    /// The time from which on the file allows nothing.
+    /// From this time on, the file allows nothing.
     pub expires: Moment,
     /// The allowed writes.
     pub entries: Vec<Entry>,

@@ -11,9 +11,9 @@ use ads_cnc::{CncStr, CncString};
 /// table of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// A variable by its name. Without an axis and without indices at the end of the name, the
-    /// entry also allows writes by a handle that replies contained for this variable, unless there
-    /// is an [`Ambiguity`](super::Ambiguity).
+    /// A variable by its name. If the entry has no axis and its name no indices at the end, it also
+    /// allows writes by a handle that replies contained for this variable, unless there is an
+    /// [`Ambiguity`](super::Ambiguity).
     Variable {
         channel: Channel,
         /// The axis, if the write uses the axis interface.

@@ -1,6 +1,5 @@
-//! Decides which frames may be sent to a target. A frame may move a machine, so for a device the
-//! gate rejects every frame that neither the following defaults nor a file of `--allow-write`
-//! allow.
+//! Decides which frames may be sent to a target. A frame may move a machine, so a frame to a device
+//! must be allowed by the following defaults or by a file of `--allow-write`.
 //!
 //! [`Wire::send`](crate::net::Wire::send) sends a frame only with the [`Permit`] that
 //! [`Gate::check`] returns for the bytes of the frame. By default, the gate allows the queries of
@@ -8,11 +7,11 @@
 //! GEO, SDA and COM. A write to a device needs a file of `--allow-write` that names the value, the
 //! target and an expiry: see [`Allowed`].
 //!
-//! The file may contain a name, while a write contains a handle or an address instead, and only the
-//! device knows the name that belongs to this handle or address. Therefore, the gate records the
-//! names in replies. It rejects a write by a handle if a reply of the same channel contained the
-//! handle for a variable that is not in the file, and a write to the address of an object if
-//! replies contained two names for the address: see [`Ambiguity`].
+//! The file may contain a name, while a write contains a handle or an address instead. Only the
+//! device knows the name that belongs to it. Therefore, the gate records the names in replies. It
+//! rejects a write by a handle if a reply of the same channel contained the handle for a variable
+//! that is not in the file. It rejects a write to the address of an object if replies contained two
+//! names for the address: see [`Ambiguity`].
 //!
 //! ```
 //! use ads_cnc::Encode;

@@ -19,8 +19,7 @@ pub(super) struct Observed {
     handles: BTreeMap<(Channel, u32), HandleNames>,
     /// The handle that replies contained for each variable in the file; `None` for several handles.
     variables: BTreeMap<(Channel, CncString), Option<u32>>,
-    /// The part that replies contained of the lists from which the file allows an object by its
-    /// name.
+    /// The recorded part of each list from which the file allows an object by its name.
     lists: BTreeMap<IndexGroup, ObservedObjects>,
     /// For each object address: the first name that a list contained, and the first different name,
     /// if any.
@@ -36,8 +35,8 @@ struct HandleNames {
     allowed: BTreeMap<CncString, Sources>,
     /// The first axis and name for which a reply of the axis interface contained the handle.
     of_axis: Option<(ChannelAxis, CncString)>,
-    /// The first name that is not in the file, or the name in the first request to the axis
-    /// interface with another axis or name than `of_axis`, whichever was recorded first.
+    /// The name that was recorded first: one that is not in the file, or one in a request to the
+    /// axis interface whose axis or name is not that of `of_axis`.
     foreign: Option<CncString>,
 }
 

@@ -2,9 +2,9 @@
 //! that fails only as a consequence becomes inconclusive.
 //!
 //! For example, a wrong size in a description makes every comparison with that size fail. The first
-//! failing function of a chain (`chain.rs`) shows which clause is violated. Therefore, while a
-//! check of an earlier function fails for a variable or object, a failed check of a later function
-//! for the same variable or object usually does not count against its own clause.
+//! failing function of a chain (`chain.rs`) shows which clause is violated. Therefore, if a check
+//! of an earlier function fails for a variable or object, a failed check of a later function for it
+//! usually does not make its own clause fail.
 
 use std::collections::HashSet;
 
@@ -151,11 +151,11 @@ fn cause(
 }
 
 /// Finds the violated clause if `check` judges several clauses at once: another of these clauses
-/// that can explain the failure (`can_explain`), if `alone` contains a check of this clause whose
-/// subject permits this (`is_about_all_of`), and which is for the function of `check`, a function
-/// with which `check` compares, or an earlier function. `None` if `alone` contains a check of the
-/// clause of `check`, or if that clause is in [`GENERAL`]. `alone` contains the checks with the
-/// verdict `Fail` and without a cause that judge no other clause with this verdict.
+/// that can explain the failure (`can_explain`) and of which `alone` contains a suitable check. The
+/// subject of that check must permit this (`is_about_all_of`), and its function must be that of
+/// `check`, one with which `check` compares, or an earlier one. `None` if `alone` contains a check
+/// of the clause of `check`, or if that clause is in [`GENERAL`]. The checks in `alone` have the
+/// verdict `Fail` and no cause, and judge no other clause with this verdict.
 fn single_out(check: FailedCheck<'_>, alone: &[FailedCheck<'_>]) -> Option<&'static str> {
     let clause = check.clause();
     if alone.iter().any(|one| one.clause() == clause) || is_one_of(clause, &GENERAL) {
@@ -179,8 +179,8 @@ fn single_out(check: FailedCheck<'_>, alone: &[FailedCheck<'_>]) -> Option<&'sta
     check.judgement.together.iter().copied().find(explains)
 }
 
-/// Follows the causes from `cause` to a clause with a failed check that has no cause. `None` if
-/// there is no such clause: then the check counts as failed by itself.
+/// Follows the causes from `cause` to a clause with a failed check that has no cause. `None`
+/// without such a clause: then the check has failed by itself.
 fn settle(
     cause: &'static str,
     clauses: &[&'static str],
@@ -203,10 +203,10 @@ fn settle(
     None
 }
 
-/// Makes a failed check inconclusive if it only follows from another failure, such as one of an
-/// earlier function, of a service, of a shared request, of a simpler comparison, or of another
-/// clause that the same check judges. A warning or a difference that follows from a failure keeps
-/// its verdict. Checks of a codec, a testee or a client are not changed.
+/// Makes a failed check inconclusive if it only follows from another failure: for example, of an
+/// earlier function, a service, a shared request, a simpler comparison, or another clause that the
+/// same check judges. A warning or a difference that follows from a failure keeps its verdict.
+/// Checks of a codec, a testee or a client are not changed.
 pub(crate) fn attribute(outcomes: &mut [CaseOutcome]) {
     let failed_checks: Vec<FailedCheck<'_>> = checks(outcomes, is_broken).collect();
     let causes = Causes::of(&failed_checks);

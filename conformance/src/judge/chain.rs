@@ -79,7 +79,7 @@ pub(super) fn is_of_functions(clause: &str) -> bool {
 /// both clauses define the same function, if `clause` defines an earlier function than `cause`, or
 /// if only `clause` defines a function.
 pub(super) fn can_explain(cause: &str, clause: &str) -> bool {
-    // Every clause of streaming (STM) counts as a clause of this function.
+    // Every clause of streaming (STM) is treated as a clause of this function.
     let is_of = |clause: &str, function| {
         defines(clause, function)
             || clause.starts_with("STM") && function == Function::WriteProgramStream

@@ -39,9 +39,8 @@ impl Stop {
     }
 }
 
-/// An error that a case returns with `?` counts as an error of the suite, such as a request that
-/// cannot be encoded. Therefore a case must not return the error of a reply that cannot be decoded
-/// with `?`.
+/// An error that a case returns with `?` is an error of the suite, such as a request that cannot be
+/// encoded. Therefore a case must not use `?` for a reply that cannot be decoded.
 impl<E: Error> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Harness(error.to_string())

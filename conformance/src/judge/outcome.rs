@@ -22,9 +22,9 @@ pub struct CaseOutcome {
 #[derive(Clone, Debug)]
 pub struct RequirementVerdict {
     pub requirement: &'static str,
-    /// The most severe verdict of the checks. The reason why the case ended determines the verdict
-    /// if there are no checks, or if all checks passed and the case ended as inconclusive,
-    /// interrupted or with a harness error.
+    /// The most severe verdict of the checks. Without checks, the reason why the case ended
+    /// determines the verdict. It also does if all checks passed and the case ended as
+    /// inconclusive, interrupted or with a harness error.
     pub verdict: Verdict,
     /// The stored checks that did not pass.
     pub judgements: Vec<Judgement>,

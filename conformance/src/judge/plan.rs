@@ -8,8 +8,7 @@ use ads_cnc_vectors::{Source, requirement, requirements};
 use super::case::matches;
 use super::{Body, CLIENT, Case, CaseOutcome, CaseSubject, Needs, Verdict};
 use crate::edition::Edition;
-use crate::number::digest;
-use crate::number::to_u32;
+use crate::number::{digest, digest_more, to_u32};
 use crate::text::did_you_mean;
 
 /// The selection of cases.
@@ -59,7 +58,7 @@ pub struct Plan {
     pub foreign: Vec<(Case, String)>,
     /// The cases that were not selected.
     left_out: Vec<Case>,
-    /// By case ID: the selected requirements of each case of which not all requirements are
+    /// The selected requirements, by the IDs of the cases of which not all requirements are
     /// selected. Empty for a case that only provides frames for the selected cases.
     judged: HashMap<String, Vec<&'static str>>,
 }
@@ -143,7 +142,7 @@ impl Selection {
         };
         match all.iter().copied().filter(has).collect::<Vec<_>>() {
             // The edition has no selected requirement of the case. All selected requirements are
-            // returned, so that `plan` does not count the case as not selected. `plan` adds it to
+            // returned, so that `plan` does not add the case to `left_out`. `plan` adds it to
             // `foreign` if the edition has none of the requirements of the case.
             none if none.is_empty() => all,
             some => some,
@@ -152,9 +151,9 @@ impl Selection {
 }
 
 impl Plan {
-    /// Adds the query cases of the target that are not selected, if the only selected cases of the
-    /// target judge frames, because these cases need the frames of other cases. The outcomes of the
-    /// added cases are not reported.
+    /// If the only selected cases of the target judge frames, adds the query cases of the target
+    /// that are not selected, because their frames are needed. The outcomes of the added cases are
+    /// not reported.
     fn carry_frames(&mut self) {
         let of_target = |case: &&Case| case.subject == CaseSubject::Target;
         let frames = |case: &Case| case.needs == Needs::Frames;
@@ -269,7 +268,7 @@ fn foreign(case: &Case, edition: Edition) -> Option<String> {
 /// The sort key of a case: FNV-1a over seed and ID, mixed as in splitmix64. The standard library
 /// has no such hash, and a seed in a report must mean the same order in every version.
 pub(crate) fn order(seed: u32, id: &str) -> u64 {
-    let hash = digest(&[&seed.to_le_bytes()[..], id.as_bytes()].concat());
+    let hash = digest_more(digest(&seed.to_le_bytes()), id.as_bytes());
     let hash = (hash ^ (hash >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let hash = (hash ^ (hash >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     hash ^ (hash >> 31)

@@ -56,9 +56,9 @@ impl<'a> FailedCheck<'a> {
         self.judgement.evidence.as_ref().and_then(|evidence| evidence.subject.as_deref())
     }
 
-    /// The variable or object that all failures of the check are about; `None` if the check is not
-    /// about a particular variable or object, or if further failures were counted but not stored,
-    /// because these may be about other variables or objects.
+    /// The variable or object that all failures of the check are about. `None` if the check is not
+    /// about a particular one, or if further failures were counted but not stored: these may be
+    /// about others.
     fn subject(self) -> Option<&'a str> {
         self.first_subject().filter(|_| self.judgement.more == 0)
     }
@@ -68,10 +68,9 @@ impl<'a> FailedCheck<'a> {
         self.judgement.evidence.as_ref().map_or(&[], |evidence| &evidence.compared)
     }
 
-    /// Whether the subject of this check permits that the check explains all failures of `other`:
-    /// both checks have the same subject, or one of the checks is not about a particular subject. A
-    /// check about a particular subject does not explain a check with failures that were not
-    /// stored.
+    /// Whether, by its subject, this check can explain all failures of `other`: both checks have
+    /// the same subject, or one of the checks is not about a particular subject. A check about a
+    /// particular subject does not explain a check with failures that were not stored.
     pub(super) fn is_about_all_of(self, other: Self) -> bool {
         match (self.subject(), other.first_subject()) {
             (Some(_), _) if other.judgement.more > 0 => false,
@@ -117,7 +116,7 @@ impl<'a> Root<'a> {
 
     /// Whether this root can explain the failed `check` of a later function. It cannot if the
     /// target accepted a request that it must reject, or if the root compares several replies, and
-    /// more than `check` compares.
+    /// more of them than `check`.
     pub(super) fn explains_later(&self, check: FailedCheck<'_>) -> bool {
         let evidence = self.check.judgement.evidence.as_ref();
         !evidence.is_some_and(|evidence| evidence.is_rejection)

@@ -35,8 +35,8 @@ use crate::session::{Session, ToolError};
 /// ```
 ///
 /// # Errors
-/// For example if the name or another part of the lookup is invalid, no object or element or more
-/// than one has this name, or the CNC rejects a necessary request or does not reply to it.
+/// For example if a part of the lookup, such as the name, is invalid, if not exactly one object or
+/// element has this name, or if the CNC rejects or does not answer a necessary request.
 pub fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     if variable::is_named(&lookup.name) || lookup.axis.is_some() {
         variable::find(session, lookup)

@@ -40,7 +40,7 @@ fn reason(name: &str, error: &ads_cnc::Error) -> String {
         ads_cnc::ErrorKind::Truncated => "incomplete",
         _ => error_text.rsplit(": ").next().unwrap_or_default(),
     };
-    // Each character is one byte in CP1252, so the offset of the error counts characters.
+    // Each character is one byte in CP1252, so the offset of the error is in characters.
     let offset = to_usize(error.offset());
     let front: String = name.chars().take(offset).collect();
     if front.is_empty() {
@@ -102,9 +102,9 @@ pub(super) fn unasked(lookup: &Lookup) -> Result<ListedValue, ToolError> {
     }
 }
 
-/// The variable with the type of `lookup` or, without such a type, with that of the description by
-/// name, or of the descriptions by index for an axis or if the CNC returns no description by name.
-/// The type is unknown if no description is found. A parameter has its fixed type.
+/// The variable with the type of `lookup`. Without such a type, the type is that of the description
+/// by name. For an axis, or if the CNC returns no description by name, it is that of the
+/// descriptions by index. It is unknown if no description is found. A parameter has its fixed type.
 pub(super) fn find(session: &mut Session, lookup: &Lookup) -> Result<ListedValue, ToolError> {
     let object = unasked(lookup)?;
     if lookup.ty.is_some() || matches!(object.address, ValueAddress::Parameter { .. }) {

@@ -20,9 +20,9 @@
 //!
 //! A reply that cannot be decoded counts as a rejection.
 //!
-//! The suite uses similar rules (`Walker`), but requests the channels, and the lists of the
-//! platform axes, that the profile claims, reads one descriptor in a request, and also requests the
-//! axes of the platform in the HLD of every channel.
+//! The suite uses similar rules (`Walker`), but requests the channels and the lists of platform
+//! axes that the profile claims. It reads one descriptor per request, and also requests the axes of
+//! the platform in the HLD of every channel.
 //!
 //! The manuals do not specify whether SDA or GEO serves a class: requests go to SDA, and to GEO for
 //! a class of which SDA has no instance. At most [`OBJECTS_MAX`] objects are listed, with at most
@@ -30,9 +30,9 @@
 //! instance is missing if the target rejects the request for its address, or if the address is (0,
 //! 0), belongs to no class, or is the address of another instance. The numbers of channels, axes
 //! and spindles that are requested end at 255. Type, length, unit and write flag of an element are
-//! read once for the channels or spindles of a class and once for its axes: an element with the
-//! same name and number in another instance is assumed to have the same attributes (for at most 64
-//! names of a number; [`Options::exact`] reads the attributes of every element).
+//! read once for the channels or spindles of a class and once for its axes. An element with the
+//! same name and number in another instance is assumed to have the same attributes. This is done
+//! for at most 64 names of a number; [`Options::exact`] reads the attributes of every element.
 
 mod list;
 mod object;

@@ -15,7 +15,7 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 /// The exit code that a shell reports for a process ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// A second signal within this time counts as a repetition of the first signal, and is ignored.
+/// A second signal within this time is a repetition of the first signal, and is ignored.
 const REPEATED: Duration = Duration::from_millis(200);
 
 /// The interval at which a wait for a line of a command checks for a signal.
@@ -72,8 +72,8 @@ fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
 }
 
 /// The caught signals. After the first signal, the tool cleans up and ends by itself. A second
-/// signal that does not count as [`REPEATED`] ends the process at once, with all commands that the
-/// process has started.
+/// signal, if not within [`REPEATED`], ends the process at once, with all commands that it has
+/// started.
 #[derive(Debug)]
 pub(crate) struct Interrupt(Receiver<()>);
 

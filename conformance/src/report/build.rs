@@ -151,8 +151,7 @@ impl Report {
     }
 }
 
-/// The reasons why the gate rejected requests, each once, after the first IDs of the cases of these
-/// requests.
+/// The reasons why the gate rejected requests, each once, after the IDs of the first of its cases.
 fn rejected(outcomes: &[CaseOutcome]) -> Vec<String> {
     let mut cases: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for outcome in outcomes.iter().filter(|outcome| outcome.rejected) {
@@ -226,9 +225,9 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The verdict of a group, and whether this verdict is waived: the gravest of the verdicts that
-/// fail the run and are not waived; without such a verdict, the gravest waived verdict; without a
-/// waived verdict, the gravest verdict.
+/// The verdict of a group, and whether it is waived. It is the gravest verdict that fails the run
+/// and is not waived; without such a verdict, the gravest waived verdict; without a waived verdict,
+/// the gravest verdict.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(verdict, waived)| !waived && verdict.fails_run());
     let known = verdicts.clone().filter(|(_, waived)| *waived);

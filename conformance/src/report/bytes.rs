@@ -40,9 +40,8 @@ pub struct FieldReport {
     /// The meaning of the field.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub meaning: String,
-    /// Offsets within the field of the marked bytes: those that differ from the compared bytes (for
-    /// received bytes, the expected bytes, and the reverse), or all bytes of a field that is known
-    /// to be wrong.
+    /// Offsets of the marked bytes within the field: the bytes in which the received and the
+    /// expected bytes differ, or all bytes of a field that is known to be wrong.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub differs: Vec<usize>,
 }

@@ -154,8 +154,8 @@ pub struct AreaReport {
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     pub requirement: String,
-    /// The gravest of the verdicts that fail the run and are not waived; without such a verdict,
-    /// the gravest waived verdict; without a waived verdict, the gravest verdict.
+    /// The gravest verdict that fails the run and is not waived; without such a verdict, the
+    /// gravest waived verdict; without a waived verdict, the gravest verdict.
     pub verdict: Verdict,
     /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

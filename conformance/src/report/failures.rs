@@ -122,8 +122,8 @@ pub(super) fn differing_field(text: &str) -> Option<&str> {
 }
 
 /// Describes the first field with a marked byte and the expected field; `None` if their values are
-/// equal or unknown, if the received bytes are invalid, or if the received and the expected bytes
-/// have different numbers of fields.
+/// equal or unknown, the received bytes are invalid, or the numbers of received and expected fields
+/// differ.
 fn differing(evidence: &EvidenceReport) -> Option<String> {
     let (received, expected) = evidence.received.as_ref().zip(evidence.expected.as_ref())?;
     if !received.faults.is_empty() || received.fields.len() != expected.fields.len() {

@@ -67,8 +67,8 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 vacuous.extend(finding.iter().map(|one| (cause.clone(), *one, case)));
                 continue;
             }
-            // If a testee ends, the failures of all streams probably have one cause, so put them
-            // into one group; the same if it does not answer.
+            // If a testee ends or does not answer, the failures of all streams probably have one
+            // cause, so put them into one group.
             let stream = case.stream.as_deref();
             let lost =
                 stream.and_then(|_| LOST.into_iter().find(|kind| first.found.starts_with(kind)));
@@ -233,8 +233,8 @@ impl<'r> Group<'r> {
             // Prefer other cases to the cases about all replies: to run such a case again, the
             // suite must also run all query cases.
             let is_of_replies = case.id.starts_with("replies-");
-            // For other cases than vectors and sequences, the size is 0, so that the first check is
-            // chosen, because it is usually the closest to the cause.
+            // Without a vector or sequence, the size is 0: the first check is chosen, which is
+            // usually the closest to the cause.
             let size = if is_vector { size(failure) } else { 0 };
             (!of_clause(failure), !is_of_own_stream(failure), is_of_replies, size)
         });

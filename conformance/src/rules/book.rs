@@ -67,9 +67,8 @@ impl RuleBook {
         requests::headers(&mut self.records, observation, header, is_repeated);
     }
 
-    /// Judges a request. Returns the service and the address of the request as text if no function
-    /// is found for the request, or if the request may access content at this address (SDA-12):
-    /// such a request is not judged.
+    /// Judges a request. Returns its service and address as text if it is not judged, because no
+    /// function is found for it or because it may access content at this address (SDA-12).
     pub(crate) fn request(
         &mut self,
         observation: &dyn Observation,

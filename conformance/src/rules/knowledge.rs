@@ -175,8 +175,8 @@ impl ObservedProgramStreams {
 
 #[derive(Default)]
 pub(super) struct ObservedProgramStream {
-    /// The packet of the previous write, if the write was rejected and the packet has whole lines
-    /// and at most 992 bytes, and the time of that write, if known.
+    /// The packet of the previous write and its time, if known; only if the write was rejected and
+    /// the packet has whole lines and at most 992 bytes.
     pub(super) rejected: Option<(Vec<u8>, Option<Duration>)>,
     /// Checks the current program; `None` before the first accepted packet of a program, and while
     /// packets may be missing.

@@ -113,9 +113,8 @@ impl ExchangeJudge<'_> {
             let exact = call.read_length.checked_rem(length) == Some(0);
             let asked = if exact { read.count() } else { 1 };
             let expected = asked.min(left);
-            // The manual states neither the reply to a request for more descriptors than are left
-            // nor the reply to a read length that is not a multiple of the length of a descriptor:
-            // for such a request, the rule is assumed.
+            // For more descriptors than are left, or a read length that is not a multiple of a
+            // descriptor's length, the manual states no reply, so the rule is assumed.
             let rule: Rule = if exact && asked <= left { COM_3.into() } else { assumed(COM_3) };
             let passed = u32::try_from(given.len()) == Ok(expected);
             let expected =

@@ -35,22 +35,23 @@ impl ExchangeJudge<'_> {
         let known = self.cnc.parameters.counts.get_mut(&(group, kind.to_string()));
         let Some(ObservedCount { number: count, answered_beyond }) = known else { return };
         let count = *count;
-        if index > count && reply.is_some() {
+        match (index > count, reply.is_some()) {
             // A program may have created a parameter. The next number of parameters shows this.
-            *answered_beyond = Some(index);
-            return;
-        }
-        if index <= count && reply.is_none() {
+            (true, true) => {
+                *answered_beyond = Some(index);
+                return;
+            }
             // A program may have deleted a parameter since the number was read.
-            return;
-        }
-        if index > count {
-            let expected = || match count {
-                0 => "no request for an index, because the list is empty".to_owned(),
-                _ => format!("an index from 1 to {count}"),
-            };
-            let found = || format!("index {index}");
-            self.judge_nonexistent(observation, request, DYN_5, expected, found);
+            (false, false) => return,
+            (true, false) => {
+                let expected = || match count {
+                    0 => "no request for an index, because the list is empty".to_owned(),
+                    _ => format!("an index from 1 to {count}"),
+                };
+                let found = || format!("index {index}");
+                self.judge_nonexistent(observation, request, DYN_5, expected, found);
+            }
+            (false, true) => {}
         }
         self.records.on(Topic::CncDyn, observation).pass(DYN_5);
         let name = match reply {

@@ -36,8 +36,8 @@ pub(super) fn headers(
     }
 }
 
-/// Judges a request. Returns the service and the address of the request as text if the request is
-/// not judged, because no function is found for the request or because it may access content.
+/// Judges a request. Returns its service and address as text if it is not judged, because no
+/// function is found for it or because it may access content.
 pub(super) fn judge(
     records: &mut TopicRecords,
     observation: &dyn Observation,
@@ -116,8 +116,8 @@ pub(crate) fn function_at(call: &Call<'_>) -> Option<Function> {
 }
 
 /// Judges a call of a function by the wrong service. A Read, or any call at the address of data
-/// streaming, may instead access content whose address is also that of a function (SDA-12): such a
-/// call is not judged, and its service and address are returned as text.
+/// streaming, may instead access content whose address is also that of a function (SDA-12). Such a
+/// call is not judged; its service and address are returned as text.
 fn wrong_service(
     records: &mut TopicRecords,
     observation: &dyn Observation,

@@ -5,7 +5,7 @@
 //! *must*, and for a codec with a seeded defect, a warning or a difference suffices. If neither
 //! happens, the defect needs a written reason, otherwise the self-test fails. A field defect of a
 //! CNC that changes no byte is not counted. The detection table lists the defects that a run
-//! against a device misses; to be missed by such a run, a defect needs no reason.
+//! against a device misses; such a miss needs no reason.
 
 mod clients;
 mod cncs;
@@ -38,8 +38,7 @@ pub struct SelfTest {
     /// The trials that were run: those of codecs, of miniatures, of CNCs and of clients, each in
     /// the order of its list.
     pub tried: Vec<Trial>,
-    /// The groups and ID prefixes of the written reasons why a defect survives, for which no
-    /// surviving defect was found.
+    /// The groups and ID prefixes of the written reasons to which no surviving defect belongs.
     pub stale: Vec<String>,
     /// The detection table, and the differences of the defects that were measured again.
     pub detection: CheckedTable,
@@ -50,7 +49,7 @@ pub struct SelfTest {
 
 impl SelfTest {
     /// The number of trials of a group with the desired result, and the number of all trials of the
-    /// group. Trials in which the defect changed nothing do not count in either number.
+    /// group. Neither number includes trials in which the defect changed nothing.
     pub fn rate(&self, group: SelfTestGroup) -> (usize, usize) {
         let differs = |one: &&Trial| one.group == group && one.result != TrialResult::Same;
         let mine = || self.tried.iter().filter(differs);
@@ -80,11 +79,11 @@ impl SelfTest {
     }
 }
 
-/// Runs the trials that a word in `only` selects by the start of their ID, by the name of their
-/// group, or by a requirement, an area or a section; all trials if `only` is empty. `scope` selects
-/// the defects that are measured again for the detection table; with words in `only`, all defects
-/// that they select are measured. Calls `report_progress` after each trial, comparison with the
-/// table, measurement and pair.
+/// Runs the trials that `only` selects, or all if it is empty. A word selects trials by the start
+/// of their ID, the name of their group, or a requirement, an area or a section. `scope` selects
+/// the defects that are measured again for the detection table; words in `only` select them
+/// instead. Calls `report_progress` after each trial, comparison with the table, measurement and
+/// pair.
 pub fn run(
     only: &[String],
     scope: Scope,

@@ -42,7 +42,7 @@ const UNCHANGED: &str = "A success without a change differs from an error only b
 const INSIDE: &str = "No case can detect it; a test of the simulated CNC does.";
 
 /// The prefix of the IDs of defects, and the reason why a run against a device misses them. Of
-/// several matching prefixes, the first prefix counts.
+/// several matching prefixes, the first applies.
 #[rustfmt::skip]
 const MISSED: &[(&str, &str)] = &[
     ("cnc.var.cycle-", "V.CYC is in no list: a profile names it."),

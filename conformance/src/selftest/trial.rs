@@ -66,7 +66,7 @@ pub enum TrialResult {
     /// codec, has a warning or a difference.
     Caught,
     /// For codecs only: no requirement that the defect breaks has failed, but such a requirement
-    /// has a warning or a difference in a case, for example because the manuals do not state
+    /// has a warning or a difference in a case. One possible reason: the manuals do not state
     /// everything that a vector expects.
     Noticed,
     /// Only requirements that the defect does not break have failed.

@@ -3,9 +3,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Measures the time since the start of the CNC or, if this clock is stopped, since it was stopped:
-/// the time that was added by `pass` plus, unless this clock is stopped, the time that has passed
-/// on the clock of the system.
+/// Measures the time since the start of the CNC: the time that has passed on the clock of the
+/// system plus the time that `pass` has added. A stopped clock measures only the latter, since it
+/// was stopped.
 #[derive(Debug)]
 pub(super) struct Clock {
     /// The time of the system at the start of the CNC; `None` if this clock is stopped.

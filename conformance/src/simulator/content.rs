@@ -83,8 +83,8 @@ pub(super) fn write(
     }
 }
 
-/// Checks the size of a value: a text may be shorter than the content, and must contain a NUL if it
-/// has the size of the content; any other value must have the exact size.
+/// Checks the size of a value: a text may be shorter than the content, but must contain a NUL if it
+/// has the same size. Any other value must have the exact size.
 pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(), AdsError> {
     let ends = bytes.contains(&0) || bytes.len() < size;
     let fits = if is_text { bytes.len() <= size && ends } else { bytes.len() == size };

@@ -6,8 +6,8 @@ use ads_cnc::ads::FrameRef;
 
 use super::DATA_MAX;
 
-/// Size in bytes from which on gathered replies are sent before further requests are answered; the
-/// last of these replies may exceed this size.
+/// When gathered replies reach this size in bytes, they are sent before further requests are
+/// answered. The last of them may exceed the size.
 pub(super) const GATHERED_MAX: usize = 32 * 1024;
 
 /// The complete frames at the beginning of received bytes.

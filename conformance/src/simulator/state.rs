@@ -252,9 +252,8 @@ impl CncState {
     /// previous place, and the previous axis of this place then has no place. The number 0 removes
     /// the axis from the place.
     ///
-    /// Fails without a change if the axis or the place does not exist, or if another axis with the
-    /// same name is at another place of the channel, because the variables of both axes would have
-    /// equal names.
+    /// Fails without a change if the axis or the place does not exist, or if another place of the
+    /// channel has an axis with the same name: the variables of both axes would have equal names.
     pub(super) fn exchange(
         &mut self,
         model: &Model,

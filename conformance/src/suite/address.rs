@@ -82,8 +82,8 @@ fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     Ok(requests)
 }
 
-/// Whether `found` is the descriptor `logical`, but with the rank of the channel, and without the
-/// bit for logical addressing, in the index group of the content.
+/// Whether `found` differs from the descriptor `logical` only in the index group of the content,
+/// which has the rank of the channel and no bit for logical addressing.
 fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
     let one = |bytes| Some(DescriptorsRef::decode(bytes).ok()?.get(0)?.to_owned());
     let (Some(logical), Some(found)) = (one(logical), one(found)) else { return false };
@@ -216,8 +216,8 @@ fn only_errors_with_data(probe: &mut Probe<'_>) -> Option<Evidence> {
     last.filter(|_| !probe.target.any_success)
 }
 
-/// Takes over the checks that [`Probe::rejects`] has recorded of rejections that were successes
-/// without data instead of errors. The manuals do not require a particular error number.
+/// Takes over the checks that [`Probe::rejects`] has recorded of successes without data in place of
+/// errors. The manuals do not require a particular error number.
 fn every_rejection(probe: &mut Probe<'_>) -> Step {
     let by_nothing = std::mem::take(&mut probe.target.rejections.by_nothing);
     if probe.target.rejections.by_number > 0 {

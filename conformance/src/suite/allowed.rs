@@ -1,5 +1,5 @@
-//! Looks up the items in the file of `--allow-write` on the target after the cases have run: the
-//! cases skip an item that the target does not have, so a misspelt name would go unnoticed.
+//! Looks up the items in the file of `--allow-write` on the target after the cases have run. The
+//! cases skip an item that the target lacks, so a misspelt name would go unnoticed.
 
 use ads_cnc::address::{Addressing, Attribute, Channel, ClassGroup, ElementAddress, Group};
 use ads_cnc::operation::ReadElementWriteFlag;
@@ -23,7 +23,7 @@ pub struct Unwritable {
 }
 
 /// Whether the target has the item of an entry, and whether the item is writable. An item whose
-/// access is unknown counts as writable.
+/// access is unknown is taken to be writable.
 enum Named {
     Writable,
     ReadOnly,
@@ -145,8 +145,8 @@ fn is_in_no_channel(probe: &Probe<'_>, entry: &Entry) -> bool {
     !channels.is_empty() && !known
 }
 
-/// The channel of an entry, addressed by its number, like the channels of the lists, if the profile
-/// has a channel with the rank in the entry; otherwise the channel as in the entry.
+/// The channel of an entry. If the profile has a channel with the rank in the entry, it is
+/// addressed by its number, like the channels of the lists; otherwise as in the entry.
 fn numbered(probe: &Probe<'_>, channel: Channel) -> Channel {
     let by_rank = channel.addressing() == Addressing::Index;
     let rank = usize::from(channel.number()).checked_sub(1).filter(|_| by_rank);

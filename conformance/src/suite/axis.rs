@@ -31,7 +31,7 @@ pub(super) const CASES: &[CaseRow] = &[
 ];
 
 /// Calls a function for each axis index at which the name of an axis variable has the handle of an
-/// axis variable that the cases read, with the description of the variable with this handle.
+/// axis variable that the cases read. The function receives the description with this handle.
 fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, AxisVariable<'_>, &Description) -> Step,
@@ -67,7 +67,7 @@ struct AxisVariable<'a> {
 
 impl std::fmt::Display for AxisVariable<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} of place {}", self.name, self.axis.index())
+        write!(f, "{} of axis index {}", self.name, self.axis.index())
     }
 }
 
@@ -87,7 +87,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let handle = Handle::decode(&data);
                 let found = || format!("a success with {}", plural(data.len(), "byte"));
                 let expected =
-                    || format!("an error, or the 4-byte handle of {name} at place {place}");
+                    || format!("an error, or the 4-byte handle of {name} at axis index {place}");
                 probe.check(VAR_26, handle.is_ok(), expected, found);
                 let Ok(Handle(handle)) = handle else { continue };
                 // A handle in a description must belong to only one axis index. Other handles are
@@ -97,12 +97,12 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let other = other.filter(|other| known && *other != place);
                 let found = || {
                     let other = other.unwrap_or_default();
-                    format!("the handle {handle:#x} at both places {place} and {other}")
+                    format!("the handle {handle:#x} at both axis indices {place} and {other}")
                 };
                 probe.check(
                     [VAR_10, VAR_26, ADR_7],
                     other.is_none(),
-                    "a different handle at each place",
+                    "a different handle at each axis index",
                     found,
                 );
             }
@@ -122,8 +122,8 @@ fn handles(probe: &mut Probe<'_>) -> Step {
             // 1.
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
-            let expected = || format!("a place, counted from 1, with the handle of {name}");
-            probe.check([VAR_26, GEN_6], has_place, expected, "no such place");
+            let expected = || format!("an axis index, counted from 1, with the handle of {name}");
+            probe.check([VAR_26, GEN_6], has_place, expected, "no such axis index");
         }
     }
     each(probe, |probe, at, variable| {
@@ -153,7 +153,7 @@ fn values(probe: &mut Probe<'_>) -> Step {
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
         steady.same(probe, VAR_26, &at, by_name, request)?;
-        // That the handles of axis variables can be used on the channel interface is assumed.
+        // It is assumed that the channel interface accepts handles of axis variables.
         let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
         steady.same(probe, assumed(VAR_10), &at, by_handle, request)
     })?;
@@ -187,7 +187,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let of_channel = |name| ReadByName { channel, name };
     probe.rejects(VAR_26, &what, of_channel(valid), of_channel(with_axis))?;
     let far = ChannelAxis::new(0xFFFF)?;
-    let what = "a place that no channel has";
+    let what = "an axis index that no channel has";
     probe.rejects(VAR_26, what, handle(far, valid), handle(axis, valid))?;
     probe.rejects(VAR_26, what, read(far, valid), read(axis, valid))
 }

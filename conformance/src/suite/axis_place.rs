@@ -35,17 +35,20 @@ fn places(probe: &mut Probe<'_>) -> Step {
             let places = answering_places(probe, channel, name)?;
             let own: Vec<&Description> =
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
-            let found =
-                || format!("{} of channel {}", plural(places.len(), "place"), channel.number());
-            let expected =
-                || format!("one place for each of the {} with {name}", plural(own.len(), "axis"));
+            let found = || {
+                format!("{} of channel {}", plural(places.len(), "axis index"), channel.number())
+            };
+            let expected = || {
+                format!("one axis index for each of the {} with {name}", plural(own.len(), "axis"))
+            };
             probe.check([VAR_26, GEN_6], places.len() >= own.len(), expected, found);
             // An axis has only one axis index. A handle that is in no description is not compared,
             // because an axis index without an axis may return any handle.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
-                let found = || format!("handle {} also at place {}", at.handle, at.axis.index());
-                let expected = || format!("a different handle of {name} at each place");
+                let found =
+                    || format!("handle {} also at axis index {}", at.handle, at.axis.index());
+                let expected = || format!("a different handle of {name} at each axis index");
                 let own = seen.insert(at.handle.0);
                 probe.check([VAR_10, VAR_26], own, expected, found);
             }
@@ -81,8 +84,8 @@ fn at_a_place(
         Compared::Same => probe.pass(VAR_26),
         Compared::Differs(value, ..) => {
             let expected =
-                || format!("{} of {} at one of the places", Hex(value), variable.name.text);
-            let found = || format!("other values at all {}", plural(places.len(), "place"));
+                || format!("{} of {} at one of the axis indices", Hex(value), variable.name.text);
+            let found = || format!("other values at all {}", plural(places.len(), "axis index"));
             probe.check(VAR_26, false, expected, found);
         }
         Compared::NoValue | Compared::NoReply | Compared::Moved => {}
@@ -90,8 +93,8 @@ fn at_a_place(
     Ok(())
 }
 
-/// The first channel and the first name of an axis variable that has a handle from a description on
-/// the axis interface, and the last axis index with such a handle of this name.
+/// The first channel and the first name of an axis variable for which the axis interface returns a
+/// handle from a description, and the last axis index at which it does so for this name.
 fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
         let described = axis_variables(probe, channel)?;
@@ -115,7 +118,11 @@ fn too_far(probe: &mut Probe<'_>) -> Step {
         let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
         let given = probe.try_read::<Handle>(request)?;
         let expected = || {
-            format!("a handle other than that of place {} at place {}", axis.index(), far.index())
+            format!(
+                "a handle other than that of axis index {} at axis index {}",
+                axis.index(),
+                far.index()
+            )
         };
         probe.check(VAR_26, given != Some(handle), expected, || handle.to_string());
     }

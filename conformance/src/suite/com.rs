@@ -55,9 +55,10 @@ fn count(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that object `number`, the last one, exists and that no object follows it; in a list with
-/// more than [`OBJECTS_MAX`] objects, only that object [`OBJECTS_MAX`] exists. A failure violates
-/// the requirements on the number and on the list, because it does not show which of them is wrong.
+/// Checks that object `number`, the last one, exists and that no object follows it. In a list with
+/// more than [`OBJECTS_MAX`] objects, checks only that object [`OBJECTS_MAX`] exists. A failure
+/// violates the requirements on the number and on the list, because it does not show which of them
+/// is wrong.
 /// COM-1, COM-2
 fn ends(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let rules = [COM_1, COM_2];

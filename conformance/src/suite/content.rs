@@ -39,7 +39,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
         let read = match object.address.read() {
             Ok(read) => read,
             Err(error) => {
-                // The object may be the program stream: that it can be read is not documented.
+                // The object may be the program stream, whose reads are not documented.
                 let stream = error.kind() == ErrorKind::Function;
                 let found = || {
                     format!(
@@ -153,8 +153,8 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Reads the claimed lists like an object browser: the numbers of objects of COM, and, as far as
-/// the cases read a list, the descriptors of COM and the names of the elements of SDA and GEO.
+/// Reads the claimed lists like an object browser: the numbers of COM objects, and the COM
+/// descriptors and names of SDA and GEO elements that the cases read.
 fn everything(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
         // No manual states that platform axes (`ComTable::Axis`) have object lists.

@@ -52,7 +52,7 @@ fn extended(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Requests the extended description of a variable of another kind than V.E. The reply must have no
-/// data; that the reply is a success is assumed.
+/// data; it is assumed that it must be a success.
 fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> Step {
     let exchange = probe.send(request)?;
     let data = exchange.reply().and_then(|reply| reply.data.clone());

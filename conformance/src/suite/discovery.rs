@@ -45,10 +45,10 @@ impl Discovery {
 }
 
 /// Finds the axes, spindles and lists of a target, and chooses the sizes of samples. With
-/// [`ClaimsBy::Queries`], also finds its channels and ports, and the replies of the target
+/// [`ClaimsBy::Queries`], also finds its channels and ports. The replies of the target then
 /// determine the channels, the absent channel, the axes, the spindles and the edition in
-/// `target.profile`; the claims of ports, sections and functions do not change, whether or not the
-/// target has them.
+/// `target.profile`. The claims of ports, sections and functions do not change, even if the target
+/// lacks them.
 pub fn discover(target: &mut TargetState, by: ClaimsBy) -> Discovery {
     let (begun, frames) = (Instant::now(), target.frames);
     let mut probe = Probe::new(target);
@@ -189,7 +189,7 @@ fn ports(probe: &mut Probe<'_>) -> Step<Vec<u16>> {
 }
 
 /// Sends a request of a walk if the profile claims the function of the request. Other requests are
-/// not sent, and count as rejected.
+/// not sent, and are treated as rejected.
 struct IfClaimed<'p, 's>(&'p mut Probe<'s>);
 
 impl Walker for IfClaimed<'_, '_> {
@@ -264,9 +264,9 @@ fn claim_axes(probe: &mut Probe<'_>) -> Step {
 }
 
 /// The axis indices up to [`PLACES_MAX`] of all channels but the first, each as channel number and
-/// axis index. Without a profile, a run treats these indices as possibly without an axis, because
-/// no list shows which of them have an axis, and a value that is written at an axis index without
-/// an axis may be lost.
+/// axis index. Without a profile, a run treats these indices as possibly without an axis. No list
+/// shows which of them have one, and a value that is written at an axis index without an axis may
+/// be lost.
 fn unwritten_places(probe: &Probe<'_>) -> Step<Vec<(u32, u32)>> {
     let others = probe.channels()?.into_iter().skip(1).map(|channel| u32::from(channel.number()));
     Ok(others.flat_map(|number| (1..=PLACES_MAX).map(move |place| (number, place))).collect())

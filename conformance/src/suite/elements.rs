@@ -99,7 +99,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         probe.check(assumed(SDA_4), is_new, "a name that no other instance has", found);
         ends(probe, &instance, count)?;
     }
-    // That the number of elements does not include element 0 is assumed, but all instances must
+    // It is assumed that the number of elements does not include element 0, but all instances must
     // count alike.
     if let Some((with_first, evidence)) = with_first {
         probe.set_evidence(evidence);

@@ -93,8 +93,8 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             probe.set_subject(name.text());
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
             // The manuals do not state that a variable has only one handle. Therefore, the next two
-            // checks are assumed, and another handle than that of the description must read a
-            // value, which must have the described size if the type has a fixed size.
+            // checks are assumed. A handle other than the description's must read a value, which
+            // must have the described size if the type has a fixed size.
             let expected =
                 || format!("the description's handle {} for {}", variable.handle, name.text());
             let rule = assumed(VAR_10);

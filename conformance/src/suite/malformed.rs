@@ -1,5 +1,5 @@
 //! Malformed requests: the CNC must reply to each, and must not return data with a success. A
-//! success without data counts as a rejection.
+//! success without data is accepted as a rejection.
 //!
 //! For some of these requests, no manual states that a CNC rejects them, so their checks are
 //! `assumed`: returned data does not fail a device, but a missing reply does. The other checks have
@@ -37,7 +37,7 @@ pub(super) const CASES: &[CaseRow] = &[
         "A read length shorter than the reply returns an error"),
 ];
 
-/// A valid request, of which the methods send variants that must be rejected.
+/// A valid request. The methods send variants of it that must be rejected.
 struct MalformedRequest<'p, 's> {
     probe: &'p mut Probe<'s>,
     valid: RawCall,

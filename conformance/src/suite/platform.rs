@@ -42,8 +42,8 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         other => other,
     });
     let platform = match platform {
-        // The number of objects could not be read, so the list of the platform (channel 0) counts
-        // as missing.
+        // The number of objects could not be read, so the list of the platform (channel 0) is taken
+        // to be missing.
         Err(Stop::Judged) => {
             probe.check(COM_4, false, "the platform's list in channel 0", "no list");
             return Err(Stop::Judged);
@@ -101,9 +101,9 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Checks that an object in the list of channel 0 (the platform) has the same content at the
-/// address of the object with its name and size in the list of channel 1, if there is one, and at
-/// its offset in the groups of channels 0 and 1. Without channel 1, only channel 0 is checked.
+/// Checks that an object in the list of channel 0 (the platform) has the same content at its offset
+/// in the groups of channels 0 and 1. An object with the same name and size in the list of channel
+/// 1 must have this content, too. Without channel 1, only channel 0 is checked.
 fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = platform_channel(probe)?.map(ObjectList::from);

@@ -38,8 +38,8 @@ const OFFSET: u32 = 0x90;
 /// The name of the stream object.
 const NAME: &str = "mc_program_stream_w";
 
-/// Looks for the stream object among the objects that the cases read of the channels, by name and
-/// by address, and checks both and the write access. The object need not be listed.
+/// Looks for the stream object, by name and by address, among the channels' objects that the cases
+/// read. Checks its name, address and write access. The object need not be listed.
 fn object(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
         let ValueList::Channel(number) = object.list else { continue };
@@ -96,9 +96,9 @@ fn repeat(
     }
 }
 
-/// Writes a packet that must be accepted. Returns how often it was rejected in the round (until a
-/// timeout) in which it was accepted, or `None` if it is rejected although the buffer of the device
-/// has space.
+/// Writes a packet that must be accepted. Returns how often it was rejected in the round in which
+/// it was accepted; a round ends at a timeout. Returns `None` if it is rejected although the buffer
+/// of the device has space.
 ///
 /// An error number does not show whether a rejection is temporary, nor whether the device empties
 /// its buffer at all. Therefore, after the timeout, two packets with at least the same total length

@@ -92,7 +92,7 @@ fn is_read_again(
     rule: Rule,
     value: &[u8],
 ) -> Step {
-    // That the CNC accepts the text is assumed.
+    // It is assumed that the CNC accepts the text.
     let taken = [assumed(GEN_3)];
     if !probe.write_checked(
         &WriteCheck { what, rules: &taken, is_text: true, name: None },

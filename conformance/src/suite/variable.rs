@@ -61,8 +61,8 @@ fn count(probe: &mut Probe<'_>) -> Step {
         if !probe.target.client.gate().lets_malformed_pass() {
             continue;
         }
-        // That a request without data returns the same number as a request with an empty kind is
-        // assumed.
+        // It is assumed that a request without data returns the same number as one with an empty
+        // kind.
         let absent = Kind::from_field(TextRef::with_tail(ads_cnc::CncStr::EMPTY, None));
         let exchange = probe.send(CountVariables::new(channel, absent))?;
         let data = exchange.reply().and_then(|reply| reply.success().map(<[u8]>::to_vec));

@@ -89,7 +89,7 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let Some(all) = probe.all_variables(channel)? else { continue };
         let mut variables = probe.variables(channel)?;
-        // Upper and lower case count as equal, because no manual states whether names are
+        // Upper and lower case are taken as equal, because no manual states whether names are
         // case-sensitive.
         let is_there =
             |name: &[u8]| all.iter().any(|one| one.name.text.as_bytes().eq_ignore_ascii_case(name));

@@ -109,8 +109,9 @@ fn axis_read_only(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Writes variables of the first channel that have no handle, by their names. That the CNC accepts
-/// such a write is assumed, because the manuals limit the access to such variables without details.
+/// Writes variables without a handle in the first channel by their names. It is assumed that the
+/// CNC accepts such a write, because the manuals limit the access to such variables without
+/// details.
 fn by_names(probe: &mut Probe<'_>, rule: ClauseId, names: Vec<CncString>) -> Step {
     let channel = probe.channel()?;
     for name in names {

@@ -1,5 +1,6 @@
-//! Cases that write a value at one of its addresses and read it at another: by the rank and by the
-//! number of a channel, and in the HLDs of the platform and of the first channel.
+//! Cases that write a value at one of its addresses and read it at another. The addresses are those
+//! by the rank and by the number of a channel, and in the HLDs of the platform and of the first
+//! channel.
 
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;

@@ -66,7 +66,7 @@ fn elements(
             let rules = rules(variable);
             let write_check = write_check(variable, &name, &rules);
             probe.try_write(&write_check, &place, |probe, old, new| {
-                // That an accepted value is read back does not depend on the assumed layout of the
+                // Reading back an accepted value does not depend on the assumed layout of the
                 // array. This check therefore has the level of the clauses, even if `rules` are
                 // assumed.
                 let read = probe.value_at(&place)?.unwrap_or_default();

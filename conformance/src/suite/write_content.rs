@@ -30,9 +30,9 @@ pub(super) const CASES: &[CaseRow] = &[
         "A write to the element count of an instance is rejected"),
 ];
 
-/// Those objects among the ones that the cases read that have, or do not have, write access
-/// according to their descriptors, and that the [gate](crate::gate) and the profile permit to
-/// write. Objects at axis indices that have no axis, or may have none, are left out.
+/// Of the objects that the cases read, those with or without write access according to their
+/// descriptors that the [gate](crate::gate) and the profile permit to write. Objects at axis
+/// indices that have no axis, or may have none, are left out.
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<ListedValue>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
@@ -154,10 +154,10 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 /// Another value that a faulty write might change: rules, name, address, current value.
 type Sibling = (Vec<Rule>, String, ValueAddress, Vec<u8>);
 
-/// The elements with the same number in the other instances of the class (except, for an axis of an
-/// HLD, the same axis in other HLDs), and the other elements that the cases read of the instance,
-/// if they have the same length. The elements of one instance may depend on each other, so their
-/// rule is assumed.
+/// Elements of the same length: those with the same number in the other instances of the class, and
+/// the others that the cases read of the instance. For an axis of an HLD, the same axis in other
+/// HLDs is left out. The elements of one instance may depend on each other, so their rule is
+/// assumed.
 fn siblings(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Sibling>> {
     let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());

@@ -1,6 +1,7 @@
-//! Cases that write, one after another, the writable variables that the cases read and that do not
-//! change by themselves, except those of the Service Interface, and check that no write changes
-//! another of the variables read. The case of the axis interface writes only axis variables.
+//! Cases that write variables one after another, and check that no write changes another of the
+//! variables read. They write the writable variables that the cases read, do not belong to the
+//! Service Interface and do not change by themselves. The case of the axis interface writes only
+//! axis variables.
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;

@@ -39,8 +39,8 @@ fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {
 }
 
 /// Calls a function for every READ_ONLY variable that the cases read, except those of the Service
-/// Interface: for its address by name and for its address by handle, if the [gate](crate::gate) and
-/// the profile permit a write at the address.
+/// Interface. Its addresses by name and by handle are passed separately, if the [gate](crate::gate)
+/// and the profile permit a write there.
 fn each_read_only(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, &WriteCheck<'_>, &ValueAddress) -> Step,
@@ -165,7 +165,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         let unknown: CncString = unknown.parse()?;
         let is_there =
             |one: &Description| one.name.text.as_bytes().eq_ignore_ascii_case(unknown.as_bytes());
-        // Upper and lower case count as equal, because no manual states whether names are
+        // Upper and lower case are taken as equal, because no manual states whether names are
         // case-sensitive.
         if variables.iter().any(is_there) {
             continue;

@@ -50,9 +50,9 @@ fn write_addresses(
     Ok(all)
 }
 
-/// Writes values of wrong sizes to the first writable variable without dimensions, and to the first
-/// writable array with one dimension, of each type; the first axis variable and the first other
-/// variable are both written.
+/// For each type, writes values of wrong sizes to the first writable variable without dimensions
+/// and to the first writable array with one dimension, separately for axis variables and for
+/// others.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut tried = Vec::new();
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
@@ -123,9 +123,9 @@ struct WrongSizeWrite<'a> {
 }
 
 impl WrongSizeWrite<'_> {
-    /// Sends the write and checks its effect. That the write is rejected is assumed for numbers,
-    /// and documented online only for texts (VAR-25). After an error, the value must be unchanged.
-    /// After a success, the value that is read back must start with the value sent.
+    /// Sends the write and checks its effect. For texts, the rejection is documented only online
+    /// (VAR-25); for numbers, it is assumed. After an error, the value must be unchanged. After a
+    /// success, the value that is read back must start with the value sent.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
         let Self { at, watched, is_text, value, other } = *self;
         let (invalid, valid) = (at.address.write(other), at.address.write(value));

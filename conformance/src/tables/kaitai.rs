@@ -15,7 +15,7 @@ const HEAD: &str = r#"meta:
 doc: |
   Version @VERSION@ of `ads-cnc tables --ksy`. Each type is a whole stream: read it from the data of an ADS
   request or reply. IDs in parentheses are requirements: `ads-cnc requirements VAR-4` prints one. Texts are bytes
-  without the NUL; `name_text` is `name` as a string, which some languages refuse for 81, 8D, 8F, 90 and 9D, the
+  without the NUL; `name_text` is `name` as a string, which some languages reject for 81, 8D, 8F, 90 and 9D, the
   codes that Windows-1252 leaves undefined.
 "#;
 

@@ -63,8 +63,9 @@ pub struct FieldTable {
     /// `UNS08`, `UNS16`, `UNS32`, `unsigned`, `BOOLEAN`, `REAL64`, `STRING`, `BYTE[6]` or `BYTE[]`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// Offset in bytes from the beginning of the stream, or of the record if the stream repeats, if
-    /// the counted fields before this field have no items and the text before it is empty.
+    /// Offset in bytes from the beginning of the stream or, if it repeats, of the record. The
+    /// counted fields before this field are taken to have no items, and the text before it to be
+    /// empty.
     pub offset: u32,
     /// Number of bytes that each item of a counted field before this field adds to the offset.
     pub offset_per_item: u32,

@@ -125,7 +125,7 @@ impl WrongFields {
         from_first.len() > 1 && from_first.iter().all(|is_wrong| *is_wrong)
     }
 
-    /// The violated clause, as a consequence of which a requirement fails; `None` if the answer
+    /// The violated clause from which the failure of a requirement follows; `None` if the answer
     /// violates the requirement itself, or no violated clause is in `cited` or `broken`. `cited`
     /// are the requirements of the vector, `broken` the clauses of the wrong fields of all vectors.
     pub(super) fn cause_of(

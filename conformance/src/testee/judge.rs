@@ -22,9 +22,9 @@ const ANSWERS_MAX: usize = 32 << 20;
 #[derive(Debug)]
 pub struct JudgedTestee {
     pub hello: Option<TesteeHello>,
-    /// The outcomes of the cases; for a testee other than this project's codec, usually also of the
-    /// case about the testee protocol, but not if the testee does not claim the selected edition,
-    /// or if a signal or the deadline ended the wait for its hello.
+    /// The outcomes of the cases; for a testee other than this project's codec, also of the case
+    /// about the testee protocol. That case is missing if the testee does not claim the selected
+    /// edition, or if a signal or the deadline ended the wait for its hello.
     pub outcomes: Vec<CaseOutcome>,
     pub asked: usize,
     /// Number of questions without an answer, because the process crashed, hung or could not be

@@ -131,8 +131,8 @@ pub fn greeted(line: &str) -> Result<TesteeHello, TesteeReaction> {
 }
 
 /// Parses the line received for the question `seq`. Returns the reaction, and whether the next line
-/// can be attributed to the next question. It cannot after an answer with another `seq`, or with
-/// none unless it is an `error`, because the next answer may be late too.
+/// can be attributed to the next question. It cannot after an answer with another `seq`, or after
+/// one without `seq` that is not an `error`, because the next answer may be late too.
 ///
 /// ```
 /// use ads_cnc_conformance::testee::{Answer, Output, TesteeReaction, answered};

@@ -7,8 +7,8 @@ const NEAREST_MAX: usize = 3;
 const COMPARED_MAX: usize = 256;
 
 /// The names that are most similar to a word, at most [`NEAREST_MAX`], the most similar first. A
-/// name is similar if it contains the word, and the word has at least three characters; or if the
-/// number of edits between both is at most a third of the number of characters of the word, or 1.
+/// name is similar if it contains the word and this has at least three characters, or if the number
+/// of edits between both is at most 1 or at most a third of the number of characters of the word.
 /// Case is ignored.
 pub(crate) fn nearest<'n>(word: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<&'n str> {
     let lower: Vec<char> = word.to_lowercase().chars().take(COMPARED_MAX).collect();

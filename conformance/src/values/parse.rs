@@ -17,9 +17,9 @@ pub struct InvalidValue(String);
 /// Parses a value: an integer in decimal or, after 0x, in hexadecimal; a REAL in decimal; `TRUE`,
 /// `FALSE`, `1` or `0` for a BOOLEAN; or a text. The elements of an array of numbers or BOOLEANs
 /// are separated by commas or blanks, optionally in brackets; with commas, the brackets may be
-/// nested as in JSON. The elements of an array of texts are separated by commas; a text that
-/// contains a comma, starts with a quote, or starts or ends with a blank, must be quoted, and
-/// quotes in it are doubled. The last index of an array changes fastest.
+/// nested as in JSON. The elements of an array of texts are separated by commas. A text must be
+/// quoted if it contains a comma, starts with a quote, or starts or ends with a blank; quotes in it
+/// are then doubled. The last index of an array changes fastest.
 ///
 /// A single text is taken literally. It is encoded with one NUL, and may be shorter than its
 /// variable.

@@ -108,7 +108,7 @@ fn a_statement_has_one_of_the_known_formats() {
     }
 }
 
-/// A defect is listed by a part of its ID, but by a whole requirement, as the message says.
+/// Defects are listed by a part of their ID, but only by a whole requirement, as the message says.
 #[test]
 fn defects_are_listed_by_a_whole_requirement() {
     let (code, shown, _) = run_tool(&["serve", "--list-defects", "var-10"]);
@@ -118,7 +118,7 @@ fn defects_are_listed_by_a_whole_requirement() {
     assert!(error.contains("contains VAR- in its ID or violates the requirement VAR-"), "{error}");
 }
 
-/// A dynamic parameter is always a REAL64, so that another type is an error.
+/// A dynamic parameter is always a REAL64, so any other type is an error.
 #[test]
 fn another_type_of_a_parameter_is_rejected() {
     for name in ["P1", "V.P.count"] {

@@ -79,7 +79,7 @@ pub(crate) fn connect(addr: std::net::SocketAddr) -> TcpStream {
     stream
 }
 
-/// Whether a process runs; a zombie counts as ended.
+/// Whether a process runs; a zombie does not.
 #[cfg(unix)]
 pub(crate) fn runs(id: &str) -> bool {
     let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();

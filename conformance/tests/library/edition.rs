@@ -424,8 +424,8 @@ fn other_functions_ignore_kinds() {
     }
 }
 
-/// Exactly the functions that are documented only online, in no printed edition, have a feature,
-/// which states the versions that have them.
+/// Exactly the functions that are documented only online have a feature, which states the versions
+/// that have them.
 #[test]
 fn functions_documented_online_have_a_feature() {
     for &function in Function::ALL {

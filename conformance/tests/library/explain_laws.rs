@@ -188,8 +188,8 @@ proptest! {
     }
 }
 
-/// Each golden vector of a stream with a field table, except the program stream, is explained
-/// without an error or with an error, as the vector expects.
+/// The explanation of each golden vector of a stream with a field table, except the program stream,
+/// has an error exactly if the vector expects one.
 #[test]
 fn explanations_agree_with_the_vectors() {
     let schema = schema();

@@ -191,10 +191,10 @@ fn the_largest_index_of_a_name_may_be_accepted() {
     assert_differs(codec, &["vec-path-index-too-large"]);
 }
 
-/// No case fails for a checker of NC text that gives the opposite answer for certain texts on which
-/// the manuals state nothing: lower-case letters, nested parentheses and quotes, a comment block
-/// without an end, a jump to its own line, labels with leading zeros, a last line without a line
-/// end, and a CR without LF.
+/// No case fails for a checker of NC text that gives the opposite answer where the manuals state
+/// nothing: for lower-case letters, nested parentheses and quotes, a comment block without an end,
+/// a jump to its own line, labels with leading zeros, a last line without a line end, and a CR
+/// without LF.
 #[test]
 fn a_checker_may_know_only_the_manuals_nc_text() {
     const OTHERWISE: [&str; 10] = [

@@ -5,6 +5,7 @@
 mod kept;
 
 mod client;
+mod connection;
 mod defects;
 mod discovery;
 mod edition;

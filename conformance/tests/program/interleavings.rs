@@ -67,9 +67,9 @@ proptest! {
         world.finish(&mut next);
     }
 
-    /// Two independent hosts with one service each, with any failures, except that a failed write
-    /// of RESPONSE_STATE does not reach the CNC: every request is served once by its service, and
-    /// receives its own response.
+    /// Two independent hosts with one service each, and any failures, but no failed write of
+    /// RESPONSE_STATE reaches the CNC. Every request is served once by its service, and receives
+    /// its own response.
     #[test]
     fn two_hosts_answer_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();

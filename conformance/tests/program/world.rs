@@ -190,10 +190,9 @@ impl<'s> World<'s> {
         }
     }
 
-    /// Only for runs with two independent hosts, which the caller ensures: changes a write of
-    /// RESPONSE_STATE that arrives although it fails into a write that does not arrive. Otherwise, the
-    /// host could not distinguish its own request from a later request that the other host is about to
-    /// answer.
+    /// Only for runs with two independent hosts, which the caller ensures. Changes a failing write
+    /// of RESPONSE_STATE that arrives into one that does not arrive. Otherwise, the host could not
+    /// distinguish its own request from a later request that the other host is about to answer.
     pub(crate) fn luck_of_two(&self, action: Action) -> Action {
         let Action::Host(place, StepOutcome::FailsLate) = action else { return action };
         match self.hosts[place % self.hosts.len()].step() {

@@ -1,5 +1,5 @@
-//! Tests that dependencies.md names every crate on which the tools depend, and no other crate as
-//! used, and that only the crates that codec/ASSURANCE.md names bring unsafe code into the codec.
+//! Tests that dependencies.md names every crate on which the tools depend, and no other as used;
+//! and that only the crates named in codec/ASSURANCE.md bring unsafe code into the codec.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -46,6 +46,8 @@ fn claims_have_commands() {
     let read = |path: &&str| fs::read_to_string(root().join(path)).unwrap();
     let runners = [".ci/run", ".github/workflows/ci.yml", ".github/workflows/nightly.yml"];
     let run: String = runners.iter().map(read).collect();
+    let is_comment = |line: &&str| line.trim_start().starts_with('#');
+    let run: String = run.lines().filter(|line| !is_comment(line)).collect::<Vec<_>>().join("\n");
     for (path, least) in [("codec/ASSURANCE.md", 25), (".github/SECURITY.md", 15)] {
         let text = read(&path);
         let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
@@ -62,8 +64,8 @@ fn claims_have_commands() {
     }
 }
 
-/// A command `cargo test -p …` names existing tests, or modules of tests. Of any other command,
-/// `.ci/run` or a workflow contains the script, or the whole command if it is a command of cargo.
+/// A command `cargo test -p …` names existing tests, or modules of tests. For any other command,
+/// `.ci/run` or a workflow contains its script or, for cargo, the whole command.
 fn assert_exists(command: &str, run: &str) {
     let words: Vec<&str> = command.split(' ').filter(|word| *word != "--").collect();
     let (tests, filters) = match &words[..] {

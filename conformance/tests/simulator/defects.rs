@@ -61,8 +61,8 @@ fn defects_that_no_case_detects_are_detected() {
     assert!(missed.is_empty(), "not found: {missed:?}");
 }
 
-/// Valid variants with which sequences, or checks other than `OF_THIS_CNC`, fail, because the
-/// variants have another model, or behave in another permitted way than the checks expect.
+/// Valid variants with which sequences, or checks other than `OF_THIS_CNC`, fail: they have another
+/// model, or another permitted behaviour than the checks expect.
 const OTHERWISE: [&str; 15] = [
     "different.axes-move",
     "different.axis-handles",

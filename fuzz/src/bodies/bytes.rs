@@ -174,7 +174,7 @@ fn mutation(defect: Defect) -> Mutation {
     mutation
 }
 
-/// An error, with which a defect replaces a result.
+/// The error with which a defect replaces a result.
 fn rejected() -> Result<usize, Error> {
     NoData::decode(&[0]).map(|_| 0)
 }

@@ -15,9 +15,9 @@ const LOTS: usize = 12;
 
 /// Input: NC text, in which each of the first eleven bytes 0xFF ends a lot of lines.
 ///
-/// The check of a lot has the findings that a check of the whole text up to the end of this lot has
-/// in the lines of the lot, in the order of the text, with any line ends. Text that cannot be
-/// streamed is checked without a panic.
+/// With any line ends, the check of a lot has the same findings as a check of the text up to the
+/// end of the lot has in the lines of the lot. They are in the order of the text. Text that cannot
+/// be streamed is checked without a panic.
 pub(crate) fn lots(data: &[u8], defect: Defect) -> Outcome {
     let lots: Vec<&[u8]> = data.splitn(LOTS, |&byte| byte == CUT).collect();
     check_any_lots(lots.iter().copied());

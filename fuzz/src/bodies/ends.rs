@@ -15,8 +15,8 @@ use crate::{Defect, Outcome};
 ///
 /// With any acknowledgements and reads, a sender offers each packet until it is accepted, offers
 /// none after a permanent rejection, and counts the accepted packets and lines. The interface is a
-/// bounded queue, whose output is the accepted text of the sender if nobody else writes or resets,
-/// and no packet counts as accepted that was not written.
+/// bounded queue. Its output is the accepted text of the sender, unless somebody else writes or
+/// resets, or a packet is acknowledged without being written.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let lines = input.byte() % 8;

@@ -117,9 +117,9 @@ fn world_bend(defect: Defect) -> ServiceMutation {
     mutation
 }
 
-/// Input: the machine (1 byte, modulo 3: [`host`], [`call`], [`variables`]), for `call` the service,
-/// the request state, the parameters and the request, for `variables` when REQUEST_STATE is cleared,
-/// then the events. [`value`] reads the value of an event.
+/// Input: the machine (1 byte, modulo 3: [`host`], [`call`], [`variables`]). For `call`, the
+/// service, the request state, the parameters and the request follow; for `variables`, when
+/// REQUEST_STATE is cleared. The rest is the events. [`value`] reads the value of an event.
 ///
 /// A host serves a request only after it has read the request twice, answers it only after it has
 /// read the same request once more, and writes in the required order. The request of a program and

@@ -5,8 +5,8 @@ use crate::common::text::{CncStrMutation, check_cp1252, check_utf8};
 use crate::{Defect, Outcome};
 
 /// Input: a byte, even for CP1252 or odd for UTF-8, then the text. If a text after an odd byte is
-/// not valid UTF-8, each three bytes of the text are the number of a character; numbers of no
-/// character are left out.
+/// not valid UTF-8, each three bytes of the text are the number of a character; numbers that are
+/// not characters are left out.
 ///
 /// Text is converted to the same characters, bytes and faults as by encoding_rs, and the reverse conversion
 /// gives the original text.

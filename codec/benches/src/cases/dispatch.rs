@@ -155,7 +155,7 @@ functions! {
 /// Declares cases of a request for a handle by name, without a fault and with one fault each.
 macro_rules! rejections {
     ($( $implementation:literal: $port:literal $service:ident $group:literal $offset:literal; )+) => {
-        pub(super) const REFUSALS: &[Case] = &[$(
+        pub(super) const REJECTIONS: &[Case] = &[$(
             Case::new("one fault", $implementation, || {
                 let data = b"V.E.vartest\0";
                 each!([call(row!($port $service $group $offset 4), data); CALLS], |call| call.dispatch())

@@ -22,14 +22,14 @@ pub fn all() -> impl Iterator<Item = Case> {
     let lists = [descriptors::CASES, description::CASES].into_iter().flatten();
     let streams = streams().flat_map(|entry| entry.cases);
     let growth = growth::CASES.iter().copied().flatten();
-    let calls = [dispatch::FUNCTIONS, dispatch::REFUSALS].into_iter().flatten();
+    let calls = [dispatch::FUNCTIONS, dispatch::REJECTIONS].into_iter().flatten();
     let texts = streaming::PACKETS.iter().chain(streaming::CHECKS).copied().flatten();
     let texts = texts.chain(streaming::GROWTH);
     let all = lists.chain(streams).chain(frames::CASES).chain(growth).chain(calls).chain(texts);
     all.copied()
 }
 
-/// The cases with limits that are not long, and the cases with which the limits compare them.
+/// The cases that are not long, and have a limit or are the reference of one.
 pub fn gate() -> impl Iterator<Item = Case> {
     all().filter(Case::is_gated)
 }

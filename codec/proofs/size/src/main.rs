@@ -1,5 +1,5 @@
-//! A program that contains functions of the codec as if they were called, and does nothing else, so
-//! that its size is that of these functions and of the code that they need. The script `run`
+//! A program that contains functions of the codec as if it called them, and does nothing else. Its
+//! size is therefore that of these functions and of the code that they need. The script `run`
 //! generates the list of functions.
 
 #![no_std]

@@ -1,5 +1,5 @@
-//! Handles gaps, bytes that are not whole frames, and the ends of connections; makes the
-//! requirements inconclusive that cannot be judged because of missing bytes.
+//! Handles gaps, bytes that are not whole frames, and the ends of connections. Requirements that
+//! cannot be judged because of missing bytes become inconclusive.
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::AMS_HEADER_LEN;
@@ -150,9 +150,9 @@ impl TrafficJudge {
                 self.unanswered(&request_frame, &lost, ending);
             }
         }
-        // If the capture does not contain the beginning of the connection, these replies may belong
-        // to requests that were sent before the capture began; if a request was dropped, to the
-        // dropped request.
+        // If the capture lacks the beginning of the connection, these replies may belong to
+        // requests that were sent before the capture began. They may also belong to a dropped
+        // request.
         let unasked = lost.unasked.iter().filter(|_| !lost.joined && !lost.is_running);
         for reply in unasked {
             self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());
@@ -160,7 +160,7 @@ impl TrafficJudge {
         self.waiting_of.remove(&connection);
     }
 
-    /// Handles a connection of which one direction was not captured.
+    /// Handles a connection with one direction that was not captured.
     fn one_sided(&mut self, direction: &SegmentDirection, is_cnc: bool) {
         let observation = CapturedFrames::Bytes(&[], location(direction, None, None));
         let (case, found) = if is_cnc {

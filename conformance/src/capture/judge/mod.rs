@@ -20,7 +20,7 @@ use crate::exchange::{Exchange, ExchangeError, violations};
 use crate::judge::{CaseOutcome, Checks as _};
 use crate::rules::{RuleBook, Topic, service_clause};
 
-/// Time after a request after which a reply that was not captured counts as missing.
+/// If no reply is captured within this time after a request, the reply is missing.
 const REPLY_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// A captured frame and its location.

@@ -48,8 +48,8 @@ impl ServiceCommand<'_> {
             Ok(child) => {
                 let stdout = CapturedOutput::start(&child, &self.readers);
                 if let Some(mut stdin) = child.take_stdin() {
-                    // This does not block: the request fits into the buffer of the pipe, also if
-                    // the command does not read stdin.
+                    // This does not block, even if the command does not read stdin: the request
+                    // fits into the pipe's buffer.
                     let _unread = writeln!(stdin, "{}", utf8(request));
                 }
                 let ended = self.wait(&child, started);

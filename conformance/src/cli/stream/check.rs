@@ -15,9 +15,8 @@ pub(super) struct CheckedText<'a> {
     pub(super) ends: usize,
 }
 
-/// Checks a text and prints a message for each line that cannot be sent; if all lines can be sent,
-/// for each diagnostic. Prints at most the first [`SHOWN_MAX`] messages. Returns `None` if a line
-/// cannot be sent.
+/// Checks a text. Prints a message for each line that cannot be sent or, if all lines can be sent,
+/// for each diagnostic; at most [`SHOWN_MAX`] messages. Returns `None` if a line cannot be sent.
 pub(super) fn check<'a>(
     bytes: &'a [u8],
     name: &str,

@@ -34,9 +34,9 @@ fn write(
     wire.call(&write, &mut Vec::new()).map(drop)
 }
 
-/// Acts as the service with this UUID: responds to a request with the text of the request, to at
-/// most `requests` requests; after `seconds` seconds, to no further request. Returns the number of
-/// responses.
+/// Acts as the service with this UUID, which responds to a request with the text of the request.
+/// Responds to at most `requests` requests, and to none after `seconds` seconds. Returns the number
+/// of responses.
 pub(super) fn serve(
     wire: &mut Connection,
     channel: Channel,

@@ -32,7 +32,7 @@ fn with_instance(
 }
 
 /// Replies with the object address (0, 0) to requests for the instances for which `is_absent`
-/// returns true; its arguments are the class in bits 12 to 15 of the index group, the channel and
+/// returns true. Its arguments are the class in bits 12 to 15 of the index group, the channel and
 /// the axis.
 pub(in crate::faults) fn absent(
     cnc: &Upstream<'_>,

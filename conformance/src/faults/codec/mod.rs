@@ -72,8 +72,8 @@ fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
 }
 
 /// The defects that omit a check: one for each pair of a stream and an error class of a rejected
-/// vector, if the codec `ads_cnc` returns an error for at least one of the vectors of the strongest
-/// level.
+/// vector. A pair is used only if the codec `ads_cnc` returns an error for at least one of its
+/// vectors of the strongest level.
 fn forgotten_checks() -> Vec<SeededDefect> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
     for vector in vectors() {

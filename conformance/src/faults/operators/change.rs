@@ -18,9 +18,9 @@ pub(super) enum Argument {
 }
 
 /// The reply to the request with another value of an argument; `None` if the call is not a valid
-/// request for a function, if the request does not have the argument, if `other` does not change
-/// its value, for an argument in the index group or offset that is 0, and for the channel or axis
-/// of a spindle.
+/// request for a function or lacks the argument, or if `other` does not change the value. Also
+/// `None` for an argument of 0 in the index group or offset, and for the channel or axis of a
+/// spindle.
 pub(super) fn asked(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -73,7 +73,8 @@ pub(super) fn asked(
 }
 
 /// The reply to the request with another value of an argument, if the CNC accepts the changed
-/// request and, unless the service is Write, the original request; otherwise the correct reply.
+/// request. Unless the service is Write, it must also accept the original request. Otherwise the
+/// correct reply.
 pub(super) fn mistaken(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
@@ -116,9 +117,9 @@ pub(super) fn changed(
     Ok(bytes)
 }
 
-/// Reads the old value, executes the write and, if both succeed, executes a second write to the
-/// same address, whose value is the result of `other` for the new and the old value. Returns the
-/// reply to the first write, or an error if the old value could not be read.
+/// Reads the old value and executes the write. If both succeed, also writes the result of `other`
+/// for the new and the old value to the same address. Returns the reply to the first write, or an
+/// error if the old value could not be read.
 pub(super) fn rewritten(
     cnc: &Upstream<'_>,
     call: &Call<'_>,

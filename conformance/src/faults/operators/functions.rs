@@ -28,8 +28,8 @@ pub(super) fn has_rank(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && spec.effect == Effect::Query
 }
 
-/// Whether `has_rank` is true, and the default model has a channel with a rank other than its
-/// number that has data for the function: no such channel has dynamic parameters (DYN-2 to DYN-4).
+/// Whether `has_rank` is true, and a channel of the default model whose rank is not its number has
+/// data for the function. No such channel has dynamic parameters (DYN-2 to DYN-4).
 pub(super) fn differs_by_rank(spec: &FunctionSpec) -> bool {
     has_rank(spec) && !matches!(spec.clause, "DYN-2" | "DYN-3" | "DYN-4")
 }
@@ -41,16 +41,17 @@ pub(super) fn differs_by_channel(spec: &FunctionSpec) -> bool {
     first(spec.request) != b"handle" && spec.clause != "VAR-15" && !is_alike(spec)
 }
 
-/// Whether the simulated CNC with the default model sends the same reply for every channel, and for
-/// every axis, of a class: the number of elements, and their types, lengths, units and write flags.
+/// Whether the simulated CNC with the default model sends the same reply for every channel and
+/// every axis of a class. These are the replies with the number, types, lengths, units and write
+/// flags of elements.
 pub(super) fn is_alike(spec: &FunctionSpec) -> bool {
     matches!(spec.group, GroupRule::Elements(attribute) if attribute != Attribute::Name)
         && !spec.is_content()
 }
 
 /// Whether the defects that accept an unknown channel or axis are generated for the function. They
-/// are not generated for `FindInstance`, which answers an unknown instance with the address (0, 0)
-/// instead of an error, or for functions for which `is_alike` is true.
+/// are not generated if `is_alike` is true, nor for `FindInstance`, which answers an unknown
+/// instance with the address (0, 0) instead of an error.
 pub(super) fn has_unknown(spec: &FunctionSpec) -> bool {
     !matches!(spec.group, GroupRule::Instances) && !is_alike(spec)
 }

@@ -17,8 +17,8 @@ const ATTRIBUTES: &[Function] = &[
     Function::ReadElementWriteFlag,
 ];
 
-/// Whether a call requests the number of elements: a Read at the group of contents, of an offset
-/// whose lowest 12 bits are 0. Such an offset has another meaning at the groups of attributes.
+/// Whether a call requests the number of elements: a Read in the group of contents at an offset
+/// whose lowest 12 bits are 0. In the groups of attributes, such an offset has another meaning.
 fn is_number(call: &Call<'_>) -> bool {
     let of_content = class(call).is_some_and(|at| at.attribute == Attribute::Content);
     of_content && call.service == AdsService::Read && offset(call) & 0xFFF == 0

@@ -1,5 +1,5 @@
 //! Valid variants that accept or reject other requests than the simulated CNC, where the manuals do
-//! not specify which requests are rejected, and a variant with other handles on the axis interface.
+//! not specify which are rejected. One variant has other handles on the axis interface.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Function, OffsetRule};

@@ -31,9 +31,9 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Adds the objects of a list whose names are selected, if the list is selected, except those
-    /// at the addresses `known`. Returns the addresses of the objects that were read: of a list
-    /// that is not selected, only those of the platform. `None` if the target does not have the
+    /// If a list is selected, adds its objects whose names are selected, except those at the
+    /// addresses `known`. Returns the addresses of the objects that were read. The only list that
+    /// is read without being selected is the platform's. `None` if the target does not have the
     /// list, or if it is empty.
     fn list(
         &mut self,

@@ -53,8 +53,8 @@ pub struct Options {
 pub struct WalkResult {
     /// The objects, in the order of their lists.
     pub objects: Vec<ListedValue>,
-    /// Number of selected lists that were read; without lists of objects and instances that the
-    /// target does not have.
+    /// Number of selected lists that were read. Lists of objects and instances that the target
+    /// lacks are not counted.
     pub lists: u32,
     /// Number of requests sent.
     pub requests: u64,
@@ -144,8 +144,7 @@ struct Walk<'w> {
     instances: Vec<ElementAddress>,
     /// The task that serves the current class: SDA or GEO.
     task: Task,
-    /// The error because of which the task GEO is no longer queried; `Ok` until such an error
-    /// occurs.
+    /// The error after which the task GEO is no longer queried; `Ok` until such an error occurs.
     geo: Result<(), ToolError>,
     /// The attributes that were read. The key is the class, whether the instance is that of an
     /// axis, and the element number. Elements with the same key and name are assumed to have the

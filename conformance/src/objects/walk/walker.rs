@@ -10,7 +10,7 @@ use ads_cnc::{Decode, Descriptors, Kind, ObjectCount};
 use super::super::ListedValue;
 use crate::number::to_u32;
 
-/// Number of consecutive numbers whose requests are rejected, after which a list ends.
+/// A list ends after the requests for this many consecutive numbers are rejected.
 pub const GAP: u32 = 8;
 
 /// The last channel number, axis index and spindle index that are requested.
@@ -50,7 +50,7 @@ pub(crate) trait Walker: Sized {
     type Error;
 
     /// Sends a request and returns the data of the reply; `None` if the target rejects the request.
-    /// A tool also returns `None` if the task GEO does not answer, or rejects with an AMS error.
+    /// A tool also returns `None` if the task GEO sends no answer or an AMS error.
     fn request<'r>(
         &mut self,
         request: impl Into<Request<'r>>,
@@ -99,9 +99,10 @@ pub(crate) trait Walker: Sized {
         Ok(requested)
     }
 
-    /// Reads the descriptors of a list with `count` objects: up to `range` descriptors per request,
-    /// or one per request after a request for several was rejected or returned no valid or too many
-    /// descriptors. Ends after this has happened to [`GAP`] consecutive requests for one.
+    /// Reads the descriptors of a list with `count` objects: up to `range` descriptors per request.
+    /// A request fails if it is rejected, or returns no valid or too many descriptors. After a
+    /// failed request for several, reads one per request, and ends after [`GAP`] consecutive failed
+    /// requests for one.
     fn objects_of(
         &mut self,
         list: ObjectList,
@@ -132,8 +133,8 @@ pub(crate) trait Walker: Sized {
 
     /// Visits the instances of a class by channel and axis: `is_there` checks whether the target
     /// has an instance, and the first missing axis or spindle ends a list. With `aliases`, the axes
-    /// of the platform are also visited in the HLD of every channel; otherwise only in the HLD of
-    /// the first channel, and only if the HLD of the platform has no axes (E-30).
+    /// of the platform are also visited in the HLD of every channel. Otherwise, they are visited in
+    /// the HLD of the first channel if the HLD of the platform has no axes (E-30).
     fn instances_of(
         &mut self,
         class: Class,

@@ -192,7 +192,7 @@ impl Witness {
     }
 }
 
-/// The unnecessary witnesses: those that the results of their defect name in no mode.
+/// The unnecessary witnesses: those that no result of their defect names in any mode.
 pub(super) fn stale(rows: &[DetectionRow]) -> Vec<String> {
     let is_needed = |defect: &str, what: &str| {
         let results = rows.iter().filter(|row| row.id == defect).flat_map(|row| row.modes.values());

@@ -43,8 +43,8 @@ impl Mode {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Detection {
     pub result: DetectionResult,
-    /// The IDs of the requirements that fail; if the defect is caught, also the IDs of those
-    /// requirements that the defect breaks that have a warning or a difference.
+    /// The IDs of the requirements that fail. If the defect is caught, also of the requirements
+    /// that it breaks and that have a warning or a difference.
     pub requirements: BTreeSet<String>,
     /// The IDs of the cases in which these requirements fail or have a warning or a difference.
     pub cases: BTreeSet<String>,
@@ -60,8 +60,8 @@ pub enum DetectionResult {
     Elsewhere,
     /// No requirement fails, although the reply to this request shows the defect.
     Missed(String),
-    /// No requirement fails, and the CNC is correct for the reason in this text, or no request of
-    /// the mode distinguishes it from a correct CNC: the CNC without the defect, or the witness
+    /// No requirement fails. Either the CNC is correct for the reason in this text, or no request
+    /// of the mode distinguishes it from a correct CNC: the CNC without the defect, or the witness
     /// that this text names.
     Undetectable(String),
     /// A valid variant, and no requirement fails.

@@ -87,8 +87,8 @@ impl Device {
     ) -> Result<Option<Arc<Faulty>>, ToolError> {
         let settings = Settings { edition: edition.or(self.settings.edition), ..self.settings };
         let model = built(model, settings)?;
-        // The profiles may differ in `unwritten`, which lists the values that the suite does not
-        // write and claims nothing about the CNC.
+        // The profiles may differ in `unwritten`, which only lists values that the suite does not
+        // write.
         let unwritten = self.profile.unwritten.clone();
         let profile = Profile { unwritten, ..model.profile() };
         if mode.has_profile() && format!("{profile:?}") != format!("{:?}", self.profile) {
@@ -172,9 +172,9 @@ fn built(model: &str, settings: Settings) -> Result<Model, ToolError> {
     model.map_err(|error| ToolError::Internal(format!("the model: {error}")))
 }
 
-/// The contents of an `--allow-write` file with the listed values that the CNC describes as
-/// writable, except those that the profile excludes, with writable values that no list of the CNC
-/// contains, and with the stream and the Service Interface of each channel.
+/// The contents of an `--allow-write` file. It names the listed values that the CNC describes as
+/// writable, unless the profile excludes them; writable values that no list of the CNC contains;
+/// and the stream and the Service Interface of each channel.
 fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, ToolError> {
     let cnc = Arc::new(cnc.with_stopped_clock());
     let mut session = Session::in_process(cnc, Gate::queries())?;

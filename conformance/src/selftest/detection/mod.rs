@@ -42,8 +42,8 @@ pub fn measure(defect: &SeededDefect) -> Result<DetectionRow, ToolError> {
 }
 
 /// A hash of the defect's ID, requirements and edition, and of the replies of the first of its
-/// devices with the defect in the mode `All`, up to the first reply that differs from the reply
-/// without the defect.
+/// devices with the defect in the mode `All`. The first reply that differs from that without the
+/// defect is the last.
 ///
 /// # Errors
 /// An error of the simulated CNC.
@@ -88,8 +88,8 @@ fn detect(defect: &SeededDefect, mode: Mode) -> Result<Detection, ToolError> {
         _ if !failed.is_empty() => DetectionResult::Elsewhere,
         _ => witness::of(defect, &devices, mode)?,
     };
-    // A warning or a difference counts as a failure only for a requirement that the defect breaks,
-    // and only if the defect is caught.
+    // A warning or a difference is a failure only for a requirement that the defect breaks, and
+    // only if the defect is caught.
     let counts = |id: &str, verdict: Verdict| match verdict {
         Verdict::Fail | Verdict::Vacuous => true,
         Verdict::Warning | Verdict::Differs => {

@@ -39,8 +39,8 @@ const MASKED: [(&str, &str); 3] = [
 pub struct PairFigures {
     /// Number of pairs of which both defects are detected.
     pub both: usize,
-    /// Number of pairs of which only one defect is detected, and this defect can make the other
-    /// defect undetectable; and of pairs of two defects of frames of which neither is detected.
+    /// Number of two kinds of pairs: only one defect is detected, and it can make the other
+    /// undetectable; or both are defects of frames, and neither is detected.
     pub masked: usize,
     /// All other pairs: those in which a defect is not detected without such a reason, and those
     /// that could not be tried.
@@ -115,11 +115,11 @@ fn is_of_frames(defect: &FieldDefect) -> bool {
     functions(defect.stream).is_empty()
 }
 
-/// Whether the defect `masking` can make the defect `masked` undetectable: if `masking` is in a
-/// stream of the same function or of a function on which that function depends, if one of the two
-/// is a defect of a frame, or if [`MASKED`] lists the pair. A wrong frame can make every other
-/// defect undetectable, and the suite names the clause of an ADS service as the cause only if no
-/// function of another service fails.
+/// Whether the defect `masking` can make the defect `masked` undetectable. It can if `masking` is
+/// in a stream of the same function or of one on which that function depends, if one of the two is
+/// a defect of a frame, or if [`MASKED`] lists the pair. A wrong frame can make every other defect
+/// undetectable, and the suite names the clause of an ADS service as the cause only if no function
+/// of another service fails.
 fn can_mask(masking: &FieldDefect, masked: &FieldDefect) -> bool {
     let listed = MASKED
         .iter()

@@ -1,8 +1,8 @@
 //! Sends generated requests, including malformed queries, as far as the gate of a mode allows them,
 //! and records the replies, to distinguish two CNCs.
 //!
-//! Malformed variants are sent only of queries, also with the service Write. Writes to an axis or a
-//! channel that may not exist are omitted: the suite sends most malformed writes to the simulated
+//! Only queries have malformed variants, some of them with the service Write. Writes to an axis or
+//! a channel that may not exist are omitted: the suite sends most malformed writes to the simulated
 //! CNC only. The requests are derived from the function table, from the lists of the CNC, from
 //! boundary values and short sequences, but not from the cases of the suite. Two CNCs with equal
 //! replies receive the same requests, so equal digests mean replies that are equal as far as
@@ -31,8 +31,7 @@ pub(super) use self::configurable::Compare;
 use self::configurable::ConfigurableReplies;
 use crate::client::{Client, Inquiry};
 use crate::exchange::ExchangeError;
-use crate::number::digest;
-use crate::number::to_u32;
+use crate::number::{digest, to_u32};
 use crate::simulator::Cnc;
 use crate::text::hex::compact;
 
@@ -152,8 +151,8 @@ impl ReplyRecorder<'_> {
         self.elements();
     }
 
-    /// Sends a request if the client's gate allows the request, and then, for the first requests of
-    /// each query function in a mode with malformed requests, malformed variants of the request.
+    /// Sends a request if the client's gate allows it. If it is one of the first requests of a
+    /// query function and the mode has malformed requests, then sends malformed variants of it.
     /// Returns the data of a successful reply.
     fn ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
         let request = request.into();
@@ -270,8 +269,8 @@ impl ReplyRecorder<'_> {
 /// A received frame without the differences that do not count. Each error number, and each value
 /// TRUE of a write flag or of the write access in a descriptor, is replaced by 1: the manuals
 /// document no error numbers, and every number except 0 is TRUE. The result of a write of 1 to 992
-/// bytes to the program stream is removed, because whether the CNC accepts the packet or rejects it
-/// as busy depends on the speed of the CNC.
+/// bytes to the program stream is removed: whether it is accepted or rejected as busy depends on
+/// the speed of the CNC.
 fn meaning(call: Option<&Call<'_>>, received: &[u8]) -> Vec<u8> {
     const ERROR: Range<usize> = 30..34;
     const DATA: usize = RESULT.end + 4;

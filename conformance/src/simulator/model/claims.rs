@@ -8,8 +8,8 @@ use crate::profile::Profile;
 
 impl Model {
     /// The profile of a device with this model. It claims the active channels, the axes and the
-    /// spindles of the model, and all sections of the manuals, but not that the device answers the
-    /// printed examples with the printed values.
+    /// spindles of the model, and all sections of the manuals. It does not claim that the device
+    /// answers the printed examples with the printed values.
     pub fn profile(&self) -> Profile {
         let active = || self.channels.iter().filter(|channel| channel.active);
         let is_absent = |number: &u8| !self.channels.iter().any(|one| one.number == *number);

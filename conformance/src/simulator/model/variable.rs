@@ -34,8 +34,8 @@ impl Variable {
         self.access == VariableAccess::READ_WRITE
     }
 
-    /// The byte range in the value: the whole value without indices, or one element with one index
-    /// for each dimension. `None` for another number of indices, or an index out of bounds.
+    /// The byte range in the value: without indices, the whole value; with one index for each
+    /// dimension, one element. `None` for another number of indices, or an index out of bounds.
     pub(in crate::simulator) fn part(&self, indices: U32List<'_>) -> Option<Range<usize>> {
         if indices.is_empty() {
             return Some(0..self.initial.size);

@@ -29,9 +29,8 @@ pub struct Executed {
     /// The latest complete lines.
     kept: Vec<u8>,
     kept_lines: u64,
-    /// Number of bytes: when the stored lines with a new line would exceed twice this number, the
-    /// oldest lines are removed, as far as at least this number of bytes is left together with the
-    /// new line.
+    /// Number of bytes. When a new line would make the stored lines exceed twice this number, the
+    /// oldest lines are removed. At least this number of bytes remains, including the new line.
     room: usize,
 }
 
@@ -81,8 +80,8 @@ impl Executed {
         self.kept_lines = self.kept_lines.saturating_add(1);
     }
 
-    /// Removes the oldest lines, as far as at least `room` bytes are left together with the `new`
-    /// bytes of the next line.
+    /// Removes the oldest lines. At least `room` bytes remain, including the `new` bytes of the
+    /// next line.
     fn forget(&mut self, new: usize) {
         let mut surplus = 0_usize;
         for line in lines(&self.kept) {

@@ -20,8 +20,8 @@ pub struct ScriptConfig {
     /// The pause between a response, or the end of the maximum wait, and the next request; a pause
     /// that is shorter than `cycle` lasts one cycle.
     pub pause: Duration,
-    /// The time between two steps, each of which writes or reads a variable; a time of less than a
-    /// microsecond counts as a microsecond.
+    /// The time between two steps, each of which writes or reads a variable; a time below a
+    /// microsecond is raised to one microsecond.
     pub cycle: Duration,
 }
 
@@ -64,12 +64,11 @@ pub enum Repeat {
 }
 
 impl ScriptConfig {
-    /// The manual's example: in turn, a request for the square root of 3 and of a negative number
-    /// to the manual's square root service, each a second after the response to the previous
-    /// request.
+    /// The manual's example: requests to its square root service, in turn for 3 and for a negative
+    /// number. Each is sent a second after the response to the previous request.
     ///
-    /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). The manuals do not print that
-    /// a program requests both, or the interval.
+    /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). The manuals print neither the
+    /// interval nor that a program requests both.
     ///
     /// # Errors
     /// No error occurs: texts and UUID are valid.
@@ -113,9 +112,9 @@ pub enum ScriptState {
 
 /// An NC program that sends requests to services through the Service Interface of its channel.
 ///
-/// The script executes one step per cycle, so that a service sees the intermediate states: it
-/// writes UUID, REQUEST and REQUEST_STATE, reads RESPONSE_STATE in each cycle until a response
-/// exists or the maximum wait has ended, and reads RESPONSE if a response exists.
+/// The script executes one step per cycle, so that a service sees the intermediate states. It
+/// writes UUID, REQUEST and REQUEST_STATE. Then it reads RESPONSE_STATE in each cycle until a
+/// response exists or the maximum wait has ended, and reads RESPONSE if one exists.
 ///
 /// [Advance](Self::advance) the script before anything else accesses the interface; then the result
 /// is the same as if the script ran continuously. The number of steps in one call is limited: after

@@ -22,8 +22,8 @@ pub struct ProgramConfig {
     /// Speed of execution; 1000 lines/s by default (assumed).
     pub pace: Pace,
     /// Number of bytes; 1 MiB by default. When the stored executed lines would exceed twice this
-    /// number, the oldest lines are removed, as far as at least this number of bytes is left
-    /// together with the newly executed line.
+    /// number, the oldest lines are removed. At least this number of bytes remains, including the
+    /// newly executed line.
     pub kept: usize,
 }
 
@@ -53,9 +53,9 @@ impl Default for ProgramConfig {
 /// - Writes are stored in the [`StreamingInterface`](super::StreamingInterface). A write that does
 ///   not fit now is rejected with warning 11012 (STM-3, STM-6).
 /// - When the decoder has executed all its lines, it reads all bytes of the interface at once
-///   (STM-12) and executes them line by line. A line counts as executed when its time at the
-///   [`Pace`] is over. Before the start of the program, and after an end without a restart, an NC
-///   reset or an error, the decoder reads nothing, so writes fill the interface (assumed).
+///   (STM-12) and executes them line by line. A line has been executed when its time at the
+///   [`Pace`] is over. The decoder reads nothing before the start of the program, nor after an NC
+///   reset, an error, or an end without a restart. Meanwhile, writes fill the interface (assumed).
 /// - If all lines are executed and the interface is empty, the program waits for the next write; a
 ///   real CNC also stops motion (STM-16).
 /// - A line without CR LF aborts streaming when it is read; no line that was read with it is

@@ -9,14 +9,14 @@ use crate::gate::NET_ID;
 #[derive(Clone, Copy, Debug)]
 pub struct ServerOptions {
     pub net_id: AmsNetId,
-    /// Time without bytes, after a complete request, after which a connection is closed; `None` for
-    /// no limit. If this time is shorter than `frame`, it replaces `frame`. Without a limit,
+    /// A connection is closed after this time without bytes that follow a complete request; `None`
+    /// for no limit. If this time is shorter than `frame`, it replaces `frame`. Without a limit,
     /// vanished clients occupy connections.
     pub idle: Option<Duration>,
-    /// Time without the first complete request, or with an incomplete request, after which a
-    /// connection is closed; with `None`, `idle` is the limit. This limits the time for which
-    /// clients that only connect, or send a part of a request, occupy connections. Between complete
-    /// requests, only `idle` applies.
+    /// A connection is closed if its first request, or a request that has begun, is not complete
+    /// after this time; with `None`, `idle` is the limit. So clients that only connect, or send a
+    /// part of a request, occupy a connection only for this time. Between complete requests, only
+    /// `idle` applies.
     pub frame: Option<Duration>,
 }
 

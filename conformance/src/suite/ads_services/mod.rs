@@ -49,8 +49,8 @@ pub(super) const CASES: &[CaseRow] = &[
 const ITEMS_MAX: u32 = 8;
 
 /// Sends a request to a function that the target must have, and checks that it succeeds. Returns
-/// the data of the reply; `None` if the check failed, or, without a request, if the function is
-/// optional or not claimed.
+/// the data of the reply; `None` if the check failed. Also `None`, without a request, if the
+/// function is optional or not claimed.
 fn ask_for_data<'a>(
     probe: &mut Probe<'_>,
     rule: ClauseId,
@@ -76,7 +76,8 @@ fn number(data: &[u8]) -> u32 {
 fn read_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: ClauseId = ADS_1;
     for list in probe.lists()? {
-        // That platform axes have their own lists is assumed, so a missing list is not judged here.
+        // It is assumed that platform axes have their own lists, so a missing list is not judged
+        // here.
         let Some(data) = ask_if_claimed(probe, CountObjects::new(list))? else { continue };
         let count = number(&data).min(ITEMS_MAX);
         let mut all: Vec<Vec<u8>> = Vec::new();
@@ -128,8 +129,7 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
                 let other = !all.contains(&one);
                 let found = || format!("the same variable again at index {index} of {name}");
                 probe.check(RULE, other, "another variable at each index", found);
-                // That the handles of axis variables can be used on the channel interface is
-                // assumed.
+                // It is assumed that the channel interface accepts handles of axis variables.
                 if let Some(one) = Description::decode(&one).ok().filter(|_| name != "V.A") {
                     same_by_handle(probe, &mut steady, channel, &one)?;
                 }

@@ -73,8 +73,8 @@ struct ParameterList {
     names: Vec<NameReply>,
     /// The reply for the index after the last.
     beyond: NameReply,
-    /// The reply, in descending order of the requests, for the first index whose reply depends on
-    /// the order of the requests; `None` if no reply does.
+    /// For the first index whose reply depends on the order of the requests: its reply in
+    /// descending order. `None` if there is no such index.
     unsteady: Option<NameReply>,
 }
 

@@ -28,8 +28,8 @@ pub(super) fn number(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind)
     Ok(count.map_or(0, |count| count.0))
 }
 
-/// Calls a function for every kind of which a claimed channel has a parameter, with the number of
-/// parameters, at most [`PARAMETERS_MAX`]. Ends the case as not applicable if there are none.
+/// Calls a function for every kind of parameters that a claimed channel has, with their number, at
+/// most [`PARAMETERS_MAX`]. Ends the case as not applicable if there are none.
 pub(super) fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, DynamicKind, u32) -> Step,
@@ -80,8 +80,9 @@ pub(super) fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) 
     first.map(|(_, name)| name).ok_or_else(lacks)
 }
 
-/// Checks that a request is rejected while `valid`, the same request without the fault, succeeds
-/// and returns the same data before and after it, and the number of parameters does not change.
+/// Checks that a request is rejected. The check counts only if `valid`, the same request without
+/// the fault, returns the same data before and after it, and the number of parameters does not
+/// change.
 pub(super) fn rejects_steadily<'a>(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,

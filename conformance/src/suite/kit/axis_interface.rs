@@ -13,8 +13,8 @@ use crate::suite::kit::Probe;
 /// indices with a handle. A run without a profile, if it may write, treats the axis indices up to
 /// this one, in all channels but the first, as possibly without an axis.
 pub(crate) const PLACES_MAX: u32 = 64;
-/// Maximum number of consecutive axis indices without a handle after which a search continues: at
-/// an axis index without an axis, the CNC need not return a handle.
+/// A search continues after at most this number of consecutive axis indices without a handle: the
+/// CNC need not return a handle at an axis index without an axis.
 pub(crate) const GAP_MAX: u32 = 4;
 
 /// Maximum number of names of axis variables of a channel in a sample, because each name is

@@ -24,7 +24,7 @@ use crate::text::escape;
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
     all: Arc<Mutex<Vec<Change>>>,
-    /// Names of all values of which a change was begun so far.
+    /// Names of all values that cases have begun to change so far.
     written: Arc<Mutex<BTreeSet<String>>>,
 }
 
@@ -65,7 +65,7 @@ impl Changes {
         left.collect()
     }
 
-    /// The names of all values of which a change was begun so far, without duplicates.
+    /// The names of all values that cases have begun to change so far, without duplicates.
     pub fn written(&self) -> Vec<String> {
         let written = lock(&self.written);
         written.iter().cloned().collect()

@@ -10,8 +10,8 @@ use crate::judge::{Step, Stop};
 use crate::profile::Claim;
 use crate::suite::kit::Probe;
 
-/// The names of the V.P, V.L and V.S that exist in the first channel at the moment: of each kind
-/// those at the first 64 indices, as far as they can be read and requested.
+/// The names of the V.P, V.L and V.S that currently exist in the first channel. Of each kind, these
+/// are the names at the first 64 indices that can be read and requested.
 fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     let channel = probe.channel()?;
     let mut all = Vec::new();
@@ -42,9 +42,9 @@ pub(crate) fn has_dynamic_variables(probe: &mut Probe<'_>) -> Step<bool> {
 }
 
 /// The V.P, V.L and V.S of [`dynamic_names`], if they are also variables. Ends the case as not
-/// applicable if there are none, or if they are taken to be only parameters: according to the
-/// edition or the version in the profile, or, if the version leaves this open, because the first
-/// of them cannot be read by name as a variable.
+/// applicable if there are none, or if the edition or version in the profile has them only as
+/// parameters. If the version leaves this open, the case is also not applicable if the first of
+/// them cannot be read by name as a variable.
 pub(crate) fn dynamic_among_variables(
     probe: &mut Probe<'_>,
 ) -> Step<Vec<(DynamicKind, CncString)>> {

@@ -21,7 +21,7 @@ pub enum Sample {
 
 impl Sample {
     /// The selected items in ascending order. [`All`](Self::All) selects the first 10,000 items.
-    /// [`BySeed`](Self::BySeed) selects all items, or `most` items of a list with more items: a
+    /// [`BySeed`](Self::BySeed) selects all items, or `most` items of a list with more items. A
     /// quarter of these (rounded down) are the first, a quarter the last, and the rest are spread
     /// over the items in between. The same seed and the same `most` select the same positions in
     /// all lists of the same length.
@@ -98,9 +98,9 @@ impl SampleSizes {
     pub(crate) const DEFAULT: Self =
         Self { objects: Self::MOST, variables: Self::MOST, elements: Self::MOST };
 
-    /// The sizes for these lists, given by kind and number of items: for each kind, the largest
-    /// size with which the samples of all lists of this kind have, in total, at most a fixed number
-    /// of items; at least [`LEAST`](Self::LEAST) and at most [`MOST`](Self::MOST). These numbers
+    /// The sizes for these lists, given by kind and number of items. For each kind, this is the
+    /// largest size with which the samples of all its lists have at most a fixed number of items in
+    /// total, but at least [`LEAST`](Self::LEAST) and at most [`MOST`](Self::MOST). These numbers
     /// limit the requests of a run, see `tests/library/large.rs`.
     pub(crate) fn new(lists: &[(ItemKind, u32)]) -> Self {
         let size = |kind, budget| {

@@ -32,9 +32,9 @@ pub(crate) enum Compared<B, R> {
     Moved,
 }
 
-/// Compares the result of `other` with the value that `value` reads before it, at most [`TRIES`]
-/// times, until `same` returns true, or one of the two readings gives no value. After a difference,
-/// `value` is called again, to detect a value that changes by itself.
+/// Compares the result of `other` with the value that `value` reads before it. Ends after [`TRIES`]
+/// times, or when `same` returns true or one of the two readings gives no value. After a
+/// difference, `value` is called again, to detect a value that changes by itself.
 pub(crate) fn compare<B: PartialEq, R>(
     probe: &mut Probe<'_>,
     mut value: impl FnMut(&mut Probe<'_>) -> Step<Option<B>>,
@@ -171,8 +171,8 @@ impl Steady {
 ///
 /// A correct reply passes `clause` and ADR-12, the requirement that both forms of an address exist.
 /// A function that has returned no success although the index equals the logical number is taken to
-/// lack the groups without the logical bit: its replies that are no success violate ADR-12 only.
-/// Any other wrong or missing reply is taken to concern a wrong instance, which violates `clause`.
+/// lack the groups without the logical bit. Its replies that are not successes violate only ADR-12.
+/// Any other wrong or missing reply violates `clause`: it is taken to concern a wrong instance.
 pub(crate) fn rules_by_index(
     probe: &mut Probe<'_>,
     clause: ClauseId,
@@ -214,8 +214,8 @@ pub(crate) fn between<G: PartialEq, T>(
 /// Maximum number of attempts of [`steadily`], including attempts that give no result because the
 /// data of their guards, such as the number of parameters, changes meanwhile.
 const TRIES_OF_PARAMETERS: usize = 5;
-/// Minimum number of attempts with a result that must fail before [`steadily`] records a failure,
-/// if no attempt passes.
+/// If no attempt passes, [`steadily`] records a failure only after at least this number of failed
+/// attempts.
 const FAILURES: usize = 3;
 
 /// A check before it is recorded.

@@ -43,9 +43,9 @@ pub struct TargetState {
     pub frames: usize,
     /// Services to which the target has sent a valid reply.
     pub(in crate::suite) answered: Vec<AdsService>,
-    /// The functions for which the target has returned no success for the rank of a channel whose
-    /// rank equals its number, although it accepts the number: the target is taken to lack the
-    /// groups without the bit for logical addressing.
+    /// The functions for which the target accepts the number of a channel, but has returned no
+    /// success for its equal rank. The target is taken to lack their groups without the bit for
+    /// logical addressing.
     /// ADR-12
     pub(in crate::suite) without_index_groups: HashSet<Function>,
     /// Whether any reply to a Read, Write or ReadWrite was a success, not counting requests that
@@ -56,8 +56,8 @@ pub struct TargetState {
     /// Number of consecutive requests without a reply, up to now, not counting requests that
     /// restore values after a change.
     pub(in crate::suite) silences: usize,
-    /// The reason why the target counts as no longer answering, after which only requests that
-    /// restore values are sent; `None` while the target answers.
+    /// Why only requests that restore values are sent from now on, because the target no longer
+    /// answers; `None` while it answers.
     pub(in crate::suite) disconnect_reason: Option<String>,
     /// A text with the case in which the target stopped answering, the number of requests until
     /// then, and the reason.
@@ -126,8 +126,7 @@ impl TargetState {
         Self { sample, ..self }
     }
 
-    /// Sets the list of changed values, of which the caller keeps a clone to read it in other
-    /// threads.
+    /// Sets the list of changed values. The caller keeps a clone to read it in other threads.
     #[must_use]
     pub fn with_changes(self, changes: Changes) -> Self {
         Self { changes, ..self }

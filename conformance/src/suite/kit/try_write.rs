@@ -26,9 +26,9 @@ pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()
 }
 
-/// Returns a value that differs from `value`: a value that is not a text, in one bit of its first
-/// byte; a text, in its first character. An empty value has no such byte, and a text of less than
-/// two bytes has no space for a character: they are returned unchanged.
+/// Returns a value that differs from `value`: for a text, in its first character, otherwise in one
+/// bit of its first byte. An empty value and a text of less than two bytes, which has no space for
+/// a character, are returned unchanged.
 pub(crate) fn changed_value(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
@@ -140,10 +140,10 @@ impl Probe<'_> {
     /// restores the original value, also if a step fails. Writes nothing if the current value
     /// cannot be read, is empty, or does not fit into a write.
     ///
-    /// Before the restoring, `then` is called with the original and the written value, unless a
-    /// write was rejected, or the value changes by itself and was not read back as written. If the
-    /// gate allows malformed requests, a value of at least two bytes that is not a text and was
-    /// read back as written is then also changed in every byte, unless `then` returns an error.
+    /// Calls `then` with the original and the written value before restoring, unless a write was
+    /// rejected, or the value changes by itself and was not read back as written. If the gate
+    /// allows malformed requests and `then` succeeds, also changes every byte of a value that was
+    /// read back as written, has at least two bytes and is not a text.
     pub(crate) fn try_write(
         &mut self,
         write_check: &WriteCheck<'_>,
@@ -244,10 +244,10 @@ impl Probe<'_> {
         Ok(passed)
     }
 
-    /// Checks that a write of the current value to a read-only address is rejected. Before that, if
-    /// there is a `sibling`, a writable address, its current value is written to it: if this write
-    /// is not accepted, the case is inconclusive. If a current value cannot be read, or the value
-    /// at the read-only address is empty or does not fit into a write, nothing is checked.
+    /// Checks that a write of the current value to a read-only address is rejected. Before that,
+    /// writes the current value of the `sibling`, a writable address, if there is one; if this
+    /// write is not accepted, the case is inconclusive. Checks nothing if a current value cannot be
+    /// read, or if the value at the read-only address is empty or does not fit into a write.
     pub(crate) fn write_rejected(
         &mut self,
         write_check: &WriteCheck<'_>,

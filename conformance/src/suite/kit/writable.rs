@@ -20,8 +20,8 @@ pub(crate) fn is_of_service(variable: &Description) -> bool {
 }
 
 /// Calls a function for every variable that the cases read and that has this access, in every
-/// claimed channel, except the variables of the Service Interface. Afterwards, ends the case as not
-/// applicable if `judge` has neither noted a value that may be written nor recorded a check.
+/// claimed channel, except the variables of the Service Interface. If `judge` has noted no value
+/// that may be written and recorded no check, the case ends as not applicable.
 pub(crate) fn each_of_access(
     probe: &mut Probe<'_>,
     access: VariableAccess,
@@ -82,9 +82,9 @@ impl WritableNumber {
     }
 }
 
-/// For each type except STRING, the first variable that is not an array and does not belong to the
-/// Service Interface, may be written, and can be read by name with the described size. Ends the
-/// case as not applicable if there are none. Other cases judge the other variables.
+/// For each type except STRING, the first variable that may be written, can be read by name with
+/// the described size, is not an array and does not belong to the Service Interface. Ends the case
+/// as not applicable if there are none. Other cases judge the other variables.
 pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
     let mut all: Vec<WritableNumber> = Vec::new();
     for channel in probe.channels()? {
@@ -150,9 +150,9 @@ pub(crate) struct WritableElement {
     pub(crate) is_text: bool,
 }
 
-/// Those elements among the ones that the cases read that have this write flag and a length that
-/// can be read, and that the gate and the profile permit to write, except those at axis indices
-/// that have no axis, or may have none.
+/// Of the elements that the cases read, those that have this write flag and a readable length, and
+/// that the gate and the profile permit to write. Elements at axis indices that have no axis, or
+/// may have none, are left out.
 pub(crate) fn elements_with_flag(
     probe: &mut Probe<'_>,
     is_writable: bool,

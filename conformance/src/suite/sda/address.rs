@@ -57,7 +57,7 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             let Some(logical) = probe.address_of(class, number, 0)? else { continue };
             let Ok(Some(first)) = logical.first_element() else { continue };
             let by_index = element_by_rank(first, rank);
-            // That the function FindInstance accepts ranks of channels is assumed.
+            // It is assumed that FindInstance accepts ranks of channels.
             let exchange = probe.send(FindInstance::new(class, rank.into(), 0).by_index())?;
             let found = exchange.success().and_then(|data| ObjectAddress::decode(data).ok());
             let same = found == Some(ObjectAddress::from(by_index)) || found == Some(logical);

@@ -60,8 +60,8 @@ fn of_axes(class: Class, id: ClauseId) -> Rule {
     if class == Class::PathPreparation { assumed(id) } else { id.into() }
 }
 
-/// Requests an instance that cannot exist. The reply must be (0, 0); that an error is wrong, too,
-/// is only assumed. If the reply is the address of an element, `rules` are also violated.
+/// Requests an instance that cannot exist. The reply must be (0, 0); it is only assumed that an
+/// error is wrong, too. If the reply is the address of an element, `rules` are also violated.
 fn is_nowhere(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
@@ -74,7 +74,7 @@ fn is_nowhere(
     probe.expect_rejection();
     let data = exchange.success();
     let Some(data) = data else {
-        // That an error instead of the address (0, 0) is wrong is assumed.
+        // It is assumed that an error instead of the address (0, 0) is wrong.
         let found = exchange.result();
         probe.check(assumed(SDA_2), false, "the reply (0, 0)", found);
         return Ok(());
@@ -196,8 +196,8 @@ fn axes_end(probe: &mut Probe<'_>, class: Class, channel: u32, last: u32) -> Ste
 /// Checks that no instance exists after the last one that was found: no axis of a channel
 /// (interpolator, decoder, path preparation), no axis of the platform (position controller, HLD),
 /// and no spindle. Also checks that the three classes with axes of a channel have no instance with
-/// the axis 0 or 1 in channel 0, and the position controller none with the axis 1 in the claimed
-/// channels. The numbers of axes and spindles in the profile are not used.
+/// the axis 0 or 1 in channel 0. In the claimed channels, the position controller must have none
+/// with the axis 1. The numbers of axes and spindles in the profile are not used.
 pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let has = |class| all.iter().any(|one| one.class == class);
@@ -235,8 +235,8 @@ pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Requests instances whose channel, spindle or axis number does not fit into an address, but has
-/// the lower bits of an existing one: a group has 8 bits for the channel, and an offset has 16 bits
-/// for the axis.
+/// the lower bits of an existing one. A group has 8 bits for the channel; an offset has 16 bits for
+/// the axis.
 pub(super) fn far(probe: &mut Probe<'_>) -> Step {
     for one in probe.instances()? {
         let channels: &[u32] = match one.axis {

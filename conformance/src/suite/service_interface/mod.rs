@@ -100,7 +100,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     }
     let read = read_variable(probe, channel, RequestState)?;
     probe.check(SVC_4, read == NONE, "request state 0 after the response", || Hex(read));
-    // That a write of REQUEST_STATE over ADS, even of 0, resets RESPONSE_STATE is assumed.
+    // It is assumed that a write of REQUEST_STATE over ADS, even of 0, resets RESPONSE_STATE.
     write_variable(probe, channel, RequestState, &NONE)?;
     let kept = read_variable(probe, channel, Response)?;
     let same = until_nul(&kept) == b"unrequested";

@@ -70,8 +70,8 @@ fn requests_without_replies_are_dropped() {
     }
 }
 
-/// The check of a capture with wrong or missing replies takes at most six times as long as with
-/// correct replies (plus 2 s), so its time does not grow with the square of the number of requests.
+/// With wrong or missing replies, the check of a capture takes at most six times as long as with
+/// correct ones (plus 2 s): its time does not grow with the square of the number of requests.
 #[test]
 fn captures_are_checked_in_linear_time() {
     type Answer = fn(u32, &AmsHeader) -> Option<AmsHeader>;

@@ -18,7 +18,7 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
     (run.status.code(), text(run.stdout), text(run.stderr))
 }
 
-/// An error in the encoding of a file has a line number, as an error in its content has.
+/// An error in the encoding of a file has a line number, like an error in its content.
 #[test]
 fn a_file_in_another_encoding_has_a_line() {
     let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
@@ -81,7 +81,7 @@ fn the_257th_axis_variable_needs_a_handle() {
     assert!(error.starts_with("m:261: only the first 256 axis variables"), "{error}");
 }
 
-/// A handle belongs to its channel, so that two channels may have the same handle.
+/// A handle belongs to its channel, so two channels may have the same handle.
 #[test]
 fn channels_may_have_equal_handles() {
     let channel = |number: u8| {

@@ -1,5 +1,5 @@
-//! In captured traffic, each of the defects of a CNC or of a client that these tests name fails the
-//! requirement that it violates.
+//! In captured traffic, each defect of a CNC or client that these tests name makes the violated
+//! requirement fail.
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::layout::Stream;

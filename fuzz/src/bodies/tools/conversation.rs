@@ -31,9 +31,9 @@ const BEGINS: [u32; 4] = [0, u32::MAX - 50, 0x7FFF_FFF0, u32::MAX];
 
 impl Conversation {
     /// Input: the number of requests, the index of each request with the length of the data of its
-    /// reply, the first sequence numbers, the lengths of the segments, then changes: a segment is
-    /// swapped with another one (0), is repeated (1), is removed (2), or also contains the next one
-    /// (3).
+    /// reply, the first sequence numbers, the lengths of the segments, then changes. A change swaps
+    /// a segment with another one (0), repeats it (1), removes it (2), or appends the next one to
+    /// it (3).
     pub(super) fn new(input: &mut Input<'_>) -> Self {
         let mut sent = [Vec::new(), Vec::new()];
         for id in 0..u32::from(input.byte() % 8) {

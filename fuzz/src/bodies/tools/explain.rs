@@ -33,9 +33,8 @@ pub(crate) const DEFECTS: &[&str] = &[
 /// Input: the subject (1 byte): a stream (0), data at an address (1), an address (2), frames (3), frames
 /// with an address for replies (4), hex (5).
 ///
-/// Hex is the rest of the input. For the other subjects follow the index of the stream, the type,
-/// the number of dimensions and the first dimension; then, except for 0 and 3, the address; the
-/// rest is the bytes.
+/// Hex is the rest of the input. The other subjects have the index of the stream, the type, the
+/// number of dimensions, the first dimension, the address (not for 0 and 3) and the bytes.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
     let what = input.byte();
@@ -104,7 +103,7 @@ fn mutation(explanation: &mut Explanation, defect: Defect) {
 }
 
 /// An explanation has a fault if the codec rejects the bytes, or if the stream is an NC text that
-/// cannot be streamed to its end; without a type in the input, only then.
+/// cannot be streamed to its end. If the input has no type, it has a fault only then.
 fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
     let rejected = common::check_bent(stream, bytes, &Mutation::NONE).is_err()
         || stream == Stream::ProgramStream && !is_nc(bytes);

@@ -187,9 +187,9 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
 
 const PORTS: [u16; 5] = [552, 553, 551, 851, 10000];
 
-/// A frame with the next call. The bits of the kind that are set select a different target (bit 2),
-/// different flags (bit 3), an error (bit 4), a different command (bit 5) and a length of the data
-/// that is one too high (bit 6).
+/// A frame with the next call. Set bits of the kind select a different target (bit 2), different
+/// flags (bit 3), an error (bit 4), a different command (bit 5) and a data length that is one too
+/// high (bit 6).
 fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
     let odd = |bit: u8| kind >> bit & 1;
     let Call { port, service, index_group, index_offset, read_length, data } = call(input, &PORTS);

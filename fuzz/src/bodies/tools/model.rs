@@ -19,8 +19,8 @@ pub(crate) const DEFECTS: &[&str] = &[
 ];
 
 /// Any file is a model or an error. The codec reads the answers of a CNC with this model. The CNC
-/// gives the same answers to the same requests, and in four lists no object at the number after the
-/// last one that it counts.
+/// gives the same answers to the same requests. In four lists, it has no object at the number after
+/// the last one that it counts.
 pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, "a file:", defect, |text| Model::from_toml(text, "a file"), Model::eq);

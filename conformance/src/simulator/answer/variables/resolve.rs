@@ -19,9 +19,9 @@ pub(super) enum Resolved {
     Parameter,
 }
 
-/// The error for an unknown name or kind, for a kind that the function does not serve, for a place
-/// on the axis interface that does not exist, and for the name of an element where only the name of
-/// a variable is allowed.
+/// The error for an unknown name or kind, a kind that the function does not serve, or a missing
+/// place on the axis interface. Also for the name of an element where only that of a variable is
+/// allowed.
 pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
 
 impl AnsweringCnc<'_> {

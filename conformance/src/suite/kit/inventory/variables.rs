@@ -47,8 +47,8 @@ impl Probe<'_> {
     }
 
     /// All descriptions of a channel's variables of the claimed kinds, except those whose name is
-    /// too long for a request, for a case that must know which names or handles do not exist.
-    /// `None` if the channel has more than [`VARIABLES_MAX`] variables of a claimed kind.
+    /// too long for a request. For cases that must know which names or handles do not exist. `None`
+    /// if the channel has more than [`VARIABLES_MAX`] variables of a claimed kind.
     pub(crate) fn all_variables(&mut self, channel: Channel) -> Step<Option<Vec<Description>>> {
         let mut all = Vec::new();
         for (name, kind) in self.kinds() {

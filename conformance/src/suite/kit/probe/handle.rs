@@ -10,12 +10,12 @@ use crate::profile::Claim;
 use crate::suite::kit::{Probe, RawCall};
 
 impl Probe<'_> {
-    /// Tries to confirm the handle of a write to the [gate](crate::gate), which, except for a
-    /// simulated CNC of this process, allows the write only after HandleByName and a description
-    /// have returned the handle for a name in the file of `--allow-write`. Sends the missing ones
-    /// of these queries that the profile claims, if a stored description has the handle, or the
-    /// gate knows a name for it. Sends nothing if the request is not a write by handle, or if the
-    /// gate already allows the write.
+    /// Tries to confirm the handle of a write to the [gate](crate::gate). Except for a simulated
+    /// CNC of this process, the gate allows the write only after HandleByName and a description
+    /// have returned the handle for a name in the file of `--allow-write`. If a stored description
+    /// has the handle, or the gate knows a name for it, sends the missing queries that the profile
+    /// claims. Sends nothing if the request is not a write by handle, or if the gate already allows
+    /// the write.
     pub(crate) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
         let Request::WriteByHandle(op) = request else { return Ok(()) };
         if self.check_gate(request)?.is_ok() {

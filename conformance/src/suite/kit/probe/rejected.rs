@@ -11,9 +11,9 @@ impl Probe<'_> {
     /// Sends a request that must be rejected. `sibling` is the same request without the fault; it
     /// is sent first, because a rejection proves nothing if the target also rejects `sibling`.
     ///
-    /// A success without data counts as a rejection, because it returns no value of an object that
-    /// does not exist; the case `ads-every-refusal` judges it if `sibling` has succeeded and a rule
-    /// has the level *must*.
+    /// A success without data is accepted as a rejection, because it returns no value of an object
+    /// that does not exist. The case `ads-every-refusal` judges it if `sibling` has succeeded and a
+    /// rule has the level *must*.
     pub(crate) fn rejects<'a, 'b>(
         &mut self,
         rules: impl Rules,
@@ -35,9 +35,8 @@ impl Probe<'_> {
                 let expected = || format!("{}, and a success without this fault", expected());
                 let found = || format!("an error also without the fault: {}", accepted.result());
                 for rule in rules {
-                    // The target did not accept the sibling. A violated rule below the level *must*
-                    // does not fail a run, but the verdict *vacuous* does, so such a rule counts as
-                    // not met instead.
+                    // The target did not accept the sibling. A rule below the level *must* is
+                    // recorded as not met, which does not fail a run. The verdict *vacuous* would.
                     let verdict = match rule.level {
                         Some(Level::Must) => Verdict::Vacuous,
                         Some(level) => Verdict::missed(level),
@@ -74,7 +73,7 @@ impl Probe<'_> {
     }
 
     /// Checks that a request for an item of an empty list, for which no valid sibling exists, is
-    /// rejected. A success without data counts as a rejection.
+    /// rejected. A success without data is accepted as a rejection.
     pub fn rejects_alone<'a>(
         &mut self,
         rules: impl Rules,
@@ -89,9 +88,9 @@ impl Probe<'_> {
     }
 
     /// Invalid numbers, of which `first` is the smallest. Most others are the last valid number
-    /// (`first - 1`) with a higher bit set: a CNC that truncates numbers would accept them, and
-    /// they do not become valid if the list grows by a few items. If the gate allows malformed
-    /// requests, more numbers are returned, among them `first + 1` and `u32::MAX`.
+    /// (`first - 1`) with a higher bit set. A CNC that truncates numbers would accept them, and
+    /// they stay invalid if the list grows by a few items. If the gate allows malformed requests,
+    /// more numbers are returned, among them `first + 1` and `u32::MAX`.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
         let last = first.saturating_sub(1);
         let wide = |bits: &[u32]| -> Vec<u32> {

@@ -1,5 +1,5 @@
-//! The frames that may pass, by their bytes, the bytes of replies and the entries of a file. The
-//! bytes are read without the codec.
+//! Determines which frames may pass, from their bytes, the bytes of replies and the entries of a
+//! file. Reads the bytes without the codec.
 
 use ads_cnc::address::{Addressing, Channel};
 use ads_cnc::operation::Call;

@@ -1,0 +1,28 @@
+//! The client without a connection.
+
+use ads_cnc::Kind;
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{CountVariables, Request};
+use ads_cnc_conformance::client::{Client, Target};
+use ads_cnc_conformance::exchange::{Exchange, ExchangeError};
+use ads_cnc_conformance::gate::{Gate, NET_ID};
+use ads_cnc_conformance::net;
+
+/// The first request is sent before the connection is found to be closed. Without a connection, the
+/// second request is not sent.
+#[test]
+fn without_a_connection_no_frame_is_sent() {
+    let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
+    let target = Target::local(listener.local_addr().unwrap(), NET_ID);
+    let mut client = Client::connect(target, Gate::queries()).unwrap();
+    drop(listener.accept().unwrap());
+    drop(listener);
+    let request = Request::from(CountVariables::new(Channel::new(1).unwrap(), Kind::V_E));
+    let mut buf = [0; 64];
+    let call = request.encode(&mut buf).unwrap();
+    let exchanges = [client.call(&call), client.call(&call)];
+    let is_disconnected =
+        |one: &Exchange| matches!(one.outcome, Err(ExchangeError::Disconnected(_)));
+    assert!(exchanges.iter().all(is_disconnected), "{exchanges:?}");
+    assert_eq!(exchanges.map(|one| one.sent.is_empty()), [false, true]);
+}
