@@ -115,10 +115,10 @@ pub(super) fn serve(args: &ServeArgs) -> ExitCode {
         Ok(defect) => defect,
         Err(why) => return exit_with_error(Exit::Usage, why),
     };
-    if let Some(seed) = defect.as_ref().filter(|seed| !seed.is_for_cnc()) {
+    if let Some(defect) = defect.as_ref().filter(|defect| !defect.is_for_cnc()) {
         return exit_with_error(
             Exit::Usage,
-            format_args!("{} is a defect of a codec, not of a CNC", seed.id),
+            format_args!("{} is a defect of a codec, not of a CNC", defect.id),
         );
     }
     let faulty = match args.model.cnc() {
@@ -245,20 +245,21 @@ fn print_model() -> ExitCode {
 
 fn list_defects(part: &str) -> ExitCode {
     let mut out = io::stdout().lock();
-    let fits = |seed: &&SeededDefect| {
-        seed.id.contains(part) || seed.requirements.iter().any(|id| id.eq_ignore_ascii_case(part))
+    let fits = |defect: &&SeededDefect| {
+        defect.id.contains(part)
+            || defect.requirements.iter().any(|id| id.eq_ignore_ascii_case(part))
     };
     let mut listed = faults::all().iter().filter(fits).peekable();
     if listed.peek().is_none() {
-        let parts = faults::all().iter().flat_map(|seed| seed.id.split('.'));
+        let parts = faults::all().iter().flat_map(|defect| defect.id.split('.'));
         let near = did_you_mean(part, parts);
         let why =
             format!("no defect contains {part} in its ID or violates the requirement {part}{near}");
         return exit_with_error(Exit::Usage, why);
     }
-    for seed in listed {
-        let broken = seed.requirements.join(" ");
-        if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
+    for defect in listed {
+        let broken = defect.requirements.join(" ");
+        if writeln!(out, "{}\t{broken}\t{defect}", defect.id).is_err() {
             // The reader of stdout wants no more output.
             break;
         }
@@ -276,7 +277,7 @@ pub(super) fn find_defect(id: Option<&str>) -> Result<Option<SeededDefect>, Stri
 }
 
 fn unknown_defect(id: &str) -> String {
-    let all = faults::all().iter().map(|seed| seed.id.as_str());
+    let all = faults::all().iter().map(|defect| defect.id.as_str());
     let near = did_you_mean(id, all);
     format!(
         "no defect has the ID {id}{near}\nserve --list-defects PART lists those that contain PART"

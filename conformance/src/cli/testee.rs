@@ -36,8 +36,8 @@ impl TesteeArgs {
                 return Exit::Usage;
             }
         };
-        if let Some(seed) = defect.as_ref().filter(|seed| !seed.is_for_codec()) {
-            print_error(format_args!("{} is a defect of a CNC, not of a codec", seed.id));
+        if let Some(defect) = defect.as_ref().filter(|defect| !defect.is_for_codec()) {
+            print_error(format_args!("{} is a defect of a CNC, not of a codec", defect.id));
             return Exit::Usage;
         }
         let own = CodecTestee { defect };

@@ -1,7 +1,7 @@
 //! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
-//! A seed is a defect or a variant: middleware around the codec or the simulated CNC, or another
-//! data model or policy of the CNC. Seeds test the suite. With a valid variant, no requirement may
+//! A seeded defect is a defect or a variant: middleware around the codec or the simulated CNC, or another
+//! data model or policy of the CNC. They test the suite. With a valid variant, no requirement may
 //! fail. With a defect, at least one of the requirements that it violates must fail or, below the
 //! level *must*, have a warning or a difference. Exceptions are defects that change no byte, or for
 //! which the self-test (`selftest`) states a reason.
@@ -9,8 +9,8 @@
 //! ```
 //! use ads_cnc_conformance::faults::{self, DefectKind};
 //!
-//! let seed = faults::by_id("variable-description.size.flip").unwrap();
-//! assert_eq!((seed.kind, &seed.requirements[..]), (DefectKind::Codec, &["VAR-4", "VAR-8"][..]));
+//! let defect = faults::by_id("variable-description.size.flip").unwrap();
+//! assert_eq!((defect.kind, &defect.requirements[..]), (DefectKind::Codec, &["VAR-4", "VAR-8"][..]));
 //! ```
 
 mod cnc;
@@ -38,12 +38,17 @@ pub fn all() -> &'static [SeededDefect] {
         let fields = FieldDefect::all().into_iter().map(SeededDefect::from);
         let cnc = cnc::rows().map(|row| SeededDefect::of_row(row, DefectKind::Cnc));
         let variants = variants::rows().map(|row| SeededDefect::of_row(row, DefectKind::Different));
-        fields.chain(codec::seeds()).chain(operators::seeds()).chain(cnc).chain(variants).collect()
+        fields
+            .chain(codec::defects())
+            .chain(operators::defects())
+            .chain(cnc)
+            .chain(variants)
+            .collect()
     })
 }
 
 pub fn by_id(id: &str) -> Option<&'static SeededDefect> {
-    all().iter().find(|seed| seed.id == id)
+    all().iter().find(|defect| defect.id == id)
 }
 
 /// The requirements of level *must* that no defect violates, each with the reason. Those that the

@@ -4,8 +4,8 @@
 //! ```
 //! use ads_cnc_conformance::faults;
 //!
-//! let seed = faults::by_id("describe-by-index.next-index").unwrap();
-//! assert!(seed.requirements.contains(&"VAR-4"));
+//! let defect = faults::by_id("describe-by-index.next-index").unwrap();
+//! assert!(defect.requirements.contains(&"VAR-4"));
 //! ```
 
 mod change;
@@ -29,7 +29,7 @@ use super::cnc::{
 };
 use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 
-/// A kind of defect. `seeds` generates one defect for each function for which `applies` returns
+/// A kind of defect. `defects` generates one defect for each function for which `applies` returns
 /// true, except for `WriteProgramStream`.
 struct Operator {
     name: &'static str,
@@ -342,7 +342,7 @@ const OF_ANSWERS: &[Operator] = &[
 ];
 
 /// The generated defects of all functions except the write of data streaming.
-pub(super) fn seeds() -> impl Iterator<Item = SeededDefect> {
+pub(super) fn defects() -> impl Iterator<Item = SeededDefect> {
     // The defects of streaming are written by hand: a CNC may reject a packet temporarily, and the
     // suite cannot read a packet back.
     let functions = Function::ALL.iter().filter(|one| **one != Function::WriteProgramStream);
@@ -350,11 +350,15 @@ pub(super) fn seeds() -> impl Iterator<Item = SeededDefect> {
         let of_requests = OF_REQUESTS.iter().map(|operator| (operator, function.spec().request));
         let all = of_requests.chain(OF_ANSWERS.iter().map(|operator| (operator, None)));
         let mine = all.filter(|(operator, _)| (operator.applies)(function.spec()));
-        mine.map(|(operator, request)| seed(function, operator, request))
+        mine.map(|(operator, request)| defect(function, operator, request))
     })
 }
 
-fn seed(function: &'static Function, operator: &Operator, misread: Option<Stream>) -> SeededDefect {
+fn defect(
+    function: &'static Function,
+    operator: &Operator,
+    misread: Option<Stream>,
+) -> SeededDefect {
     let Operator { name, what, breaks, answer, .. } = operator;
     let spec = function.spec();
     let streams = spec.reply.filter(|_| !spec.is_content()).into_iter().chain(misread);

@@ -25,13 +25,13 @@ pub struct SeededDefect {
     /// The only edition in which the defect is detectable; `None` if the defect is not limited to
     /// an edition.
     pub edition: Option<Edition>,
-    /// Whether the CNC with this seed claims to reply literally as in the manuals' printed examples
+    /// Whether the CNC with this seeded defect claims to reply literally as in the manuals' printed examples
     /// (`printed_examples` of its profile). False for some valid variants.
     pub printed: bool,
     pub(super) how: Mechanism,
 }
 
-/// The kind of a seed.
+/// The kind of a seeded defect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum DefectKind {
     /// A defect of a codec. Field defects are of this kind, but a simulated CNC can have them too.
@@ -92,7 +92,7 @@ impl SeededDefect {
         }
     }
 
-    /// The field defect; `None` for any other seed.
+    /// The field defect; `None` for any other defect.
     pub fn field(&self) -> Option<&FieldDefect> {
         match &self.how {
             Mechanism::Field(defect) => Some(defect),
@@ -100,7 +100,7 @@ impl SeededDefect {
         }
     }
 
-    /// The defect that changes a codec's answers in the testee protocol; `None` for any other seed.
+    /// The defect that changes a codec's answers in the testee protocol; `None` for any other defect.
     pub(crate) const fn of_codec(&self) -> Option<CodecFault> {
         match self.how {
             Mechanism::Codec(fault) => Some(fault),
@@ -113,7 +113,7 @@ impl SeededDefect {
         matches!(self.how, Mechanism::Field(_) | Mechanism::Cnc(_))
     }
 
-    /// The data model of a variant that replaces the model of the CNC; `None` for any other seed.
+    /// The data model of a variant that replaces the model of the CNC; `None` for any other defect.
     pub(crate) const fn own_model(&self) -> Option<&'static str> {
         match self.how {
             Mechanism::Cnc(CncFault::Model(model)) => Some(model),

@@ -102,7 +102,7 @@ impl Write for Lines {
 }
 
 /// The writes in the log of a simulated CNC in this process with this defect.
-fn written(model: Model, seed: &SeededDefect, named: &Named) -> BTreeSet<String> {
+fn written(model: Model, defect: &SeededDefect, named: &Named) -> BTreeSet<String> {
     let lines = Lines::default();
     let writer = lines.clone();
     // The writes are in the log of the simulated CNC; the log of the client would be most of the
@@ -112,7 +112,7 @@ fn written(model: Model, seed: &SeededDefect, named: &Named) -> BTreeSet<String>
     let log = tracing_subscriber::registry().with(lines_of_log).with(simulator);
     tracing::subscriber::with_default(log, || {
         let cnc = Cnc::new(model).with_stopped_clock();
-        let cnc = Arc::new(Faulty::new(cnc, Some(seed)));
+        let cnc = Arc::new(Faulty::new(cnc, Some(defect)));
         let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
         let allowed = Allowed::from_toml(&format!("{head}{}", named.table)).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed));
@@ -139,24 +139,24 @@ const MISREAD: [&str; 3] = [
 /// Tries every defect of a CNC with a simulated CNC in this process.
 #[test]
 fn defects_of_the_cnc_write_nothing_else() {
-    let seeds: Vec<_> = faults::all().iter().filter(|seed| seed.is_for_cnc()).collect();
-    assert!(seeds.len() > 900, "{}", seeds.len());
+    let defects: Vec<_> = faults::all().iter().filter(|defect| defect.is_for_cnc()).collect();
+    assert!(defects.len() > 900, "{}", defects.len());
     let model = Model::default_model().unwrap();
-    let queue = Mutex::new(seeds.into_iter());
+    let queue = Mutex::new(defects.into_iter());
     let found = Mutex::new((BTreeMap::new(), 0));
     thread::scope(|scope| {
         for _ in 0..thread::available_parallelism().map_or(2, usize::from) {
             scope.spawn(|| {
                 loop {
                     let next = queue.lock().unwrap().next();
-                    let Some(seed) = next else { break };
+                    let Some(defect) = next else { break };
                     for named in [&VARIABLE, &ARRAY, &OBJECT] {
-                        let mut writes = written(model.clone(), seed, named);
+                        let mut writes = written(model.clone(), defect, named);
                         let is_written = writes.remove(named.log);
                         let mut found = found.lock().unwrap();
                         found.1 += usize::from(is_written);
                         if !writes.is_empty() {
-                            found.0.insert(seed.id.as_str(), writes);
+                            found.0.insert(defect.id.as_str(), writes);
                         }
                     }
                 }

@@ -31,11 +31,11 @@ fn run_against(
     wanted: impl Fn(&Case) -> bool,
 ) -> Vec<CaseOutcome> {
     let cases = suite::cases().into_iter().filter(wanted).collect();
-    let seed = defect.cloned().map(SeededDefect::from);
-    let faulty = Faulty::new(cnc.with_stopped_clock(), seed.as_ref());
+    let seeded = defect.cloned().map(SeededDefect::from);
+    let faulty = Faulty::new(cnc.with_stopped_clock(), seeded.as_ref());
     let (client, _) = Session::in_process_to_try(Arc::new(faulty)).unwrap().into_parts();
     let mut session = TargetState::new(client, profile);
-    suite::run(cases, Some(&mut session), seed.as_ref(), 0)
+    suite::run(cases, Some(&mut session), seeded.as_ref(), 0)
 }
 
 /// The IDs of the cases that fail, have a warning, or have a failure that follows from another clause.

@@ -14,9 +14,9 @@ use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState}
 
 /// A simulated CNC in this process as a device, after the queries with which a run discovers what the
 /// device has.
-fn discovered(seed: Option<&SeededDefect>) -> (TargetState, Discovery) {
+fn discovered(defect: Option<&SeededDefect>) -> (TargetState, Discovery) {
     let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
-    let cnc = Arc::new(Faulty::new(cnc, seed));
+    let cnc = Arc::new(Faulty::new(cnc, defect));
     let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
     let client = Client::in_process(target, Gate::queries(), LocalCnc::new(cnc, NET_ID)).unwrap();
     let mut target = TargetState::new(client, Profile::DEVICE).with_sample(Sample::BySeed(1));
@@ -60,15 +60,16 @@ fn a_missing_port_fails() {
 /// `selftest --only different` tries all variants.
 #[test]
 fn a_sample_of_valid_variants_passes() {
-    let variants = faults::all().iter().filter(|seed| seed.kind == DefectKind::Different);
+    let variants = faults::all().iter().filter(|defect| defect.kind == DefectKind::Different);
     let mut alarms = Vec::new();
     let mut count = 0;
-    for seed in variants.step_by(16) {
+    for defect in variants.step_by(16) {
         count += 1;
-        let (mut target, Discovery { found, .. }) = discovered(Some(seed));
-        println!("{}: {}", seed.id, found.summary());
+        let (mut target, Discovery { found, .. }) = discovered(Some(defect));
+        println!("{}: {}", defect.id, found.summary());
         let failed = outcomes(&mut target).into_iter().filter(|one| one.verdict().fails_run());
-        alarms.extend(failed.map(|one| format!("{}: {} {:?}", seed.id, one.case.id, one.verdicts)));
+        alarms
+            .extend(failed.map(|one| format!("{}: {} {:?}", defect.id, one.case.id, one.verdicts)));
     }
     assert!(count > 3 && alarms.is_empty(), "{count}: {alarms:#?}");
 }

@@ -29,16 +29,16 @@ fn checks() -> impl Iterator<Item = &'static SimulatorCheck> {
 
 /// The checks and sequences of these requirements that fail for a CNC with this defect or variant; if
 /// `requirements` is empty, of all requirements.
-fn failing(seed: &SeededDefect, requirements: &[&str]) -> Vec<String> {
+fn failing(defect: &SeededDefect, requirements: &[&str]) -> Vec<String> {
     let wanted = |id: &str| requirements.is_empty() || requirements.contains(&id);
     let fails = |failed: crate::target::CheckResult, name: &str| {
         failed.err().map(|why| format!("{name}: {why:?}"))
     };
     let checks = checks().filter(|one| one.clauses().iter().any(|id| wanted(id.as_str())));
-    let checks = checks.filter_map(|one| fails((one.run)(&TestCnc::new(Some(seed))), one.name));
+    let checks = checks.filter_map(|one| fails((one.run)(&TestCnc::new(Some(defect))), one.name));
     let sequences = with_steps().filter(|one| one.cited().iter().any(|one| wanted(&one.id)));
     let sequences =
-        sequences.filter_map(|one| fails(play(&TestCnc::new(Some(seed)), one), &one.id));
+        sequences.filter_map(|one| fails(play(&TestCnc::new(Some(defect)), one), &one.id));
     checks.chain(sequences).collect()
 }
 
@@ -54,8 +54,8 @@ fn the_matrix_lists_every_check() {
 #[test]
 fn defects_that_no_case_detects_are_detected() {
     let is_missed = |id: &&&str| {
-        let seed = faults::by_id(id).expect("a defect");
-        failing(seed, &seed.requirements).is_empty()
+        let defect = faults::by_id(id).expect("a defect");
+        failing(defect, &defect.requirements).is_empty()
     };
     let missed: Vec<&&str> = UNSEEN.iter().filter(is_missed).collect();
     assert!(missed.is_empty(), "not found: {missed:?}");
@@ -87,14 +87,14 @@ const OF_THIS_CNC: &str = "each_query_has_its_own_answer";
 
 #[test]
 fn valid_variants_pass() {
-    let variants = faults::all().iter().filter(|seed| seed.kind == DefectKind::Different);
+    let variants = faults::all().iter().filter(|defect| defect.kind == DefectKind::Different);
     let variants: Vec<&SeededDefect> = variants.collect();
-    let is_failing = |seed: &&&SeededDefect| {
-        let failing = failing(seed, &[]);
+    let is_failing = |defect: &&&SeededDefect| {
+        let failing = failing(defect, &[]);
         failing.iter().any(|one| !one.contains(OF_THIS_CNC))
     };
     let failing_of = |part: &[&'static SeededDefect]| -> Vec<&str> {
-        part.iter().filter(is_failing).map(|seed| seed.id.as_str()).collect()
+        part.iter().filter(is_failing).map(|defect| defect.id.as_str()).collect()
     };
     let failing: BTreeSet<&str> = thread::scope(|scope| {
         let parts = variants.chunks(variants.len().div_ceil(4));

@@ -15,7 +15,7 @@ use crate::faults::field::FieldDefect;
 use crate::faults::seeded_defect::{Mechanism, SeededDefect};
 use crate::simulator::{Cnc, Frames, Model, Responder, respond};
 
-/// A simulated CNC with at most one seed, or with several field defects.
+/// A simulated CNC with at most one defect, or with several field defects.
 ///
 /// A field defect changes the data of requests before the CNC decodes this data, and the headers
 /// and the data of its replies.
@@ -32,8 +32,8 @@ pub struct Faulty {
 
 impl Faulty {
     /// Adds a defect or a variant to a CNC that has processed no request.
-    pub fn new(cnc: Cnc, seed: Option<&SeededDefect>) -> Self {
-        let how = seed.map(|seed| seed.how.clone());
+    pub fn new(cnc: Cnc, defect: Option<&SeededDefect>) -> Self {
+        let how = defect.map(|defect| defect.how.clone());
         let cnc = match &how {
             Some(Mechanism::Cnc(CncFault::Model(model))) => {
                 match Model::from_toml(model, "the model of a variant") {
@@ -62,7 +62,7 @@ impl Faulty {
         &self.cnc
     }
 
-    /// Whether a field defect has changed at least one byte; true for other seeds. A field defect
+    /// Whether a field defect has changed at least one byte; true for other defects. A field defect
     /// that sets a field to the value that it already has is not detectable.
     pub(crate) fn has_shown(&self) -> bool {
         self.fields.is_empty() || self.shown.load(Ordering::Relaxed)

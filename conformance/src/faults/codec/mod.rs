@@ -22,7 +22,7 @@ use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 use super::{FieldChange, FieldDefect};
 use crate::codec;
 
-fn seed(
+fn defect(
     id: String,
     requirements: Vec<&'static str>,
     what: String,
@@ -40,17 +40,17 @@ fn seed(
     }
 }
 
-pub(super) fn seeds() -> Vec<SeededDefect> {
-    let mut seeds = forgotten_checks();
-    seeds.extend(too_strict());
-    seeds.extend(swapped());
-    seeds.extend(turned());
+pub(super) fn defects() -> Vec<SeededDefect> {
+    let mut defects = forgotten_checks();
+    defects.extend(too_strict());
+    defects.extend(swapped());
+    defects.extend(turned());
     let rows = [address::ROWS, nc::ROWS, packets::ROWS, strict::ROWS, text::ROWS, value::ROWS];
-    seeds.extend(rows.into_iter().flatten().map(|row| {
+    defects.extend(rows.into_iter().flatten().map(|row| {
         let requirements = row.breaks.iter().map(|id| id.as_str()).collect();
-        seed(row.id.to_owned(), requirements, row.what.to_owned(), row.fault)
+        defect(row.id.to_owned(), requirements, row.what.to_owned(), row.fault)
     }));
-    seeds
+    defects
 }
 
 /// The IDs of the requirements, or of parts of requirements, that these vectors cite, sorted and
@@ -96,7 +96,7 @@ fn forgotten_checks() -> Vec<SeededDefect> {
         let called = those.iter().find_map(rejection)?;
         let what = format!("{stream}: the codec accepts input with an error of the class {class}");
         let id = format!("codec.accepts.{class}.{stream}");
-        Some(seed(id, broken(those.into_iter()), what, CodecFault::Accepts(called, stream)))
+        Some(defect(id, broken(those.into_iter()), what, CodecFault::Accepts(called, stream)))
     };
     pairs.into_iter().filter_map(each).collect()
 }
@@ -120,7 +120,7 @@ fn too_strict() -> Vec<SeededDefect> {
         any.then(|| {
             let what = format!("{name}: the codec rejects input of the maximum length");
             let id = format!("codec.refuses.longest.{name}");
-            seed(id, broken(those.into_iter()), what, CodecFault::Longest(name))
+            defect(id, broken(those.into_iter()), what, CodecFault::Longest(name))
         })
     };
     Stream::all().filter_map(each).collect()
@@ -157,7 +157,7 @@ fn swapped() -> Vec<SeededDefect> {
             let mut clauses = vec![layout.clause, one.clause, other.clause];
             clauses.sort_unstable();
             clauses.dedup();
-            seed(id, clauses, what, CodecFault::Swaps(layout.name, one.name, other.name))
+            defect(id, clauses, what, CodecFault::Swaps(layout.name, one.name, other.name))
         })
         .collect()
 }
@@ -175,7 +175,7 @@ fn turned() -> Vec<SeededDefect> {
                 layout.name
             );
             let id = format!("codec.big-endian.{}", layout.name);
-            seed(id, vec![GEN_1.as_str(), layout.clause], what, CodecFault::BigEndian(stream))
+            defect(id, vec![GEN_1.as_str(), layout.clause], what, CodecFault::BigEndian(stream))
         })
     };
     let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);

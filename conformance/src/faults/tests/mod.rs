@@ -22,21 +22,26 @@ use crate::{client_suite, suite};
 
 fn of_kind(kinds: &[DefectKind]) -> impl Iterator<Item = &'static SeededDefect> {
     let kinds = kinds.to_vec();
-    all().iter().filter(move |seed| kinds.contains(&seed.kind) && seed.field().is_none())
+    all().iter().filter(move |defect| kinds.contains(&defect.kind) && defect.field().is_none())
 }
 
 #[test]
 fn ids_are_unique_and_descriptions_not_empty() {
-    let ids: BTreeSet<&str> = all().iter().map(|seed| seed.id.as_str()).collect();
+    let ids: BTreeSet<&str> = all().iter().map(|defect| defect.id.as_str()).collect();
     assert_eq!(ids.len(), all().len());
-    for seed in all() {
-        assert_eq!(by_id(&seed.id).map(|one| &one.what), Some(&seed.what));
-        assert!(seed.what.len() > 10 && !seed.what.ends_with('.'), "{}", seed.id);
-        assert!(seed.id.bytes().all(|byte| byte.is_ascii_graphic()), "{}", seed.id);
-        assert_eq!(seed.requirements.is_empty(), seed.kind == DefectKind::Different, "{}", seed.id);
-        for id in &seed.requirements {
-            let clause = clause(id).unwrap_or_else(|| panic!("{}: {id}", seed.id));
-            assert!(clause.requirement.excluded.is_none(), "{}: {id} is excluded", seed.id);
+    for defect in all() {
+        assert_eq!(by_id(&defect.id).map(|one| &one.what), Some(&defect.what));
+        assert!(defect.what.len() > 10 && !defect.what.ends_with('.'), "{}", defect.id);
+        assert!(defect.id.bytes().all(|byte| byte.is_ascii_graphic()), "{}", defect.id);
+        assert_eq!(
+            defect.requirements.is_empty(),
+            defect.kind == DefectKind::Different,
+            "{}",
+            defect.id
+        );
+        for id in &defect.requirements {
+            let clause = clause(id).unwrap_or_else(|| panic!("{}: {id}", defect.id));
+            assert!(clause.requirement.excluded.is_none(), "{}: {id} is excluded", defect.id);
         }
     }
 }
@@ -45,34 +50,36 @@ fn ids_are_unique_and_descriptions_not_empty() {
 /// changes only the timing or the splitting of frames.
 #[test]
 fn every_defect_of_a_cnc_is_detectable() {
-    let seeds: Vec<&SeededDefect> = of_kind(&[DefectKind::Cnc, DefectKind::Different]).collect();
+    let defects: Vec<&SeededDefect> = of_kind(&[DefectKind::Cnc, DefectKind::Different]).collect();
     let hidden = std::thread::scope(|scope| {
-        let parts = seeds.chunks(seeds.len().div_ceil(4));
+        let parts = defects.chunks(defects.len().div_ceil(4));
         let parts: Vec<_> = parts.map(|part| scope.spawn(|| hidden(part))).collect();
         parts.into_iter().flat_map(|part| part.join().unwrap()).collect::<Vec<_>>()
     });
-    // If this fails for a new seed, the transcript may lack a request that the seed affects.
+    // If this fails for a new defect, the transcript may lack a request that the defect affects.
     assert_eq!(hidden, [""; 0], "no answer to what tests/transcript.rs asks is another");
 }
 
 /// The IDs of the defects that change no reply of the transcript.
-fn hidden(seeds: &[&'static SeededDefect]) -> Vec<&'static str> {
+fn hidden(defects: &[&'static SeededDefect]) -> Vec<&'static str> {
     let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
-    for &seed in seeds {
+    for &defect in defects {
         // The transcript does not record the timing and the splitting of frames.
-        if matches!(seed.how, Mechanism::Cnc(CncFault::Pieces(_))) || seed.id == "different.slow" {
+        if matches!(defect.how, Mechanism::Cnc(CncFault::Pieces(_)))
+            || defect.id == "different.slow"
+        {
             continue;
         }
-        let right = right.entry(seed.edition).or_insert_with(|| match seed.edition {
+        let right = right.entry(defect.edition).or_insert_with(|| match defect.edition {
             None => Transcript::new(None, None),
             Some(_) => Transcript::new(
-                Some(&SeededDefect { how: Mechanism::Cnc(CncFault::Pieces(0)), ..seed.clone() }),
+                Some(&SeededDefect { how: Mechanism::Cnc(CncFault::Pieces(0)), ..defect.clone() }),
                 None,
             ),
         });
-        if !Transcript::new(Some(seed), Some(&right.replies)).differs {
-            hidden.push(seed.id.as_str());
+        if !Transcript::new(Some(defect), Some(&right.replies)).differs {
+            hidden.push(defect.id.as_str());
         }
     }
     hidden
@@ -91,13 +98,13 @@ fn every_defect_of_a_codec_is_detectable() {
     let right: Vec<Answer> =
         questions.iter().map(|one| CodecTestee::default().answer(one)).collect();
     let cnc = Transcript::new(None, None).replies;
-    let hidden = all().iter().filter(|seed| seed.is_for_codec()).filter(|seed| {
-        let own = CodecTestee { defect: Some((*seed).clone()) };
+    let hidden = all().iter().filter(|defect| defect.is_for_codec()).filter(|defect| {
+        let own = CodecTestee { defect: Some((*defect).clone()) };
         let same = |(question, right): (&Question, &Answer)| own.answer(question) == *right;
         questions.iter().zip(&right).all(same)
-            && !(seed.is_for_cnc() && Transcript::new(Some(seed), Some(&cnc)).differs)
+            && !(defect.is_for_cnc() && Transcript::new(Some(defect), Some(&cnc)).differs)
     });
-    assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
+    assert_eq!(hidden.map(|defect| defect.id.as_str()).collect::<Vec<_>>(), [""; 0]);
 }
 
 /// A requirement of level *must* that is not excluded has either a defect or a reason in `without`
@@ -105,8 +112,11 @@ fn every_defect_of_a_codec_is_detectable() {
 #[test]
 fn every_must_has_a_defect_or_a_reason() {
     let clients = client_suite::defects().iter().map(|defect| defect.requirement);
-    let targets: BTreeSet<&str> =
-        all().iter().flat_map(|seed| seed.requirements.iter().copied()).chain(clients).collect();
+    let targets: BTreeSet<&str> = all()
+        .iter()
+        .flat_map(|defect| defect.requirements.iter().copied())
+        .chain(clients)
+        .collect();
     let reasons: BTreeMap<&str, &str> =
         without().iter().map(|&(id, reason)| (id.as_str(), reason)).collect();
     for one in requirements() {

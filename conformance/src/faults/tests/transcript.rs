@@ -22,11 +22,11 @@ pub(super) struct Transcript<'t> {
 }
 
 impl<'t> Transcript<'t> {
-    pub(super) fn new(seed: Option<&SeededDefect>, other: Option<&'t [Vec<u8>]>) -> Self {
-        let edition = seed.and_then(|seed| seed.edition);
+    pub(super) fn new(defect: Option<&SeededDefect>, other: Option<&'t [Vec<u8>]>) -> Self {
+        let edition = defect.and_then(|defect| defect.edition);
         let settings = Settings { edition, version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "default", settings).unwrap();
-        let faulty = Faulty::new(Cnc::new(model).with_stopped_clock(), seed);
+        let faulty = Faulty::new(Cnc::new(model).with_stopped_clock(), defect);
         let cnc = Arc::clone(faulty.cnc());
         let mut transcript =
             Self { faulty, cnc, other, replies: Vec::new(), differs: false, count: 0 };

@@ -48,6 +48,7 @@ impl Walk<'_> {
             return Ok(Some(AddressSet::new()));
         }
         let all = self.objects_of(objects, count.min(OBJECTS_MAX), RANGE)?;
+        self.found.is_cut |= count > OBJECTS_MAX;
         if u32::try_from(all.len()) != Ok(count) {
             self.note(
                 list,

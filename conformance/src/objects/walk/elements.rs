@@ -109,6 +109,7 @@ impl Walk<'_> {
             Ok(true)
         })?;
         self.note_missing(list, count, requested);
+        self.found.is_cut |= count > most;
         Ok(())
     }
 

@@ -60,8 +60,8 @@ pub struct WalkResult {
     pub requests: u64,
     /// Notes, for example about objects that could not be read.
     pub notes: Vec<String>,
-    /// Whether a limit or the deadline ended the walk, or a limit shortened a list of variables or
-    /// parameters; a note states this.
+    /// Whether a limit or the deadline ended the walk, or a limit shortened a list; a note states
+    /// this.
     pub is_cut: bool,
 }
 

@@ -41,8 +41,8 @@ pub(crate) fn conversation(
     defect: Option<&FieldDefect>,
     talk: impl FnOnce(&mut Session),
 ) -> Vec<Message> {
-    let seed = defect.cloned().map(Into::into);
-    let cnc = Faulty::new(Cnc::with_default_model().unwrap(), seed.as_ref());
+    let seeded = defect.cloned().map(Into::into);
+    let cnc = Faulty::new(Cnc::with_default_model().unwrap(), seeded.as_ref());
     let memory = Memory::default();
     let capture = Capture::new(Box::new(memory.clone())).unwrap();
     let session = Session::simulated(cnc, Gate::queries()).unwrap();
