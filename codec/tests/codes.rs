@@ -1,10 +1,7 @@
-//! Tests of the numbers and names of codes, types, classes, attributes and service variables. The
-//! numbers are those of the manuals or of the vendors' help pages, if a test does not say
-//! otherwise.
+//! Tests of the numbers and names of codes and types. The numbers are those of the manuals or of the
+//! vendors' help pages, if a test does not say otherwise.
 
-use ads_cnc::address::{Addressing, Attribute, Class, ClassGroup};
 use ads_cnc::ads::{AdsError, AdsState, Command, StateFlags};
-use ads_cnc::service::ServiceVariable;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{Synchronisation, U32List, Validity, VariableAccess, VariableType, WriteAccess};
 
@@ -93,57 +90,4 @@ fn types_have_their_sizes_and_their_numbers_in_errors() {
         ("STRING", 9, None),
     ];
     assert_eq!(types, expected);
-}
-
-#[test]
-fn classes_and_attributes_have_the_digits_of_the_manual() {
-    let group = |class, attribute| {
-        ClassGroup { addressing: Addressing::Logical, class, attribute, instance: 0 }.index_group()
-    };
-    let classes = Class::ALL.map(|class| (class.to_string(), group(class, Attribute::Content)));
-    let classes = classes.map(|(name, group)| (name, group.get() >> 12 & 0xF));
-    let expected = [
-        ("position controller", 0),
-        ("interpolator", 1),
-        ("decoder", 2),
-        ("HLD", 3),
-        ("path preparation", 4),
-        ("spindle", 5),
-    ];
-    assert_eq!(classes, expected.map(|(name, digit)| (name.to_owned(), digit)));
-
-    let digits = Attribute::ALL.map(|attribute| {
-        (attribute.to_string(), group(Class::Decoder, attribute).get() >> 8 & 0xF)
-    });
-    let expected = [
-        ("content", 3),
-        ("name", 4),
-        ("type", 5),
-        ("length", 6),
-        ("unit", 7),
-        ("write flag", 8),
-        ("object address", 9),
-    ];
-    assert_eq!(digits, expected.map(|(name, digit)| (name.to_owned(), digit)));
-}
-
-#[test]
-fn service_variables_have_the_types_of_the_manual() {
-    let variables = ServiceVariable::ALL.map(|variable| (variable.name(), variable.var_type()));
-    let expected = [
-        ("V.G.SERVICE.UUID", VariableType::STRING),
-        ("V.G.SERVICE.REQUEST", VariableType::STRING),
-        ("V.G.SERVICE.REQUEST_STATE", VariableType::UNS32),
-        ("V.G.SERVICE.RESPONSE_STATE", VariableType::UNS32),
-        ("V.G.SERVICE.RESPONSE", VariableType::STRING),
-    ];
-    assert_eq!(variables, expected);
-    let variants = [
-        ServiceVariable::Uuid,
-        ServiceVariable::Request,
-        ServiceVariable::RequestState,
-        ServiceVariable::ResponseState,
-        ServiceVariable::Response,
-    ];
-    assert_eq!(ServiceVariable::ALL, variants);
 }

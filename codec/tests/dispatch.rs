@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ads_cnc::ErrorKind;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::*;
-use ads_cnc::{Encode as _, ErrorKind};
 use proptest::prelude::*;
 
 use super::common::{CALLS, check_call};
@@ -28,22 +28,6 @@ fn calls_are_dispatched_to_their_functions() {
         reached.insert(sample.function);
     }
     assert_eq!(reached, Function::ALL.iter().copied().collect());
-}
-
-/// The call of a Read has no data, the read length of a Write is 0, and that of a ReadWrite is not
-/// 0.
-#[test]
-fn calls_have_only_the_parts_of_their_service() {
-    for sample in CALLS {
-        let request = sample.call.dispatch().unwrap();
-        let mut buf = [0; 4096];
-        let call = request.encode(&mut buf).unwrap();
-        match call.service {
-            AdsService::Read => assert!(call.data.is_empty(), "{}", sample.slug),
-            AdsService::Write => assert_eq!(call.read_length, 0, "{}", sample.slug),
-            AdsService::ReadWrite => assert_ne!(call.read_length, 0, "{}", sample.slug),
-        }
-    }
 }
 
 fn error_of(change: impl FnOnce(&mut Call<'_>)) -> DispatchError {
@@ -239,60 +223,11 @@ proptest! {
     }
 }
 
-/// A reply is decoded if its length is valid for the function and the read length; other lengths
-/// are rejected.
+/// A reply with more descriptors than the request asks for is rejected.
 #[test]
-fn replies_are_decoded_by_their_function() {
-    let reply = |slug: &str, data: &[u8]| {
-        let sample = CALLS.iter().find(|sample| sample.slug == slug).unwrap();
-        let request = sample.call.dispatch().unwrap();
-        let mut buf = vec![0; data.len()];
-        request.decode_reply(data).map(|reply| {
-            assert_eq!(reply.encode(&mut buf), Ok(data));
-            assert_eq!(reply.encoded_len(), data.len());
-        })
-    };
-    for (slug, len) in [
-        ("objects-of-channel-1", 4),
-        ("descriptor-printed", 84),
-        ("descriptors-two-by-index", 84),
-        ("descriptors-two-by-index", 168),
-        ("count-printed", 4),
-        ("description-printed", 21),
-        ("handle-printed", 4),
-        ("read-by-handle-printed-array", 20),
-        ("read-by-name-printed-element", 0),
-        ("extended-printed", 8),
-        ("extended-printed", 0),
-        ("axis-handle-printed", 4),
-        ("axis-read-printed", 8),
-        ("write-by-handle-printed-element", 0),
-        ("write-by-name-printed-element", 0),
-        ("axis-write-printed", 0),
-        ("description-by-name", 20),
-        ("parameters-printed", 4),
-        ("parameter-name-printed", 96),
-        ("parameter-printed", 8),
-        ("v.p-by-index", 8),
-        ("instance-printed-channel", 8),
-        ("elements-of-channel", 4),
-        ("content-printed", 1),
-        ("name-printed", 256),
-        ("type-printed", 0),
-        ("length-printed", 2),
-        ("unit-printed", 1),
-        ("write-flag-printed", 1),
-        ("write-content", 0),
-        ("stream", 0),
-        ("object-printed-platform", 4),
-        ("write-object-printed", 0),
-    ] {
-        assert_eq!(reply(slug, &vec![0; len]), Ok(()), "{slug} {len}");
-    }
-    let error = reply("descriptor-printed", &[0; 168]).unwrap_err();
+fn replies_with_too_many_descriptors_are_rejected() {
+    let sample = CALLS.iter().find(|sample| sample.slug == "descriptor-printed").unwrap();
+    let request = sample.call.dispatch().unwrap();
+    let error = request.decode_reply(&[0; 168]).unwrap_err();
     assert_eq!((error.kind(), error.expected(), error.found()), (ErrorKind::TooMany, 1, 2));
-    assert!(reply("count-printed", &[0; 5]).is_err());
-    assert!(reply("extended-printed", &[0; 4]).is_err());
-    assert!(reply("write-by-name-printed-element", &[0]).is_err());
-    assert!(reply("description-printed", &[0; 20]).is_err());
 }

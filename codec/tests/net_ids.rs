@@ -1,9 +1,7 @@
 //! Tests of NetIds as text.
 
-use std::collections::BTreeSet;
-
 use ads_cnc::ErrorKind::*;
-use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
+use ads_cnc::ads::AmsNetId;
 
 use super::common::{Fault, fault};
 
@@ -44,16 +42,4 @@ fn invalid_net_ids_are_rejected() {
     ] {
         assert_eq!(text.parse::<AmsNetId>().map_err(Fault::of), Err(wanted), "{text:?}");
     }
-}
-
-#[test]
-fn addresses_show_device_and_port() {
-    let net_id: AmsNetId = "192.0.2.7.1.1".parse().unwrap();
-    let texts: BTreeSet<_> = [AmsPort::GEO, AmsPort::SDA, AmsPort::COM]
-        .map(|port| AmsAddr { net_id, port })
-        .map(|address| (address.to_string(), format!("{address:?}")))
-        .into();
-    let wanted = ["192.0.2.7.1.1:551", "192.0.2.7.1.1:552", "192.0.2.7.1.1:553"];
-    assert_eq!(texts, wanted.map(|text| (text.to_string(), text.to_string())).into());
-    assert_eq!(format!("{net_id:?} {:?} {}", AmsPort(9), AmsPort(10)), "192.0.2.7.1.1 9 10");
 }

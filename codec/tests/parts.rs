@@ -3,13 +3,11 @@
 
 use ads_cnc::address::{
     Access, Attribute, Channel, ChannelAxis, Class, ClassGroup, ComGroup, ComTable, ElementAddress,
-    Group, IndexGroup, IndexOffset, PlatformAxis,
+    IndexOffset, PlatformAxis,
 };
-use ads_cnc::ads::AmsPort;
 use ads_cnc::dynamic::*;
 use ads_cnc::operation::*;
 use ads_cnc::sda::*;
-use ads_cnc::streaming::Ack;
 use ads_cnc::*;
 
 /// The request to which a server dispatches the call that this request of a client encodes to.
@@ -113,38 +111,5 @@ fn dynamic_values_keep_their_bits() {
         assert_eq!(f64::from(stored).to_bits(), value.to_bits());
         let mut buf = [0; 8];
         assert_eq!(stored.encode(&mut buf), Ok(&value.to_le_bytes()[..]));
-    }
-}
-
-/// The ADS errors of `DispatchError` are final rejections for a sender (STM-6).
-#[test]
-fn dispatch_errors_are_not_retried() {
-    let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
-    let error = Handle::decode(&[]).unwrap_err();
-    let service = DispatchError::Service { expected: AdsService::Write, found: AdsService::Read };
-    for error in [
-        DispatchError::Port(port),
-        DispatchError::Group(group),
-        DispatchError::Offset(offset),
-        service,
-        DispatchError::Stream(error),
-    ] {
-        assert_eq!(Ack::from_result(error.ads_error()), Ack::Rejected, "{error}");
-    }
-}
-
-/// The lists of objects of the platform, of two channels and of two axes have different index
-/// groups.
-#[test]
-fn lists_have_different_addresses() {
-    let groups = [ObjectList::PLATFORM, channel(1).into(), channel(2).into()];
-    let axes = [1, 2].map(|place| PlatformAxis::new(place).unwrap().into());
-    let all: std::collections::BTreeSet<_> =
-        groups.into_iter().chain(axes).map(|list: ObjectList| list.index_group().get()).collect();
-    assert_eq!(all.len(), 5);
-    for group in all {
-        assert!(
-            matches!(IndexGroup::new(group).parts(), Some(Group::Com(com)) if com.index_group().get() == group)
-        );
     }
 }

@@ -4,7 +4,7 @@ use ads_cnc::ErrorKind::*;
 use ads_cnc::layout::Subject;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
-use ads_cnc::{CncStr, VariablePath};
+use ads_cnc::{CncStr, VariablePath, VariableType};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -45,17 +45,16 @@ fn read(host: &mut Host<'_>) {
 /// (SVC-1).
 #[test]
 fn the_five_variables_have_their_names_and_types() {
-    let names = ServiceVariable::ALL.map(ServiceVariable::name);
-    assert_eq!(
-        names,
-        [
-            "V.G.SERVICE.UUID",
-            "V.G.SERVICE.REQUEST",
-            "V.G.SERVICE.REQUEST_STATE",
-            "V.G.SERVICE.RESPONSE_STATE",
-            "V.G.SERVICE.RESPONSE"
-        ]
-    );
+    let variables =
+        ServiceVariable::ALL.map(|variable| (variable, variable.name(), variable.var_type()));
+    let expected = [
+        (Uuid, "V.G.SERVICE.UUID", VariableType::STRING),
+        (Request, "V.G.SERVICE.REQUEST", VariableType::STRING),
+        (RequestState, "V.G.SERVICE.REQUEST_STATE", VariableType::UNS32),
+        (ResponseState, "V.G.SERVICE.RESPONSE_STATE", VariableType::UNS32),
+        (Response, "V.G.SERVICE.RESPONSE", VariableType::STRING),
+    ];
+    assert_eq!(variables, expected);
     for variable in ServiceVariable::ALL {
         assert_eq!(ServiceVariable::by_name(variable.name()), Some(variable));
         assert_eq!(VariablePath::new(variable.name()).unwrap().parts().count(), 2);

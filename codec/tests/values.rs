@@ -225,14 +225,3 @@ fn empty_kinds_keep_their_form() {
     assert_eq!(VariableKindRef { kind: Kind::ALL }.encode_to_vec(), Ok(vec![0]));
     assert_eq!(VariableKind::decode(&[]).map(|kind| kind.encode_to_vec()), Ok(Ok(vec![])));
 }
-
-#[test]
-fn a_list_grows_at_its_end() {
-    let object = |name| Descriptor::new(name, "UNS32").unwrap();
-    let mut list: Descriptors = [object("mc_a")].into_iter().collect();
-    list.push(object("mc_b"));
-    assert_eq!(list, [object("mc_a"), object("mc_b")].into_iter().collect());
-    check_value(&list);
-    let names: Vec<_> = list.as_ref().iter().map(|object| object.name().to_string()).collect();
-    assert_eq!(names, ["mc_a", "mc_b"]);
-}

@@ -126,9 +126,6 @@ pub struct Requirement {
     /// IDs of the errata that affect the requirement.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
-    /// Whether the vectors of the requirement have still to be added.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub pending: bool,
     /// The reason why no bytes violate the requirement, although it can be judged from bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_reject: Option<String>,

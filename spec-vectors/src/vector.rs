@@ -381,21 +381,6 @@ impl Vector {
         catalogue::level(&self.requirements, &self.assumed)
     }
 
-    /// The level for encoding the value: [`Level::Info`] if an assumption decides which bytes an
-    /// encoder writes, otherwise [`Vector::level`].
-    ///
-    /// ```
-    /// use ads_cnc_vectors::{Level, vector};
-    ///
-    /// let description = vector("description-printed-boolean-array").unwrap();
-    /// assert_eq!(description.level(), Level::Must);
-    /// // No manual states whether a NUL follows the name.
-    /// assert_eq!(description.encoding_level(), Level::Info);
-    /// ```
-    pub fn encoding_level(&self) -> Level {
-        if self.assumed.iter().any(|one| one.encodes) { Level::Info } else { self.level() }
-    }
-
     /// The level of a difference that no assumption covers: the weakest level among the cited clauses
     /// that a document states.
     ///

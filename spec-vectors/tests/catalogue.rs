@@ -1,7 +1,7 @@
-//! Requirements and errata cite existing sections, and a requirement is only pending if it has no vectors.
+//! Areas and IDs are complete, and every cited section is a section of a known edition.
 
 use ads_cnc_vectors::{
-    Basis, ClauseId, Observable, Requirement, documents, errata, requirement, requirements, vectors,
+    Basis, ClauseId, Requirement, documents, errata, requirements, sequences, vectors,
 };
 use std::collections::BTreeSet;
 
@@ -34,31 +34,33 @@ fn errata_are_numbered_without_gaps() {
     }
 }
 
-/// Every cited section is a section of its document. A requirement cites one section per source.
+/// Every citation names a document, its edition and one of its sections. A requirement cites one
+/// section per source.
 #[test]
 fn cited_sections_exist() {
-    let exists = |id: &str, document: &str, section: &str| {
-        let document = documents().iter().find(|d| d.document == document);
-        let document = document.unwrap_or_else(|| panic!("{id} cites no document"));
-        let known = document.sections.iter().any(|one| one == section);
-        assert!(known, "{id}: {} has no section {section}", document.document);
+    let exists = |id: &str, document: &str, edition: &str, section: &str| {
+        let known = documents().iter().find(|d| d.document == document && d.edition == edition);
+        let known = known.unwrap_or_else(|| panic!("{id}: no document {document} {edition}"));
+        let is_section = known.sections.iter().any(|one| one == section);
+        assert!(is_section, "{id}: {document} has no section {section}");
     };
     for r in requirements() {
         for source in &r.sources {
-            exists(&r.id, &source.document, &source.section);
+            exists(&r.id, &source.document, &source.edition, &source.section);
         }
     }
     for e in errata() {
         for reading in &e.readings {
             for section in reading.section.split(", ") {
-                exists(&e.id, &reading.document, section);
+                exists(&e.id, &reading.document, &reading.edition, section);
             }
         }
     }
-    for v in vectors() {
-        for source in &v.provenance.sources {
+    let of_vectors = vectors().iter().map(|v| (&v.id, &v.provenance));
+    for (id, place) in of_vectors.chain(sequences().iter().map(|s| (&s.id, &s.provenance))) {
+        for source in &place.sources {
             for section in source.section.split(", ") {
-                exists(&v.id, &source.document, section);
+                exists(id, &source.document, &source.edition, section);
             }
         }
     }
@@ -92,24 +94,4 @@ fn both_editions_are_cited() {
             assert!(same, "{} cites only one edition for a section", r.id);
         }
     }
-}
-
-/// A requirement that has a vector is not pending.
-#[test]
-fn pending_requirements_have_no_vectors() {
-    for r in requirements().iter().filter(|r| r.pending) {
-        assert!(r.observable.contains(&Observable::Codec), "{} is not about bytes", r.id);
-        let citing = vectors().iter().find(|v| v.requirements.contains(&r.id));
-        assert_eq!(citing.map(|v| &v.id), None, "{} has a vector and is pending", r.id);
-    }
-}
-
-#[test]
-fn excluded_requirements_have_no_vectors() {
-    for r in requirements().iter().filter(|r| r.excluded.is_some()) {
-        assert!(!r.pending, "{}", r.id);
-        let citing = vectors().iter().find(|v| v.requirements.contains(&r.id));
-        assert_eq!(citing.map(|v| &v.id), None, "{} has a vector and is excluded", r.id);
-    }
-    assert!(requirement("DYN-8").is_some_and(|r| r.excluded.is_some()));
 }

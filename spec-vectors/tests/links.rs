@@ -1,27 +1,12 @@
 //! Every reference between the data files names an existing entry.
 
 use ads_cnc_vectors::{
-    Basis, Direction, Expect, Level, Observable, ProvenanceKind, Sequence, Value, Vector,
-    catalogue, clause, documents, errata, erratum, requirement, requirements, sequence, sequences,
-    vector, vectors,
+    Basis, Direction, Expect, Level, Observable, ProvenanceKind, Sequence, Value, Vector, clause,
+    documents, errata, erratum, requirement, requirements, sequence, sequences, vector, vectors,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
-
-#[test]
-fn every_list_has_entries() {
-    assert_eq!(catalogue().err(), None);
-    for (what, count) in [
-        ("documents", documents().len()),
-        ("requirements", requirements().len()),
-        ("errata", errata().len()),
-        ("vectors", vectors().len()),
-        ("sequences", sequences().len()),
-    ] {
-        assert_ne!(count, 0, "no {what}");
-    }
-}
 
 #[test]
 fn ids_are_unique() {
@@ -38,18 +23,6 @@ fn ids_are_unique() {
 }
 
 #[test]
-fn vector_ids_are_slugs() {
-    for v in vectors() {
-        let slug = |part: &str| {
-            !part.is_empty() && part.bytes().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit())
-        };
-        assert!(v.id.split('-').all(slug), "{}", v.id);
-        let words = v.id.split('-').any(|part| part.bytes().any(|c| c.is_ascii_lowercase()));
-        assert!(words, "{} is only a number", v.id);
-    }
-}
-
-#[test]
 fn requirements_are_numbered_without_gaps() {
     let mut found: BTreeMap<&str, Vec<u32>> = BTreeMap::new();
     for r in requirements() {
@@ -61,30 +34,6 @@ fn requirements_are_numbered_without_gaps() {
         numbers.sort_unstable();
         let all: Vec<u32> = (1..).take(numbers.len()).collect();
         assert_eq!(numbers, all, "{area} has gaps");
-    }
-}
-
-#[test]
-fn sources_name_known_editions() {
-    let known: BTreeSet<_> =
-        documents().iter().map(|d| (d.document.as_str(), d.edition.as_str())).collect();
-    let mut used: Vec<(&str, &str, &str)> = Vec::new();
-    for r in requirements() {
-        used.extend(
-            r.sources.iter().map(|s| (r.id.as_str(), s.document.as_str(), s.edition.as_str())),
-        );
-    }
-    for e in errata() {
-        used.extend(
-            e.readings.iter().map(|s| (e.id.as_str(), s.document.as_str(), s.edition.as_str())),
-        );
-    }
-    for v in vectors() {
-        let sources = v.provenance.sources.iter();
-        used.extend(sources.map(|s| (v.id.as_str(), s.document.as_str(), s.edition.as_str())));
-    }
-    for (id, document, edition) in used {
-        assert!(known.contains(&(document, edition)), "{id}: {document} {edition}");
     }
 }
 
@@ -178,20 +127,12 @@ fn every_erratum_is_cited() {
     }
 }
 
+/// `check.py` checks the other properties of a sibling.
 #[test]
-fn rejected_vectors_have_a_sibling() {
+fn siblings_have_the_same_direction() {
     for v in vectors() {
-        match (&v.expect, &v.sibling) {
-            (Expect::Accept(_), sibling) => assert_eq!(*sibling, None, "{}", v.id),
-            (Expect::Reject(reject), Some(id)) => {
-                let sibling = vector(id).unwrap_or_else(|| panic!("{}: no {id}", v.id));
-                assert!(sibling.is_accepted(), "{}: {id} is rejected too", v.id);
-                assert_eq!(sibling.stream, v.stream, "{}", v.id);
-                assert_eq!(sibling.direction, v.direction, "{}", v.id);
-                assert_ne!(sibling.bytes(), v.bytes(), "{}", v.id);
-                assert!(reject.offset <= v.bytes().len(), "{}", v.id);
-            }
-            (Expect::Reject(_), None) => panic!("{} has no sibling", v.id),
+        if let Some(sibling) = v.sibling.as_deref().and_then(vector) {
+            assert_eq!(sibling.direction, v.direction, "{}", v.id);
         }
     }
 }
@@ -230,8 +171,7 @@ fn streams_have_segments() {
 }
 
 /// A requirement that can be judged from bytes has accepted vectors or sequences; it also has
-/// rejected ones, unless it states why no bytes violate it. A pending or excluded requirement may
-/// lack them.
+/// rejected ones, unless it states why no bytes violate it. An excluded requirement has neither.
 #[test]
 fn requirements_about_bytes_have_both_verdicts() {
     let cited = |accepted: bool| -> BTreeSet<&str> {
@@ -248,14 +188,12 @@ fn requirements_about_bytes_have_both_verdicts() {
         assert!(about_bytes || r.no_reject.is_none(), "{id} is not about bytes");
         assert!(!broken || r.no_reject.is_none(), "{id} has `no_reject` and a rejected vector");
         assert!(!(shown || broken) || r.excluded.is_none(), "{id} is excluded and has vectors");
-        let is_complete = shown && (broken || r.no_reject.is_some());
-        if r.pending {
-            assert!(!is_complete && r.excluded.is_none(), "{id} is not pending any more");
-        } else if about_bytes && r.excluded.is_none() {
+        if about_bytes && r.excluded.is_none() {
             assert!(shown, "{id} has no accepted vector");
             assert!(broken || r.no_reject.is_some(), "{id} has no rejected vector");
         }
     }
+    assert!(requirement("DYN-8").is_some_and(|r| r.excluded.is_some()));
 }
 
 /// A frame that carries another vector ends with the stream of that vector. The frame of a request
@@ -286,21 +224,9 @@ fn frames_carry_the_named_vector() {
 }
 
 #[test]
-fn printed_examples_name_their_source() {
-    for v in vectors() {
-        let place = &v.provenance;
-        match place.kind {
-            ProvenanceKind::Manual => {
-                assert!(!place.sources.is_empty(), "{}", v.id);
-                assert!(v.is_accepted(), "{}: a printed example is accepted", v.id);
-            }
-            ProvenanceKind::Derived | ProvenanceKind::Fuzz => {
-                assert!(place.reason.is_some(), "{}", v.id);
-            }
-        }
-        for source in &place.sources {
-            assert!(source.example.is_some(), "{}", v.id);
-        }
+fn printed_examples_are_accepted() {
+    for v in vectors().iter().filter(|v| v.provenance.kind == ProvenanceKind::Manual) {
+        assert!(v.is_accepted(), "{}", v.id);
     }
 }
 

@@ -1,8 +1,8 @@
 //! Properties of the sequences that their schema cannot express.
 
 use ads_cnc_vectors::{
-    ProvenanceKind, Sequence, SequenceExpect, SequenceInput, clause, documents, erratum,
-    requirement, requirements, sequence, sequences, vector, vectors,
+    ProvenanceKind, Sequence, SequenceInput, clause, erratum, requirement, requirements, sequence,
+    sequences, vector, vectors,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,8 +12,6 @@ fn ids_are_unique() {
     for case in sequences() {
         assert!(seen.insert(&case.id), "{} exists twice", case.id);
         assert!(vector(&case.id).is_none(), "{} is a vector too", case.id);
-        let words = case.id.split('-').any(|part| part.bytes().any(|c| c.is_ascii_lowercase()));
-        assert!(words, "{} is only a number", case.id);
         let mut steps = BTreeSet::new();
         for id in step_ids(case) {
             assert!(steps.insert(id), "{}: {id} exists twice", case.id);
@@ -33,8 +31,6 @@ fn step_ids(case: &Sequence) -> Vec<&str> {
 
 #[test]
 fn sequences_cite_existing_entries() {
-    let known: BTreeSet<_> =
-        documents().iter().map(|d| (d.document.as_str(), d.edition.as_str())).collect();
     for case in sequences() {
         assert!(!case.requirements.is_empty(), "{}", case.id);
         for id in &case.requirements {
@@ -43,37 +39,9 @@ fn sequences_cite_existing_entries() {
         for id in &case.errata {
             assert!(erratum(id).is_some(), "{} cites {id}", case.id);
         }
-        let place = &case.provenance;
-        match place.kind {
-            ProvenanceKind::Manual => {
-                assert!(!place.sources.is_empty(), "{}", case.id);
-                assert!(case.is_accepted(), "{}: a printed example is accepted", case.id);
-            }
-            ProvenanceKind::Derived | ProvenanceKind::Fuzz => {
-                assert!(place.reason.is_some(), "{}", case.id);
-            }
+        if case.provenance.kind == ProvenanceKind::Manual {
+            assert!(case.is_accepted(), "{}: a printed example is accepted", case.id);
         }
-        for source in &place.sources {
-            let edition = (source.document.as_str(), source.edition.as_str());
-            assert!(known.contains(&edition), "{}: {edition:?}", case.id);
-            assert!(source.example.is_some(), "{}", case.id);
-        }
-    }
-}
-
-#[test]
-fn rejected_sequences_have_a_sibling() {
-    for case in sequences() {
-        let SequenceExpect::Reject(reject) = &case.expect else {
-            assert_eq!(case.sibling, None, "{}", case.id);
-            continue;
-        };
-        let sibling = case.sibling.as_deref().and_then(sequence);
-        let sibling = sibling.unwrap_or_else(|| panic!("{} has no sibling", case.id));
-        assert!(sibling.is_accepted(), "{}: {} is rejected too", case.id, sibling.id);
-        assert_eq!(sibling.kind(), case.kind(), "{}", case.id);
-        assert_ne!(sibling.given, case.given, "{}", case.id);
-        assert_eq!(reject.step.as_deref(), step_ids(case).last().copied(), "{}", case.id);
     }
 }
 
@@ -131,7 +99,7 @@ fn requirements_have_both_verdicts() {
     for r in of_areas.filter(|r| r.excluded.is_none()) {
         let id = r.id.as_str();
         let listed = |list: &[(&str, &str)]| list.iter().any(|(one, _)| *one == id);
-        let shown = !listed(&UNSHOWN) && !r.pending;
+        let shown = !listed(&UNSHOWN);
         if shown {
             assert!(accepted.contains(id), "{id} has no accepted case");
         }

@@ -3,7 +3,6 @@
 
 mod case;
 mod cases;
-pub mod clients;
 mod hand;
 mod inputs;
 mod plain;

@@ -9,10 +9,8 @@ mod named;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
-use ads_cnc::operation::{AdsService, Call, Operation, ReadElement, ReadObject, WriteElement};
-use ads_cnc::sda::*;
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc::service::{Host, HostStep, ServiceId};
-use ads_cnc::streaming::{Ack, NcText, Sender, check_line_ends};
 use ads_cnc::value::{Boolean, EncodeValue as _, Scalar};
 use ads_cnc::*;
 use core::hint::black_box;
@@ -37,14 +35,6 @@ macro_rules! readings {
     };
 }
 ads_cnc::streams! { readings }
-
-fn walks(bytes: &[u8]) -> usize {
-    let mut seen = 0_usize;
-    for stream in layout::Stream::all() {
-        let _fault = stream.walk(bytes, |segment| seen = seen.wrapping_add(segment.bytes.len()));
-    }
-    seen
-}
 
 /// Dispatches a call whose address, read length and data are in the bytes, encodes the request
 /// again, and decodes the bytes as a reply to it.
@@ -71,19 +61,6 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
     let again = request.encode(&mut buf)?.data.len();
     let reply = request.decode_reply(bytes)?;
     Ok(reply.encode(&mut out)?.len().wrapping_add(again))
-}
-
-/// Makes a read and a write of the element after the address in the bytes, and then a read of an
-/// object at the address of this element. The group is that of a class, so the read of an object is
-/// rejected, and the last line does not run.
-fn elements(bytes: &[u8]) -> Result<usize, Error> {
-    let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
-    let next = first.nth(black_box(1))?;
-    let read = ReadElement::new(next, black_box(4))?;
-    let write = WriteElement::new(next, bytes)?;
-    let object = ReadObject::new(read.index_group(), read.index_offset(), read.read_length())?;
-    let mut buf = [0; 16];
-    Ok(write.encode(&mut buf)?.len().wrapping_add(object.decode_reply(bytes)?.bytes.len()))
 }
 
 fn frames(bytes: &[u8]) -> Result<usize, Error> {
@@ -163,19 +140,6 @@ fn items<T: Scalar>(elements: Elements<'_>) -> Result<usize, Error> {
     Ok(all.encode_value(&mut buf)?.len().wrapping_add(seen))
 }
 
-fn streams(bytes: &[u8]) -> usize {
-    let Ok(text) = NcText::new(bytes) else { return 0 };
-    let mut sender = Sender::new(text);
-    for _ in 0..black_box(3) {
-        let Some(packet) = sender.packet() else { break };
-        let ack = if check_line_ends(packet).is_ok() { Ack::Accepted } else { Ack::Busy };
-        let _none_out = sender.acknowledge(ack);
-    }
-    #[cfg(feature = "alloc")]
-    black_box(text.diagnostics().count());
-    sender.left_bytes()
-}
-
 fn services(bytes: &[u8]) -> Result<usize, Error> {
     let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
     let mut host = Host::new(&ids);
@@ -196,12 +160,9 @@ pub(crate) fn runs(bytes: &[u8]) -> bool {
     let numbers = [
         operations(bytes).unwrap_or(1),
         frames(bytes).unwrap_or(2),
-        elements(bytes).unwrap_or(5),
         texts(bytes).unwrap_or(3),
         values(bytes).unwrap_or(7),
         services(bytes).unwrap_or(4),
-        streams(bytes),
-        walks(bytes),
     ];
     black_box(numbers);
     named::runs(bytes);

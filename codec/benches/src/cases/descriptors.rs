@@ -56,7 +56,7 @@ pub(super) fn lists(count: u64) -> Vec<Vec<u8>> {
 
 /// The bytes of the descriptor of object number `at`, with a name and an address like those in the
 /// manuals.
-pub(crate) fn record(at: u64) -> [u8; 84] {
+fn record(at: u64) -> [u8; 84] {
     let mut bytes = [0; 84];
     bytes[..4].copy_from_slice(&(at as u32).to_le_bytes());
     bytes[4..8].copy_from_slice(&4_u32.to_le_bytes());

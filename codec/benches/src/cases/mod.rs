@@ -2,7 +2,7 @@
 
 mod ads;
 mod description;
-pub(crate) mod descriptors;
+mod descriptors;
 mod dispatch;
 mod dynamic;
 mod elements;

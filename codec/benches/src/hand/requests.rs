@@ -1,6 +1,6 @@
 //! Handwritten code for the requests of a client: every function with its address and data.
 
-use super::Fault;
+use super::{Fault, room};
 
 const SDA: u16 = 552;
 const COM: u16 = 553;
@@ -74,13 +74,13 @@ impl Request<'_> {
                 (COM, Read, group, first, read_length, &[][..])
             }
             CountVariables { channel, kind } => {
-                (SDA, ReadWrite, decoder(channel), 0x44, 4, text(kind, buf)?)
+                (SDA, ReadWrite, decoder(channel), 0x44, 4, text(kind, 256, buf)?)
             }
             DescribeByIndex { channel, index, kind } => {
                 (SDA, ReadWrite, decoder(channel), 0x45, 2048, index_kind(index, kind, buf)?)
             }
             HandleByName { channel, name } => {
-                (SDA, ReadWrite, decoder(channel), 0x46, 4, text(name, buf)?)
+                (SDA, ReadWrite, decoder(channel), 0x46, 4, text(name, 256, buf)?)
             }
             ReadByHandle { channel, handle, indices } => (
                 SDA,
@@ -91,7 +91,7 @@ impl Request<'_> {
                 of_handle(handle, indices, &[], buf)?,
             ),
             ReadByName { channel, name } => {
-                (SDA, ReadWrite, decoder(channel), 0x48, 2048, text(name, buf)?)
+                (SDA, ReadWrite, decoder(channel), 0x48, 2048, text(name, 256, buf)?)
             }
             WriteByHandle { channel, handle, indices, value } => {
                 (SDA, Write, decoder(channel), 0x49, 0, of_handle(handle, indices, value, buf)?)
@@ -103,13 +103,13 @@ impl Request<'_> {
                 (SDA, ReadWrite, decoder(channel), 0x4B, 2048, index_kind(index, kind, buf)?)
             }
             DescribeByName { channel, name } => {
-                (SDA, ReadWrite, decoder(channel), 0x4C, 2048, text(name, buf)?)
+                (SDA, ReadWrite, decoder(channel), 0x4C, 2048, text(name, 256, buf)?)
             }
             AxisHandleByName { channel, axis, name } => {
-                (SDA, ReadWrite, decoder(channel), of_axis(axis, 4), 4, text(name, buf)?)
+                (SDA, ReadWrite, decoder(channel), of_axis(axis, 4), 4, text(name, 256, buf)?)
             }
             AxisReadByName { channel, axis, name } => {
-                (SDA, ReadWrite, decoder(channel), of_axis(axis, 5), 2048, text(name, buf)?)
+                (SDA, ReadWrite, decoder(channel), of_axis(axis, 5), 2048, text(name, 256, buf)?)
             }
             AxisWriteByName { channel, axis, name, value } => {
                 (SDA, Write, decoder(channel), of_axis(axis, 6), 0, text_value(name, value, buf)?)
@@ -121,7 +121,7 @@ impl Request<'_> {
                 (SDA, ReadWrite, decoder(channel), of_kind(kind, 0x1B), 96, from_one(index, buf)?)
             }
             DynamicValueByName { channel, kind, name } => {
-                (SDA, ReadWrite, decoder(channel), of_kind(kind, 0x1C), 8, short_text(name, buf)?)
+                (SDA, ReadWrite, decoder(channel), of_kind(kind, 0x1C), 8, text(name, 96, buf)?)
             }
             DynamicValueByIndex { channel, kind, index } => {
                 (SDA, ReadWrite, decoder(channel), of_kind(kind, 0x1D), 8, from_one(index, buf)?)
@@ -155,11 +155,6 @@ impl Request<'_> {
     }
 }
 
-fn room(buf: &mut [u8], len: usize) -> Result<&mut [u8], Fault> {
-    let found = buf.len() as u32;
-    buf.get_mut(..len).ok_or(Fault::BufferTooSmall { expected: len as u32, found })
-}
-
 fn at_most(len: usize, max: usize) -> Result<usize, Fault> {
     match len > max {
         true => Err(Fault::TooLong { max: max as u32, found: len as u32 }),
@@ -176,15 +171,8 @@ fn bytes<'b>(bytes: &[u8], min: usize, max: usize, buf: &'b mut [u8]) -> Result<
     Ok(out)
 }
 
-fn text<'b>(text: &[u8], buf: &'b mut [u8]) -> Result<&'b [u8], Fault> {
-    let out = room(buf, at_most(text.len() + 1, 256)?)?;
-    out[..text.len()].copy_from_slice(text);
-    out[text.len()] = 0;
-    Ok(out)
-}
-
-fn short_text<'b>(text: &[u8], buf: &'b mut [u8]) -> Result<&'b [u8], Fault> {
-    let out = room(buf, at_most(text.len() + 1, 96)?)?;
+fn text<'b>(text: &[u8], max: usize, buf: &'b mut [u8]) -> Result<&'b [u8], Fault> {
+    let out = room(buf, at_most(text.len() + 1, max)?)?;
     out[..text.len()].copy_from_slice(text);
     out[text.len()] = 0;
     Ok(out)
