@@ -44,7 +44,7 @@ fn main() -> Result<()> {
 
     let cnc = Arc::new(Cnc::with_default_model().map_err(|error| error.to_string())?);
     let listener = TcpListener::bind(SocketAddr::from(([127, 0, 0, 1], 0)))?;
-    let server = Server::start(listener, Arc::clone(&cnc))?;
+    let server = Server::start(listener, cnc.clone())?;
     mixed(server.addr(), Duration::from_secs(seconds))?;
     malformed(server.addr(), frames)?;
     streamed(&cnc, server.addr(), megabytes)?;

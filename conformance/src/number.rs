@@ -1,4 +1,4 @@
-//! Converts between lengths and the numbers of the streams, and bytes to a digest.
+//! Converts between lengths and the numbers of the streams, and bytes to a number or a digest.
 
 /// Converts a number to a `u32`; a number that does not fit becomes `u32::MAX`.
 pub fn to_u32(number: impl TryInto<u32>) -> u32 {
@@ -8,6 +8,12 @@ pub fn to_u32(number: impl TryInto<u32>) -> u32 {
 /// Converts a number to a length; a number that does not fit becomes `usize::MAX`.
 pub fn to_usize(number: impl TryInto<usize>) -> usize {
     number.try_into().unwrap_or(usize::MAX)
+}
+
+/// The UNS32 at an offset; `None` if it is not completely within the bytes.
+pub(crate) fn u32_at(bytes: &[u8], offset: usize) -> Option<u32> {
+    let four = bytes.get(offset..)?.first_chunk::<4>()?;
+    Some(u32::from_le_bytes(*four))
 }
 
 const BASIS: u64 = 0xCBF2_9CE4_8422_2325;

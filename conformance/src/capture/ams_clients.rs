@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use ads_cnc::ads::AmsNetId;
 
-use super::frames::{Span, is_reply};
+use super::connection_event::{ConnectionEnd, ConnectionEvent, SegmentDirection, Span};
+use super::frames::is_reply;
 use super::link::AmsFrame;
-use super::table::{CONNECTIONS_MAX, ConnectionEnd, ConnectionEvent, SegmentDirection};
+use super::table::CONNECTIONS_MAX;
 use super::tcp::CapturePosition;
 use crate::number::to_u32;
 

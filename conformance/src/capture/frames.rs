@@ -2,37 +2,13 @@
 
 use std::collections::VecDeque;
 
+use ads_cnc::Decode as _;
 use ads_cnc::ads::{AmsHeader, AmsPort, AmsTcpHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Task;
-use ads_cnc::{Decode as _, Error};
 
+use super::connection_event::{ConnectionEvent, SegmentDirection, Span};
 use super::tcp::CapturePosition;
-
-#[derive(Debug)]
-pub(super) enum FramePiece {
-    /// A whole frame.
-    Frame(Vec<u8>, Span),
-    /// A message between a client and its local router.
-    Router,
-    /// Bytes that are not a frame, although a frame must begin there: at most `SHOWN` bytes.
-    Broken(Error, Vec<u8>, Span),
-    /// The beginning of a frame whose rest was not captured.
-    Cut(Vec<u8>, Span),
-    /// The number of bytes that were skipped to find the next frame.
-    Skipped(usize),
-    /// The beginning of a frame at the end of the connection.
-    Unfinished,
-}
-
-/// The location of a frame in the capture: its first and last packet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Span {
-    pub(super) first: CapturePosition,
-    pub(super) last: CapturePosition,
-    /// Offset of the byte after the frame, from the beginning of its direction of the connection.
-    pub(super) end: u64,
-}
 
 /// The bytes of one direction of a connection that are not yet split into frames.
 #[derive(Debug, Default)]
@@ -61,26 +37,32 @@ impl Frames {
         self.is_lost = true;
     }
 
-    /// Appends bytes and emits the pieces that are now complete.
+    /// Appends bytes and emits the events that are now complete.
     pub(super) fn push(
         &mut self,
         bytes: &[u8],
+        direction: SegmentDirection,
         mark: CapturePosition,
-        out: &mut impl FnMut(FramePiece),
+        out: &mut Vec<ConnectionEvent>,
     ) {
         self.marks.push_back((self.bytes.len(), mark));
         self.bytes.extend_from_slice(bytes);
-        while self.step(out) {}
+        while self.step(direction, out) {}
     }
 
     /// Handles `length` bytes that were not captured: the current frame remains incomplete.
-    pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(FramePiece)) {
+    pub(super) fn gap(
+        &mut self,
+        length: u64,
+        direction: SegmentDirection,
+        out: &mut Vec<ConnectionEvent>,
+    ) {
         let begun = self.bytes.len();
         if begun > 0 {
             if self.is_lost {
                 self.skipped = self.skipped.saturating_add(begun);
             } else if let Some(span) = self.span(begun) {
-                out(FramePiece::Cut(self.bytes.clone(), span));
+                out.push(ConnectionEvent::Cut(self.bytes.clone(), direction, span));
             }
             self.drop(begun);
         }
@@ -89,9 +71,9 @@ impl Frames {
     }
 
     /// Handles the end of the connection.
-    pub(super) fn end(&mut self, out: &mut impl FnMut(FramePiece)) {
+    pub(super) fn end(&mut self, out: &mut Vec<ConnectionEvent>) {
         if !self.is_lost && !self.bytes.is_empty() {
-            out(FramePiece::Unfinished);
+            out.push(ConnectionEvent::Unfinished);
         }
         self.skipped = self.skipped.saturating_add(if self.is_lost { self.bytes.len() } else { 0 });
         self.bytes.clear();
@@ -99,8 +81,9 @@ impl Frames {
         self.emit_skipped(out);
     }
 
-    /// Removes one piece from the buffer and emits it; returns whether another piece may follow.
-    fn step(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
+    /// Removes one frame, or bytes that are not a frame, from the buffer and emits an event; returns
+    /// whether another event may follow.
+    fn step(&mut self, direction: SegmentDirection, out: &mut Vec<ConnectionEvent>) -> bool {
         if self.is_lost {
             return self.find(out);
         }
@@ -110,7 +93,7 @@ impl Frames {
                 return false;
             }
             self.drop(length);
-            out(FramePiece::Router);
+            out.push(ConnectionEvent::Router);
             return true;
         }
         match FrameRef::split(&self.bytes, u32::MAX) {
@@ -119,7 +102,7 @@ impl Frames {
                 if let Some(span) = self.span(length) {
                     let frame = self.bytes.get(..length).unwrap_or_default().to_vec();
                     self.drop(length);
-                    out(FramePiece::Frame(frame, span));
+                    out.push(ConnectionEvent::Frame(frame, direction, span));
                 }
                 true
             }
@@ -127,7 +110,7 @@ impl Frames {
                 let shown = self.bytes.len().min(SHOWN);
                 if let Some(span) = self.span(shown) {
                     let bytes = self.bytes.get(..shown).unwrap_or_default().to_vec();
-                    out(FramePiece::Broken(error, bytes, span));
+                    out.push(ConnectionEvent::Broken(error, bytes, direction, span));
                 }
                 self.skip(1);
                 self.is_lost = true;
@@ -138,7 +121,7 @@ impl Frames {
 
     /// Skips to the next offset at which a frame may begin; returns whether there is such an
     /// offset.
-    fn find(&mut self, out: &mut impl FnMut(FramePiece)) -> bool {
+    fn find(&mut self, out: &mut Vec<ConnectionEvent>) -> bool {
         let last = self.bytes.len().saturating_sub(FrameRef::HEADERS_LEN);
         if self.bytes.len() < FrameRef::HEADERS_LEN {
             return false;
@@ -159,10 +142,10 @@ impl Frames {
         }
     }
 
-    fn emit_skipped(&mut self, out: &mut impl FnMut(FramePiece)) {
+    fn emit_skipped(&mut self, out: &mut Vec<ConnectionEvent>) {
         match std::mem::take(&mut self.skipped) {
             0 => {}
-            skipped => out(FramePiece::Skipped(skipped)),
+            skipped => out.push(ConnectionEvent::Skipped(skipped)),
         }
     }
 
@@ -198,7 +181,7 @@ impl Frames {
     }
 }
 
-/// Maximum number of bytes that are shown if they are not a frame.
+/// Maximum number of bytes of [`ConnectionEvent::Broken`].
 const SHOWN: usize = 64;
 
 /// Length of a message between a client and its local router (open port, close port, router

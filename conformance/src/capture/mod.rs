@@ -24,6 +24,7 @@
 //! ```
 
 mod ams_clients;
+mod connection_event;
 mod endpoint;
 mod file;
 mod frame;
@@ -50,10 +51,11 @@ pub use vectors::{Collector, VECTORS_MAX};
 pub use writer::Capture;
 
 use self::ams_clients::AmsClients;
+use self::connection_event::ConnectionEvent;
 use self::file::Packet;
 use self::judge::TrafficJudge;
 use self::link::PacketContent;
-use self::table::{ConnectionEvent, ConnectionTable};
+use self::table::ConnectionTable;
 use self::tally::{count, count_of};
 use self::tcp::CapturePosition;
 use crate::judge::{CaseOutcome, attribute};

@@ -29,7 +29,7 @@ use pcap_parser::Linktype;
 
 use super::file::{FileEnd, FileError, FullReader, Packet, RECORD_MAX};
 use super::time::Time;
-use crate::number::{to_u32, to_usize};
+use crate::number::{to_u32, to_usize, u32_at};
 use crate::text::{Moment, plural};
 
 pub(super) const MAGIC: [u8; 4] = *b"GMBU";
@@ -239,8 +239,7 @@ fn word(bytes: &[u8], at: usize) -> u16 {
 }
 
 fn long(bytes: &[u8], at: usize) -> u32 {
-    let four = bytes.get(at..).and_then(<[u8]>::first_chunk).copied();
-    u32::from_le_bytes(four.unwrap_or_default())
+    u32_at(bytes, at).unwrap_or_default()
 }
 
 #[cfg(test)]

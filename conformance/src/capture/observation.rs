@@ -3,8 +3,8 @@
 use std::fmt::{self, Display};
 use std::time::Duration;
 
+use super::connection_event::Span;
 use super::endpoint::Endpoint;
-use super::frames::Span;
 use super::time::Time;
 use crate::evidence::Evidence;
 use crate::exchange::Exchange;

@@ -3,12 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use ads_cnc::Error;
-
+use super::connection_event::{ConnectionEnd, ConnectionEvent, SegmentDirection};
 use super::endpoint::Endpoint;
-use super::frames::{FramePiece, Frames, Span};
+use super::frames::Frames;
 use super::link::TcpSegment;
-use super::tcp::{CapturePosition, DirectedSegment, DirectionState, ReassembledPiece};
+use super::tcp::{CapturePosition, DirectionState, ReassembledPiece};
 use crate::number::to_u32;
 
 /// Maximum number of TCP connections, and of conversations without TCP, that are followed at the
@@ -26,47 +25,6 @@ pub enum Ports {
     Of(Vec<u16>),
     /// All connections; those without an AMS frame are only counted.
     Any,
-}
-
-/// A direction of a connection.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SegmentDirection {
-    /// Number of the connection: from 1 for TCP, much larger without TCP.
-    pub(super) connection: u64,
-    pub(super) from: Endpoint,
-    pub(super) to: Endpoint,
-}
-
-#[derive(Debug)]
-pub(super) enum ConnectionEvent {
-    Frame(Vec<u8>, SegmentDirection, Span),
-    Router,
-    Broken(Error, Vec<u8>, SegmentDirection, Span),
-    Cut(Vec<u8>, SegmentDirection, Span),
-    /// Number of bytes that were not captured; 0 if unknown.
-    Gap(u64, SegmentDirection, CapturePosition),
-    /// Number of bytes that were skipped to find the next frame.
-    Skipped(usize),
-    /// The number of a connection whose beginning was not captured.
-    Joined(u64),
-    /// The number of a conversation without TCP. Frames before the start of the capture may be
-    /// missing, but no later ones.
-    Running(u64),
-    /// A frame that was incomplete when the connection or the capture ended.
-    Unfinished,
-    /// The connection has ended.
-    Ended(ConnectionEnd),
-}
-
-/// The end of a connection.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ConnectionEnd {
-    pub(super) connection: u64,
-    /// Number of the last packet of the connection.
-    pub(super) last: u64,
-    /// The direction of which no segment was captured, not even an acknowledgement (without TCP, no
-    /// frame); `None` if the capture contains both directions.
-    pub(super) unseen: Option<SegmentDirection>,
 }
 
 #[derive(Debug)]
@@ -165,6 +123,7 @@ impl ConnectionTable {
         let before = connection.memory_size();
         let events = out.len();
         connection.push(segment, mark, self.ports == Ports::Any, out);
+        connection.is_ams |= out.iter().skip(events).any(is_frame);
         self.buffered =
             self.buffered.saturating_sub(before).saturating_add(connection.memory_size());
         let over = segment.rst || connection.direction_states.iter().all(DirectionState::is_over);
@@ -198,7 +157,7 @@ impl ConnectionTable {
         self.buffered = self.buffered.saturating_sub(connection.memory_size());
         let events = out.len();
         connection.finish(out);
-        if !connection.is_ams {
+        if !connection.is_ams && !out.iter().skip(events).any(is_frame) {
             out.truncate(events);
         }
         for direction_state in &connection.direction_states {
@@ -217,6 +176,10 @@ impl ConnectionTable {
 
 fn key(one: Endpoint, other: Endpoint) -> (Endpoint, Endpoint) {
     if one <= other { (one, other) } else { (other, one) }
+}
+
+const fn is_frame(event: &ConnectionEvent) -> bool {
+    matches!(event, ConnectionEvent::Frame(..))
 }
 
 impl TcpConnection {
@@ -280,15 +243,7 @@ impl TcpConnection {
         }
         let direction =
             SegmentDirection { connection: self.number, from: segment.from, to: segment.to };
-        let part = DirectedSegment {
-            sequence: segment.sequence,
-            syn: segment.syn,
-            payload: segment.payload,
-            missing: segment.missing,
-            mark,
-        };
-        let is_ams = &mut self.is_ams;
-        direction_state.push(part, &mut |piece| feed(frames, piece, direction, is_ams, out));
+        direction_state.push(segment, mark, &mut |piece| feed(frames, piece, direction, out));
         if segment.fin {
             let length = segment.payload.len().saturating_add(segment.missing);
             let length = to_u32(length);
@@ -312,9 +267,8 @@ impl TcpConnection {
             else {
                 continue;
             };
-            let is_ams = &mut self.is_ams;
-            direction_state.flush(&mut |piece| feed(frames, piece, direction, is_ams, out));
-            frames.end(&mut |found| push_event(found, direction, is_ams, out));
+            direction_state.flush(&mut |piece| feed(frames, piece, direction, out));
+            frames.end(out);
         }
         let (connection, last) = (self.number, self.packet);
         let mut directions = [(one, other), (other, one)].into_iter().zip(&self.direction_states);
@@ -328,35 +282,13 @@ fn feed(
     frames: &mut Frames,
     piece: ReassembledPiece<'_>,
     direction: SegmentDirection,
-    is_ams: &mut bool,
     out: &mut Vec<ConnectionEvent>,
 ) {
     match piece {
-        ReassembledPiece::Data(bytes, mark) => {
-            frames.push(bytes, mark, &mut |found| push_event(found, direction, is_ams, out));
-        }
+        ReassembledPiece::Data(bytes, mark) => frames.push(bytes, direction, mark, out),
         ReassembledPiece::Gap(length, mark) => {
-            frames.gap(length, &mut |found| push_event(found, direction, is_ams, out));
+            frames.gap(length, direction, out);
             out.push(ConnectionEvent::Gap(length, direction, mark));
         }
     }
-}
-
-fn push_event(
-    found: FramePiece,
-    direction: SegmentDirection,
-    is_ams: &mut bool,
-    out: &mut Vec<ConnectionEvent>,
-) {
-    *is_ams |= matches!(found, FramePiece::Frame(..));
-    out.push(match found {
-        FramePiece::Frame(frame, span) => ConnectionEvent::Frame(frame, direction, span),
-        FramePiece::Router => ConnectionEvent::Router,
-        FramePiece::Broken(error, bytes, span) => {
-            ConnectionEvent::Broken(error, bytes, direction, span)
-        }
-        FramePiece::Cut(bytes, span) => ConnectionEvent::Cut(bytes, direction, span),
-        FramePiece::Skipped(length) => ConnectionEvent::Skipped(length),
-        FramePiece::Unfinished => ConnectionEvent::Unfinished,
-    });
 }

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::ops::Bound;
 
+use super::link::TcpSegment;
 use super::time::Time;
 use crate::number::to_usize;
 
@@ -42,17 +43,6 @@ pub(super) enum ReassembledPiece<'a> {
     Data(&'a [u8], CapturePosition),
     /// The number of bytes that were not captured; 0 if unknown.
     Gap(u64, CapturePosition),
-}
-
-/// A segment of this direction.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DirectedSegment<'a> {
-    pub(super) sequence: u32,
-    pub(super) syn: bool,
-    pub(super) payload: &'a [u8],
-    /// Number of bytes after the payload that were not captured.
-    pub(super) missing: usize,
-    pub(super) mark: CapturePosition,
 }
 
 /// The state of one direction of a connection.
@@ -150,46 +140,44 @@ impl DirectionState {
         self.buffered.saturating_add(self.ahead.len().saturating_mul(each))
     }
 
-    /// Adds a segment and emits the bytes that are now in order.
+    /// Adds a segment of this direction and emits the bytes that are now in order.
     pub(super) fn push(
         &mut self,
-        part: DirectedSegment<'_>,
+        segment: &TcpSegment<'_>,
+        mark: CapturePosition,
         out: &mut impl FnMut(ReassembledPiece<'_>),
     ) {
         self.seen = true;
-        let sequence = if part.syn { part.sequence.wrapping_add(1) } else { part.sequence };
-        if part.payload.is_empty() && part.missing == 0 {
-            if part.syn {
+        let sequence =
+            if segment.syn { segment.sequence.wrapping_add(1) } else { segment.sequence };
+        if segment.payload.is_empty() && segment.missing == 0 {
+            if segment.syn {
                 self.next.get_or_insert(sequence);
-                self.begin = Some(part.sequence);
+                self.begin = Some(segment.sequence);
             }
             return;
         }
         let next = *self.next.get_or_insert(sequence);
         let (after, before) = (sequence.wrapping_sub(next), next.wrapping_sub(sequence));
         if before == 0 || after == 0 {
-            self.take(part.payload, part.missing, part.mark, out);
+            self.take(segment.payload, segment.missing, mark, out);
         } else if after < WINDOW {
             self.early = self.early.saturating_add(1);
             let offset = self.offset.saturating_add(after.into());
-            self.hold(offset, part);
+            self.hold(offset, segment, mark);
         } else if before < WINDOW {
             self.repeated = self.repeated.saturating_add(1);
             let known = to_usize(before);
-            let fresh = part.payload.get(known..).unwrap_or_default();
-            let missing = match known.checked_sub(part.payload.len()) {
-                Some(more) => part.missing.saturating_sub(more),
-                None => part.missing,
-            };
-            if !fresh.is_empty() || missing > 0 {
-                self.take(fresh, missing, part.mark, out);
-            }
+            let fresh = segment.payload.get(known..).unwrap_or_default();
+            let missing =
+                segment.missing.saturating_sub(known.saturating_sub(segment.payload.len()));
+            self.take(fresh, missing, mark, out);
         } else {
             // The distance is too large for this connection: the waiting segments will never match.
             self.flush(out);
-            out(ReassembledPiece::Gap(0, part.mark));
+            out(ReassembledPiece::Gap(0, mark));
             self.next = Some(sequence);
-            self.take(part.payload, part.missing, part.mark, out);
+            self.take(segment.payload, segment.missing, mark, out);
         }
         self.follow(out);
         if !self.ahead.is_empty() {
@@ -255,14 +243,14 @@ impl DirectionState {
         self.next = self.next.map(|next| next.wrapping_add(low));
     }
 
-    fn hold(&mut self, offset: u64, part: DirectedSegment<'_>) {
+    fn hold(&mut self, offset: u64, segment: &TcpSegment<'_>, mark: CapturePosition) {
         let known = self.ahead.get(&offset).map_or(0, |early| early.bytes.len());
-        if self.ahead.contains_key(&offset) && known >= part.payload.len() {
+        if self.ahead.contains_key(&offset) && known >= segment.payload.len() {
             return;
         }
-        let bytes = part.payload.to_vec();
+        let bytes = segment.payload.to_vec();
         self.buffered = self.buffered.saturating_sub(known).saturating_add(bytes.len());
-        self.ahead.insert(offset, EarlySegment { bytes, missing: part.missing, mark: part.mark });
+        self.ahead.insert(offset, EarlySegment { bytes, missing: segment.missing, mark });
     }
 
     /// Emits waiting segments that are now in order.
@@ -273,10 +261,7 @@ impl DirectionState {
             self.buffered = self.buffered.saturating_sub(early.bytes.len());
             let overlap = to_usize(overlap);
             let fresh = early.bytes.get(overlap..).unwrap_or_default();
-            let missing = match overlap.checked_sub(early.bytes.len()) {
-                Some(more) => early.missing.saturating_sub(more),
-                None => early.missing,
-            };
+            let missing = early.missing.saturating_sub(overlap.saturating_sub(early.bytes.len()));
             self.take(fresh, missing, early.mark, out);
             self.waiting = 0;
         }

@@ -1,13 +1,13 @@
 //! `ads-cnc browse`: lists the objects and elements of a CNC, or its variables and parameters.
 
-use std::io::{self, BufWriter, Write as _};
+use std::io;
 
 use ads_cnc::address::Channel;
 use clap::{Args, ValueEnum};
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name_args::{no_channel, written};
+use super::name_args::{no_channel, print};
 use super::progress::ProgressLine;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::exit::Exit;
@@ -182,10 +182,9 @@ impl Browse {
         found: &WalkResult,
         contents: Option<&[ReadContent]>,
     ) -> Result<(), ToolError> {
-        let mut out = BufWriter::new(io::stdout().lock());
         let (mut omitted, mut width) = (Vec::new(), None);
         let format = if self.json { BrowseFormat::Json } else { self.format };
-        let shown = match format {
+        print(|mut out| match format {
             BrowseFormat::Json => {
                 let objects =
                     found.objects.iter().enumerate().map(|(place, object)| {
@@ -196,7 +195,7 @@ impl Browse {
                     });
                 let (objects, notes) = (objects.collect(), found.notes.clone());
                 let report = ObjectsReport::new(session, objects, notes);
-                json::write(&report, &mut out)
+                json::write(&report, out)
             }
             format => {
                 let columns = columns(self.variables);
@@ -218,8 +217,7 @@ impl Browse {
                     }
                 }
             }
-        };
-        written(shown.and_then(|()| out.flush()))?;
+        })?;
         if let Some(width) = width.filter(|_| !omitted.is_empty()) {
             print_error(format_args!(
                 "columns that do not fit the terminal of {width} characters are omitted: {}; \

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::display::DisplayArgs;
-use super::message::print_error;
+use super::message::{exit_with_error, print_error};
 use super::numbers::whole;
 use super::progress::Watch;
 use super::report_output::Reports;
@@ -139,18 +139,17 @@ impl Read for CountedRead {
 impl CheckArgs {
     /// Reads and judges the file and writes the reports.
     pub(super) fn execute(&self) -> Exit {
-        let usage = |why: String| {
-            print_error(why);
-            Exit::Usage
-        };
         let waivers = match self.reports.waivers() {
             Ok(waivers) => waivers,
-            Err(why) => return usage(why),
+            Err(why) => return exit_with_error(Exit::Usage, why),
         };
         let mut notes = Vec::new();
         let mut checked = match self.read(&mut notes) {
             Ok(checked) => checked,
-            Err(why) => return usage(format!("{}: {why}", self.file.display())),
+            Err(why) => {
+                let why = format_args!("{}: {why}", self.file.display());
+                return exit_with_error(Exit::Usage, why);
+            }
         };
         if checked.tally.is_of_suite() && !self.own_requests {
             notes.push(
@@ -167,10 +166,7 @@ impl CheckArgs {
             checked.outcomes.iter().map(|outcome| outcome.case.clone()).collect();
         let plan = match selection.plan(cases, 0) {
             Ok(plan) => plan,
-            Err(why) => {
-                print_error(why);
-                return Exit::Usage;
-            }
+            Err(why) => return exit_with_error(Exit::Usage, why),
         };
         let selected: Vec<String> = plan.selected().map(|case| case.id.clone()).collect();
         let mut outcomes = checked.outcomes.clone();
@@ -201,8 +197,8 @@ impl CheckArgs {
         let extracted = match self.extract(&checked) {
             Ok(extracted) => extracted,
             Err(error) => {
-                print_error(format_args!("the vectors could not be written: {error}"));
-                return Exit::Usage;
+                let why = format_args!("the vectors could not be written: {error}");
+                return exit_with_error(Exit::Usage, why);
             }
         };
         self.write(&report, &checked, &extracted)

@@ -1,11 +1,9 @@
 //! `ads-cnc completions`: completion scripts for shells.
 
-use std::io::{self, Write as _};
-
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use super::message::print_error;
+use super::report_output::{lost, show};
 use crate::exit::Exit;
 
 /// Print a script that completes the command line in a shell
@@ -31,13 +29,6 @@ impl Completions {
     pub(super) fn execute(&self, mut command: Command) -> Exit {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut command, "ads-cnc", &mut script);
-        let mut out = io::stdout().lock();
-        match out.write_all(&script).and_then(|()| out.flush()) {
-            Ok(()) => Exit::Success,
-            Err(error) => {
-                print_error(format_args!("cannot write the script: {error}"));
-                Exit::Internal
-            }
-        }
+        show(|out| out.write_all(&script)).map_or_else(lost, |()| Exit::Success)
     }
 }

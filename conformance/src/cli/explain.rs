@@ -1,7 +1,7 @@
 //! `ads-cnc explain`: shows bytes field by field.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Read, Write as _};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -9,15 +9,17 @@ use ads_cnc::ads::AmsPort;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::AdsService;
 use ads_cnc::value::DataType;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::check::compressed;
 use super::display::Color;
-use super::message::print_error;
+use super::message::{exit_with_error, print_error};
 use super::name_args::number;
+use super::report_output::{lost, show};
 use crate::exit::Exit;
 use crate::explain::{
-    ExplainQuery, ExplainSubject, Paint, ServiceAddress, ValueFormat, candidates, explain,
+    ExplainQuery, ExplainSubject, Explanation, ServiceAddress, ValueFormat, candidates, explain,
     looks_like_frame, parse_hex, print, type_by_name,
 };
 use crate::text::did_you_mean;
@@ -62,8 +64,8 @@ pub(super) struct Explain {
     offset: Option<u32>,
 
     /// ADS service [default: the service of the function at this address]
-    #[arg(long, value_name = "SERVICE", requires = "group")]
-    service: Option<ServiceName>,
+    #[arg(long, value_name = "SERVICE", requires = "group", value_parser = service())]
+    service: Option<AdsService>,
 
     /// AMS port: 551 GEO, 552 SDA, 553 COM
     #[arg(long, requires = "group")]
@@ -109,11 +111,13 @@ command explains the address. An empty argument (\"\") means empty data.
 Exit codes: 0 explained; 1 the bytes are invalid; 2 wrong usage; 3 the address is unknown;
 70 internal error.";
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ServiceName {
-    Read,
-    Write,
-    ReadWrite,
+/// Parses the name of a service.
+fn service() -> impl TypedValueParser<Value = AdsService> {
+    PossibleValuesParser::new(["read", "write", "read-write"]).map(|name| match name.as_str() {
+        "read" => AdsService::Read,
+        "write" => AdsService::Write,
+        _ => AdsService::ReadWrite,
+    })
 }
 
 /// Whether the bytes begin like a pcap, pcapng or NetMon file.
@@ -157,33 +161,33 @@ fn meant_as_hex(group: u32) -> Option<IndexGroup> {
 impl Explain {
     /// Explains the bytes, or lists the streams, and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
-        let done = if self.list { self.list() } else { self.run() };
-        done.unwrap_or_else(|(exit, why)| {
-            print_error(why);
-            exit
-        })
-    }
-
-    fn run(&self) -> Result<Exit, (Exit, String)> {
-        let usage = |why: String| (Exit::Usage, why);
-        let given = self.bytes().map_err(usage)?;
-        let values = ValueFormat { ty: self.ty, dimensions: self.dimensions.clone() };
-        let question =
-            ExplainQuery { subject: self.subject(given.as_deref()).map_err(usage)?, values };
-        let explanation = explain(&question, &given.unwrap_or_default());
-        let mut out = BufWriter::new(io::stdout().lock());
-        let shown = if self.json {
-            crate::text::json::write(&explanation, &mut out)
-        } else {
-            print(&explanation, self.paint(), &mut out)
+        if self.list {
+            return show(list).map_or_else(lost, |()| Exit::Success);
+        }
+        let explanation = match self.explanation() {
+            Ok(explanation) => explanation,
+            Err(why) => return exit_with_error(Exit::Usage, why),
         };
-        written(shown.and_then(|()| out.flush()))?;
+        let shown = show(|out| match self.json {
+            true => crate::text::json::write(&explanation, out),
+            false => print(&explanation, self.color.is_on(), out),
+        });
+        if let Err(error) = shown {
+            return lost(error);
+        }
         if let Some(group) = self.group.and_then(meant_as_hex) {
             print_error(format_args!(
                 "did you mean --group {group}? Without 0x a number is decimal"
             ));
         }
-        Ok(explanation.outcome.exit())
+        explanation.outcome.exit()
+    }
+
+    fn explanation(&self) -> Result<Explanation, String> {
+        let given = self.bytes()?;
+        let values = ValueFormat { ty: self.ty, dimensions: self.dimensions.clone() };
+        let question = ExplainQuery { subject: self.subject(given.as_deref())?, values };
+        Ok(explain(&question, &given.unwrap_or_default()))
     }
 
     fn subject(&self, bytes: Option<&[u8]>) -> Result<ExplainSubject, String> {
@@ -203,7 +207,7 @@ impl Explain {
         }
         let ads_address = self.group.zip(self.offset).map(|(group, offset)| ServiceAddress {
             port: self.port.map(AmsPort),
-            service: self.service.map(AdsService::from),
+            service: self.service,
             group: IndexGroup::new(group),
             offset: IndexOffset::new(offset),
             reply: self.reply,
@@ -260,30 +264,14 @@ impl Explain {
             _ => error.to_string(),
         })
     }
-
-    fn paint(&self) -> Paint {
-        if self.color.is_on() { Paint::Colour } else { Paint::Plain }
-    }
-
-    fn list(&self) -> Result<Exit, (Exit, String)> {
-        let mut out = BufWriter::new(io::stdout().lock());
-        let shown = Stream::all().map(Stream::layout).try_for_each(|layout| {
-            let (name, title, clause) = (layout.name, layout.title, layout.clause);
-            writeln!(out, "{name:<30}  {clause:<6}  {:>8}  {title}", layout.max)
-        });
-        written(shown.and_then(|()| out.flush()))?;
-        Ok(Exit::Success)
-    }
 }
 
-impl From<ServiceName> for AdsService {
-    fn from(name: ServiceName) -> Self {
-        match name {
-            ServiceName::Read => Self::Read,
-            ServiceName::Write => Self::Write,
-            ServiceName::ReadWrite => Self::ReadWrite,
-        }
-    }
+/// Lists the streams.
+fn list(out: &mut dyn Write) -> io::Result<()> {
+    Stream::all().map(Stream::layout).try_for_each(|layout| {
+        let (name, title, clause) = (layout.name, layout.title, layout.clause);
+        writeln!(out, "{name:<30}  {clause:<6}  {:>8}  {title}", layout.max)
+    })
 }
 
 const EXPLAIN_HELP: &str = "\
@@ -321,16 +309,5 @@ fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
     match u64::try_from(bytes.len()) {
         Ok(length) if length <= INPUT_MAX => Ok(bytes),
         _ => Err(format!("{name} has more than {INPUT_MAX} bytes")),
-    }
-}
-
-/// Adds the exit code and a message to a write error. A broken pipe is not an error: its reader
-/// wants no more output.
-fn written(result: io::Result<()>) -> Result<(), (Exit, String)> {
-    match result {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err((Exit::Internal, format!("cannot write the explanation: {error}")))
-        }
-        _ => Ok(()),
     }
 }

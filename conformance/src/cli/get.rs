@@ -1,12 +1,10 @@
 //! `ads-cnc get`: reads a value by its name.
 
-use std::io::{self, BufWriter, Write};
-
 use clap::Args;
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name_args::{NameArgs, headline, written};
+use super::name_args::{NameArgs, headline, print};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use crate::exit::Exit;
 use crate::named::find;
@@ -74,21 +72,23 @@ impl Get {
         let mut object = find(&mut session, &self.name.question())?;
         let bytes = session.read(&object.address)?;
         object.ty = object.ty.fitted(to_u32(bytes.len()));
-        let mut out = BufWriter::new(io::stdout().lock());
-        let shown = if self.json {
-            let one = ObjectReport::read(&object, &Ok(bytes.clone()));
-            let report = ObjectsReport::new(&session, vec![one], Vec::new());
-            json::write(&report, &mut out)
-        } else if self.hex {
-            writeln!(out, "{}", hex::spaced(&bytes))
-        } else if self.plain {
-            let value = plain(&object.ty, &bytes);
-            value.map_or(Ok(()), |value| writeln!(out, "{value}"))
-        } else {
-            let shown = lines(&object.ty, &bytes).unwrap_or_else(|| hex::dump(&bytes));
-            writeln!(out, "{}", headline(&object)).and_then(|()| show(&shown, "  ", &mut out))
-        };
-        written(shown.and_then(|()| out.flush()))?;
+        print(|out| {
+            if self.json {
+                let one = ObjectReport::read(&object, &Ok(bytes.clone()));
+                let report = ObjectsReport::new(&session, vec![one], Vec::new());
+                return json::write(&report, out);
+            }
+            if self.hex {
+                return writeln!(out, "{}", hex::spaced(&bytes));
+            }
+            if self.plain {
+                let value = plain(&object.ty, &bytes);
+                return value.map_or(Ok(()), |value| writeln!(out, "{value}"));
+            }
+            writeln!(out, "{}", headline(&object))?;
+            let lines = lines(&object.ty, &bytes).unwrap_or_else(|| hex::dump(&bytes));
+            lines.iter().try_for_each(|line| writeln!(out, "  {line}"))
+        })?;
         Ok(self.judge(&object, &bytes))
     }
 
@@ -116,8 +116,4 @@ impl Get {
             }
         }
     }
-}
-
-fn show(lines: &[String], indent: &str, out: &mut impl Write) -> io::Result<()> {
-    lines.iter().try_for_each(|line| writeln!(out, "{indent}{line}"))
 }

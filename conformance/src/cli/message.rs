@@ -1,7 +1,6 @@
 //! Messages on stderr.
 
 use std::io::Write as _;
-use std::process::ExitCode;
 
 use crate::exit::Exit;
 
@@ -14,7 +13,7 @@ pub(super) fn print_error(why: impl std::fmt::Display) {
 }
 
 /// Writes an error to stderr and returns the exit code.
-pub(super) fn exit_with_error(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
+pub(super) fn exit_with_error(exit: Exit, why: impl std::fmt::Display) -> Exit {
     print_error(why);
-    exit.into()
+    exit
 }

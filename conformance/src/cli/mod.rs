@@ -38,6 +38,9 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use tracing::Level;
+use tracing_subscriber::filter::Targets;
+
 use crate::exit::Exit;
 use crate::text::nearest;
 
@@ -46,8 +49,9 @@ use crate::text::nearest;
 #[command(name = "ads-cnc", version)]
 struct Cli {
     /// Log to stderr: a level (error, warn, info, debug, trace), or a list of module=level
-    #[arg(long, hide_short_help = true, global = true, value_name = "LEVEL|FILTER")]
-    log: Option<log::Filter>,
+    #[arg(long, hide_short_help = true, global = true, value_name = "LEVEL|FILTER",
+        value_parser = log::filter)]
+    log: Option<Targets>,
 
     /// `run` if none is specified.
     #[command(subcommand)]
@@ -104,16 +108,6 @@ fn command() -> clap::Command {
     command.help_template(template)
 }
 
-impl Subcommands {
-    /// The log filter of the command if --log is not given; `None` for no log.
-    fn log(&self) -> Option<log::Filter> {
-        match self {
-            Self::Serve(_) => "info".parse().ok(),
-            _ => None,
-        }
-    }
-}
-
 /// Runs the tool with the arguments of the process.
 pub fn main() -> ExitCode {
     let parsed = command().try_get_matches().and_then(|found| Cli::from_arg_matches(&found));
@@ -167,7 +161,9 @@ fn add(error: &mut clap::Error, kind: ContextKind, names: Vec<&str>) {
 
 impl Cli {
     fn run(self) -> ExitCode {
-        if let Some(filter) = self.log.or_else(|| self.command.as_ref()?.log()) {
+        let is_serve = matches!(self.command, Some(Subcommands::Serve(_)));
+        let default = is_serve.then(|| Targets::new().with_default(Level::INFO));
+        if let Some(filter) = self.log.or(default) {
             log::to_stderr(filter);
         }
         match self.command {
@@ -189,7 +185,7 @@ impl Cli {
             Some(Subcommands::Testee(testee)) => testee.execute().into(),
             Some(Subcommands::Selftest(selftest)) => selftest.execute().into(),
             Some(Subcommands::Client(client)) => client.execute().into(),
-            Some(Subcommands::Serve(args)) => serve::serve(&args),
+            Some(Subcommands::Serve(args)) => serve::serve(&args).into(),
             // `run` with its default options, which judge the codec and the simulated CNC.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }

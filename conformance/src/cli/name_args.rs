@@ -1,7 +1,7 @@
 //! Options of the commands that take a name (`get` and `set`), and functions that other commands
 //! use too.
 
-use std::io;
+use std::io::{self, Write};
 use std::time::Duration;
 
 use ads_cnc::address::{Channel, ChannelAxis};
@@ -10,6 +10,7 @@ use ads_cnc::value::DataType;
 use clap::Args;
 
 use super::model::ModelArgs;
+use super::report_output::{not_written, show};
 use super::target::{ChannelArgs, TargetArgs};
 use crate::deadline::Deadline;
 use crate::named::{Lookup, by_name_alone};
@@ -238,15 +239,9 @@ fn axis(text: &str) -> Result<ChannelAxis, String> {
     ChannelAxis::new(place).map_err(|error| error.to_string())
 }
 
-/// Converts a write error to [`ToolError::Internal`]. A broken pipe is not an error: its reader
-/// wants no more output.
-pub(super) fn written(result: io::Result<()>) -> Result<(), ToolError> {
-    match result {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(ToolError::Internal(format!("cannot write the output: {error}")))
-        }
-        _ => Ok(()),
-    }
+/// Writes to stdout; a broken pipe is not an error.
+pub(super) fn print(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), ToolError> {
+    show(make).map_err(|error| ToolError::Internal(not_written(error)))
 }
 
 /// Parses a number of 32 bits, decimal or in hex with 0x.

@@ -22,12 +22,14 @@ pub(super) const WIDTH: usize = 76;
 pub(super) struct ProgressLine {
     pub(super) live: bool,
     last: Instant,
-    width: usize,
 }
+
+/// Number of characters of the line that is shown on the terminal.
+static SHOWN: AtomicUsize = AtomicUsize::new(0);
 
 impl ProgressLine {
     pub(super) fn new() -> Self {
-        Self { live: io::stderr().is_terminal(), last: Instant::now(), width: 0 }
+        Self { live: io::stderr().is_terminal(), last: Instant::now() }
     }
 
     /// Shows a text on a terminal, unless the line was created or updated within the last
@@ -49,11 +51,11 @@ impl ProgressLine {
         let line = self.fitted(text);
         // A run must not fail because its progress cannot be shown.
         let _unseen = if self.live {
-            write!(io::stderr(), "\r{line:<0$}", self.width)
+            let width = SHOWN.swap(line.chars().count(), Ordering::Relaxed);
+            write!(io::stderr(), "\r{line:<width$}")
         } else {
             writeln!(io::stderr(), "{line}")
         };
-        self.width = line.chars().count();
     }
 
     /// The first [`WIDTH`] characters of a text on a terminal, otherwise the whole text.
@@ -61,26 +63,15 @@ impl ProgressLine {
         let most = if self.live { WIDTH } else { usize::MAX };
         text.chars().take(most).collect()
     }
-
-    /// Clears the line of a terminal.
-    pub(super) fn clear(&mut self) {
-        if self.live && self.width > 0 {
-            self.show("");
-            let _unseen = write!(io::stderr(), "\r");
-        }
-    }
 }
 
 impl Drop for ProgressLine {
     fn drop(&mut self) {
-        self.clear();
+        clear();
     }
 }
 
-/// Number of characters that [`Watch`] has written to the last line of the terminal.
-static SHOWN: AtomicUsize = AtomicUsize::new(0);
-
-/// Clears the line of [`Watch`].
+/// Clears the line of the terminal.
 pub(super) fn clear() {
     let width = SHOWN.swap(0, Ordering::Relaxed);
     if width > 0 {
@@ -104,25 +95,17 @@ pub(super) struct Watch {
 impl Watch {
     /// Starts the thread that shows the progress; `unit` names the counted steps, as in "cases".
     pub(super) fn start(unit: &'static str) -> Self {
-        let live = io::stderr().is_terminal();
         let (stop, stopped) = mpsc::channel();
         let shows = move || {
-            let begin = Instant::now();
-            let (first, later) =
-                if live { (SHORT_RUN, UPDATE_INTERVAL) } else { (LOG_INTERVAL, LOG_INTERVAL) };
-            let mut wait = first;
+            let (mut line, begin) = (ProgressLine::new(), Instant::now());
+            let (mut wait, later) = match line.live {
+                true => (SHORT_RUN, UPDATE_INTERVAL),
+                false => (LOG_INTERVAL, LOG_INTERVAL),
+            };
             while stopped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
                 wait = later;
-                let text = progress_text(counts(), unit, begin.elapsed());
-                if live {
-                    let text: String = text.chars().take(WIDTH).collect();
-                    let width = SHOWN.swap(text.chars().count(), Ordering::Relaxed);
-                    let _unseen = write!(io::stderr(), "\r{text:<width$}");
-                } else {
-                    let _unseen = writeln!(io::stderr(), "{text}");
-                }
+                line.show(&progress_text(counts(), unit, begin.elapsed()));
             }
-            clear();
         };
         // A run must not fail because its progress cannot be shown.
         let thread = thread::Builder::new().name("progress".to_owned()).spawn(shows).ok();

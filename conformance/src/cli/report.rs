@@ -5,7 +5,7 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::display::DisplayArgs;
-use super::message::print_error;
+use super::message::exit_with_error;
 use super::report_output::{ReportFormats, is_stdout, lost, show, write};
 use crate::exit::Exit;
 use crate::report::{self, Report};
@@ -49,10 +49,7 @@ impl ReportArgs {
         });
         let (report, before) = match files {
             Ok(files) => files,
-            Err(why) => {
-                print_error(why);
-                return Exit::Usage;
-            }
+            Err(why) => return exit_with_error(Exit::Usage, why),
         };
         let mut exit = Exit::Success;
         let statement = self.statement.as_deref().map_or(Ok(()), |file| {

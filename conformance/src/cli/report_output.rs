@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::message::print_error;
+use super::message::{exit_with_error, print_error};
 use crate::client_suite;
 use crate::exit::Exit;
 use crate::judge::Waivers;
 use crate::matrix;
 use crate::report::{self, Report};
-use crate::text::{did_you_mean, utf8};
+use crate::text::{FileError, did_you_mean};
 
 /// The heading of these options in the help.
 pub(super) const HEADING: &str = "Reports";
@@ -192,16 +192,19 @@ pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::R
     })
 }
 
-/// Prints that a report cannot be written, and returns the exit code of an internal error.
+/// Prints that the output cannot be written, and returns the exit code of an internal error.
 pub(super) fn lost(error: io::Error) -> Exit {
-    print_error(format_args!("cannot write the report: {error}"));
-    Exit::Internal
+    exit_with_error(Exit::Internal, not_written(error))
+}
+
+/// The message for output that cannot be written.
+pub(super) fn not_written(error: io::Error) -> String {
+    format!("cannot write the output: {error}")
 }
 
 fn waivers(file: &Path) -> Result<Waivers, String> {
-    let bytes = fs::read(file).map_err(|error| error.to_string());
-    let text = bytes.and_then(utf8).map_err(|why| format!("{}: {why}", file.display()))?;
-    let waivers = Waivers::from_toml(&text).map_err(|error| error.in_file(file).to_string())?;
+    let waivers = FileError::parse(file, fs::read(file), Waivers::from_toml)
+        .map_err(|error| error.to_string())?;
     if waivers.is_empty() {
         let file = file.display();
         print_error(format_args!(

@@ -1,13 +1,12 @@
 //! `ads-cnc requirements`: prints requirements with the vectors, cases, tests and fuzz targets that
 //! verify them, and errata.
 
-use std::io::{self, Write as _};
-
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::{Erratum, erratum};
 
-use super::message::print_error;
+use super::message::{exit_with_error, print_error};
+use super::report_output::{lost, show};
 use crate::exit::Exit;
 use crate::judge::{clauses_of, matches, names, sections};
 use crate::matrix::{self, RequirementRow};
@@ -50,8 +49,8 @@ impl Requirements {
         let errata: Vec<&Erratum> =
             self.words().filter_map(|word| erratum(&word.to_ascii_uppercase())).collect();
         if !errata.is_empty() && !matches!(self.format, RequirementsFormat::Text) {
-            print_error("an erratum is printed only with --format text");
-            return Exit::Usage;
+            let why = "an erratum is printed only with --format text";
+            return exit_with_error(Exit::Usage, why);
         }
         let is_known = |word: &str| {
             errata.iter().any(|one| one.id.eq_ignore_ascii_case(word))
@@ -75,19 +74,8 @@ impl Requirements {
             RequirementsFormat::Sections => Ok(matrix::to_sections(&rows)),
             RequirementsFormat::Json => serde_json::to_string_pretty(&rows).map(|json| json + "\n"),
         };
-        let printed = text.map_err(io::Error::from).and_then(|text| {
-            let mut out = io::stdout().lock();
-            out.write_all(text.as_bytes()).and_then(|()| out.flush())
-        });
-        match printed {
-            Ok(()) => Exit::Success,
-            // The reader of the pipe wants no more output.
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
-            Err(error) => {
-                print_error(format_args!("cannot write the requirements: {error}"));
-                Exit::Internal
-            }
-        }
+        let shown = show(|out| out.write_all(text?.as_bytes()));
+        shown.map_or_else(lost, |()| Exit::Success)
     }
 
     fn words(&self) -> impl Iterator<Item = &String> {

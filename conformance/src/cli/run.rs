@@ -18,11 +18,11 @@ use clap::builder::NonEmptyStringValueParser;
 
 use super::display::DisplayArgs;
 use super::list;
-use super::message::print_error;
+use super::message::{exit_with_error, print_error};
 use super::numbers::whole;
 use super::progress::Watch;
 use super::repeat_command::again;
-use super::report_output::{Reports, WAIVER, show, write};
+use super::report_output::{Reports, WAIVER, lost, show, write};
 use super::run_client::ClientArgs;
 use super::run_testee;
 use super::serve::find_defect;
@@ -231,16 +231,13 @@ impl Run {
             let text = if self.target.is_device() {
                 match self.profile_of_device() {
                     Ok(text) => text,
-                    Err(error) => {
-                        print_error(&error);
-                        return error.exit();
-                    }
+                    Err(error) => return exit_with_error(error.exit(), error),
                 }
             } else {
                 profile::EXAMPLE.to_owned()
             };
             let printed = show(|out| out.write_all(text.as_bytes()));
-            return printed.map_or_else(super::report_output::lost, |()| Exit::Success);
+            return printed.map_or_else(lost, |()| Exit::Success);
         }
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
             // An invalid file for --allow-write is an error even without a target.
@@ -256,22 +253,18 @@ impl Run {
         });
         let (defect, waivers, profile) = match checked {
             Ok(checked) => checked,
-            Err(why) => {
-                print_error(why);
-                return Exit::Usage;
-            }
+            Err(why) => return exit_with_error(Exit::Usage, why),
         };
         if let (Some(command), true) = (&self.testee, self.check_protocol) {
             if let Err(error) = Interrupt::catch() {
-                print_error(ToolError::uncaught(&error));
-                return Exit::Internal;
+                return exit_with_error(Exit::Internal, ToolError::uncaught(&error));
             }
             let mut exit = Exit::Success;
             let checked = show(|out| {
                 exit = run_testee::check(command, self.target.timeout(), out)?;
                 Ok(())
             });
-            return checked.map_or_else(super::report_output::lost, |()| exit);
+            return checked.map_or_else(lost, |()| exit);
         }
         let seed = self.seed.unwrap_or_else(any_seed);
         if self.list {
@@ -307,10 +300,7 @@ impl Run {
         let last_words = move || print_left_changed(&last).then_some(Exit::UnrestoredValue);
         let interrupt = match Interrupt::catch_with(first_words, last_words) {
             Ok(interrupt) => interrupt,
-            Err(error) => {
-                print_error(ToolError::uncaught(&error));
-                return Exit::Internal;
-            }
+            Err(error) => return exit_with_error(Exit::Internal, ToolError::uncaught(&error)),
         };
         // A run that waits for a client prints no time limit: apart from messages about its
         // options, the first line on stderr must contain the address on which it waits.
@@ -330,10 +320,7 @@ impl Run {
         }
         match report {
             Ok(report) => self.write(&report),
-            Err(Stopped::Usage(why)) => {
-                print_error(why);
-                Exit::Usage
-            }
+            Err(Stopped::Usage(why)) => exit_with_error(Exit::Usage, why),
             Err(Stopped::Target(error)) => {
                 print_error(&error);
                 // The report of an earlier run could be mistaken for the report of this run.
@@ -342,10 +329,7 @@ impl Run {
                 }
                 error.exit()
             }
-            Err(Stopped::Unmatched(why)) => {
-                print_error(why);
-                Exit::Usage
-            }
+            Err(Stopped::Unmatched(why)) => exit_with_error(Exit::Usage, why),
         }
     }
 
@@ -411,10 +395,7 @@ impl Run {
     fn list(&self, seed: u32, profile: &Profile) -> Exit {
         let plan = match self.plan(seed) {
             Ok(plan) => plan,
-            Err(why) => {
-                print_error(why);
-                return Exit::Usage;
-            }
+            Err(why) => return exit_with_error(Exit::Usage, why),
         };
         // Without --target, no gate is needed: every write to the simulated CNC of this process is
         // allowed.
@@ -424,10 +405,7 @@ impl Run {
             .then(|| self.target.clone().with_malformed(self.malformed).gate());
         let gate = match gate.transpose() {
             Ok(gate) => gate,
-            Err(error) => {
-                print_error(&error);
-                return error.exit();
-            }
+            Err(error) => return exit_with_error(error.exit(), error),
         };
         let unmet = |needs: Needs| {
             let unmet = needs.unmet(gate.as_ref()?, profile);
@@ -442,7 +420,7 @@ impl Run {
             Some(file) => write(file, |out| list::to_json(&listed, out)),
             None => show(|out| list::to_text(&listed, out)),
         };
-        written.map_or_else(super::report_output::lost, |()| Exit::Success)
+        written.map_or_else(lost, |()| Exit::Success)
     }
 
     fn of_client(

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::message::print_error;
+use super::message::{exit_with_error, print_error};
 use super::numbers::whole;
 use super::progress::{LOG_INTERVAL, ProgressLine, UPDATE_INTERVAL, progress_text};
 use super::report_output::{is_stdout, lost, show, write};
@@ -86,15 +86,15 @@ impl SelfTestArgs {
             Scope::Sample(seed)
         };
         let test = selftest::run(&self.only, scope, tell);
-        lock(&shown).0.clear();
+        drop(shown);
         if let Some(folder) = &self.renew {
             let table = &test.detection.table;
             let files = [("detection.tsv", table.to_text()), ("detection.md", table.to_markdown())];
             for (name, text) in files {
                 let file = folder.join(name);
                 if let Err(error) = std::fs::write(&file, text) {
-                    print_error(format_args!("{}: {error}", file.display()));
-                    return Exit::Internal;
+                    let why = format_args!("{}: {error}", file.display());
+                    return exit_with_error(Exit::Internal, why);
                 }
             }
         }

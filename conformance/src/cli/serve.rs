@@ -2,7 +2,6 @@
 
 use std::io::{self, Write as _};
 use std::net::SocketAddr;
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -12,6 +11,7 @@ use super::executed::{self, ExecutedTo};
 use super::message::{exit_with_error, print_error};
 use super::model::ModelArgs;
 use super::numbers::whole;
+use super::report_output::{lost, show};
 use super::target::net_id;
 use crate::exit::Exit;
 use crate::faults::{self, Faulty, SeededDefect};
@@ -101,12 +101,13 @@ pub(super) struct ServeArgs {
     list_defects: Option<String>,
 }
 
-pub(super) fn serve(args: &ServeArgs) -> ExitCode {
+pub(super) fn serve(args: &ServeArgs) -> Exit {
     if let Some(part) = &args.list_defects {
         return list_defects(part);
     }
     if args.print_model {
-        return print_model();
+        let shown = show(|out| out.write_all(DEFAULT_MODEL.as_bytes()));
+        return shown.map_or_else(lost, |()| Exit::Success);
     }
     if let Err(why) = check_address(args.listen, args.allow_remote) {
         return exit_with_error(Exit::Usage, why);
@@ -157,7 +158,7 @@ pub(super) fn serve(args: &ServeArgs) -> ExitCode {
     drop(server);
     executed::log(&cnc);
     match executed.into_iter().try_for_each(|one| one.write(&cnc)) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => Exit::Success,
         Err(why) => exit_with_error(Exit::Internal, why),
     }
 }
@@ -196,7 +197,7 @@ pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), 
 
 fn start(addr: SocketAddr, cnc: Faulty, options: ServerOptions) -> Result<Server, String> {
     let listener = net::listen(addr).map_err(|error| cannot_listen("--listen", addr, &error))?;
-    let server = Server::with_options(listener, cnc, options);
+    let server = Server::with_options(listener, Arc::new(cnc), options);
     server.map_err(|error| format!("cannot serve on {addr}: {error}"))
 }
 
@@ -233,18 +234,7 @@ fn programs(cnc: &Cnc, args: &ServeArgs) -> Result<(), Box<dyn std::error::Error
     Ok(())
 }
 
-fn print_model() -> ExitCode {
-    let mut out = io::stdout().lock();
-    match out.write_all(DEFAULT_MODEL.as_bytes()).and_then(|()| out.flush()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            exit_with_error(Exit::Internal, format_args!("cannot write the model: {error}"))
-        }
-    }
-}
-
-fn list_defects(part: &str) -> ExitCode {
-    let mut out = io::stdout().lock();
+fn list_defects(part: &str) -> Exit {
     let fits = |defect: &&SeededDefect| {
         defect.id.contains(part)
             || defect.requirements.iter().any(|id| id.eq_ignore_ascii_case(part))
@@ -257,14 +247,13 @@ fn list_defects(part: &str) -> ExitCode {
             format!("no defect contains {part} in its ID or violates the requirement {part}{near}");
         return exit_with_error(Exit::Usage, why);
     }
-    for defect in listed {
-        let broken = defect.requirements.join(" ");
-        if writeln!(out, "{}\t{broken}\t{defect}", defect.id).is_err() {
-            // The reader of stdout wants no more output.
-            break;
+    let shown = show(|out| {
+        for defect in listed {
+            writeln!(out, "{}\t{}\t{defect}", defect.id, defect.requirements.join(" "))?;
         }
-    }
-    ExitCode::SUCCESS
+        Ok(())
+    });
+    shown.map_or_else(lost, |()| Exit::Success)
 }
 
 /// The defect with this ID; `None` without an ID.

@@ -7,14 +7,12 @@
     deny(clippy::unwrap_used)
 )]
 
-use std::io::{self, Write as _};
-
 use ads_cnc::dynamic::DynamicKind;
 use clap::Args;
 
-use super::message::print_error;
+use super::message::{exit_with_error, print_error};
 use super::model::ModelArgs;
-use super::name_args::{NameArgs, written};
+use super::name_args::{NameArgs, print};
 use super::not_sent;
 use super::target::{
     DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, simulator_gate,
@@ -203,7 +201,7 @@ impl Set {
         let between = if old.len().max(new.len()) > 30 { "\n  → " } else { " → " };
         let start = if between.starts_with('\n') { "\n    " } else { " " };
         let name = crate::values::printable(&name);
-        written(writeln!(io::stdout().lock(), "{name}:{start}{old}{between}{new}"))
+        print(|out| writeln!(out, "{name}:{start}{old}{between}{new}"))
     }
 }
 
@@ -234,8 +232,8 @@ fn check(object: &ListedValue) -> Result<(), ToolError> {
 /// a value read back, the exit code is that of a failure, because the write is not confirmed.
 fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let Some(new) = new else {
-        print_error("the value was written, but the CNC rejects reading it back");
-        return Exit::Failure;
+        let why = "the value was written, but the CNC rejects reading it back";
+        return exit_with_error(Exit::Failure, why);
     };
     let same = written == new
         || plain(ty, written).is_some_and(|written| plain(ty, new).as_ref() == Some(&written));
@@ -243,8 +241,8 @@ fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
         return Exit::Success;
     }
     let wrote = plain(ty, written).unwrap_or_default();
-    print_error(format_args!("the CNC accepted {wrote}, but now returns another value"));
-    Exit::Failure
+    let why = format_args!("the CNC accepted {wrote}, but now returns another value");
+    exit_with_error(Exit::Failure, why)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::io::{self, BufRead as _, Write as _};
 
 use clap::Args;
 
-use super::message::print_error;
+use super::message::exit_with_error;
 use super::serve::find_defect;
 use crate::exit::Exit;
 use crate::testee::{Answer, AnswerLine, CodecTestee, Miniature, MiniatureAction, TesteeCommand};
@@ -31,14 +31,11 @@ impl TesteeArgs {
     pub(super) fn execute(&self) -> Exit {
         let defect = match find_defect(self.defect.as_deref()) {
             Ok(defect) => defect,
-            Err(why) => {
-                print_error(why);
-                return Exit::Usage;
-            }
+            Err(why) => return exit_with_error(Exit::Usage, why),
         };
         if let Some(defect) = defect.as_ref().filter(|defect| !defect.is_for_codec()) {
-            print_error(format_args!("{} is a defect of a CNC, not of a codec", defect.id));
-            return Exit::Usage;
+            let why = format_args!("{} is a defect of a CNC, not of a codec", defect.id);
+            return exit_with_error(Exit::Usage, why);
         }
         let own = CodecTestee { defect };
         let done = match self.miniature {
@@ -47,10 +44,7 @@ impl TesteeArgs {
         };
         match done {
             Ok(()) => Exit::Success,
-            Err(error) => {
-                print_error(format_args!("stdin or stdout: {error}"));
-                Exit::Internal
-            }
+            Err(error) => exit_with_error(Exit::Internal, format_args!("stdin or stdout: {error}")),
         }
     }
 }

@@ -122,7 +122,7 @@ pub fn judge(
             Ok(played) => played,
             Err(error) => {
                 let stop = Stop::Harness(error);
-                outcomes.push(CaseOutcome::tried(case, Vec::new(), 0, Some(stop)));
+                outcomes.push(CaseOutcome::tried(case, Record::default(), Some(stop)));
                 continue;
             }
         };
@@ -227,8 +227,7 @@ fn play(
             case.requirements.push(judgement.requirement);
         }
     }
-    let Record { judgements, checks } = scenario_checks.record;
-    Ok((CaseOutcome::tried(case, judgements, checks, stop), is_lost, exchanges.len()))
+    Ok((CaseOutcome::tried(case, scenario_checks.record, stop), is_lost, exchanges.len()))
 }
 
 fn may_write(scenario: &Scenario) -> bool {
@@ -245,7 +244,7 @@ fn judge_reaction(
     last: Option<&RecordedExchange>,
     scenario_checks: &mut ScenarioChecks,
 ) -> Option<Stop> {
-    let Some(expected) = Expected::of(&scenario.expect, script) else {
+    let Some(expected) = Expected::of(scenario, script) else {
         let why = "the simulated CNC rejects the request for the expected answer";
         return Some(Stop::Harness(why.to_owned()));
     };
@@ -298,7 +297,7 @@ fn judge_reaction(
                 &reaction.to_string(),
             );
         }
-        _ => scenario_checks.check(&rules, passed, last, || &expected, || reaction),
+        _ => scenario_checks.check(&rules[..], passed, last, || &expected, || reaction),
     }
     None
 }
@@ -324,22 +323,14 @@ struct Expected {
 impl Expected {
     /// The expected answer of a scenario; `None` if it is that of the simulated CNC, which rejects
     /// the request.
-    fn of(answer: &ExpectedAnswer, script: &ScenarioScript) -> Option<Self> {
-        Some(match answer {
-            ExpectedAnswer::Result(value) => Self::result(value.clone()),
-            ExpectedAnswer::Asked(ask) => Self::result(ask(script)?),
-            ExpectedAnswer::ResultOrError(value) => {
-                Self { error: true, ..Self::result(value.clone()) }
-            }
-            ExpectedAnswer::AskedOrError(ask) => Self { error: true, ..Self::result(ask(script)?) },
-            ExpectedAnswer::Done => Self { result: None, any: true, error: false },
-            ExpectedAnswer::DoneOrError => Self { result: None, any: true, error: true },
-            ExpectedAnswer::Error => Self { result: None, any: false, error: true },
-        })
-    }
-
-    const fn result(value: Value) -> Self {
-        Self { result: Some(value), any: false, error: false }
+    fn of(scenario: &Scenario, script: &ScenarioScript) -> Option<Self> {
+        let (result, any, error) = match &scenario.expect {
+            ExpectedAnswer::Result(value) => (Some(value.clone()), false, scenario.or_error),
+            ExpectedAnswer::Asked(ask) => (Some(ask(script)?), false, scenario.or_error),
+            ExpectedAnswer::Done => (None, true, scenario.or_error),
+            ExpectedAnswer::Error => (None, false, true),
+        };
+        Some(Self { result, any, error })
     }
 }
 
@@ -356,7 +347,7 @@ impl std::fmt::Display for Expected {
 }
 
 /// The outcome of the case about the client protocol.
-fn protocol_outcome(scenario_checks: ScenarioChecks) -> CaseOutcome {
+fn protocol_outcome(mut scenario_checks: ScenarioChecks) -> CaseOutcome {
     let case = Case {
         id: "client-manners".to_owned(),
         title: "It answers hello, prints one line for each action, and exits after bye".to_owned(),
@@ -365,12 +356,8 @@ fn protocol_outcome(scenario_checks: ScenarioChecks) -> CaseOutcome {
         needs: Needs::Queries,
         body: Body::Client,
     };
-    CaseOutcome::tried(
-        case,
-        scenario_checks.record.judgements,
-        scenario_checks.record.checks.max(1),
-        None,
-    )
+    scenario_checks.record.checks = scenario_checks.record.checks.max(1);
+    CaseOutcome::tried(case, scenario_checks.record, None)
 }
 
 /// A temporary file with an NC program, which is removed on drop.

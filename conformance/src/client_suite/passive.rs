@@ -65,13 +65,5 @@ pub fn listen(
     let stop = stop.or(beyond.stop());
     let count = count.saturating_add(beyond.requests);
     let case = Case { requirements, ..requests_case() };
-    Ok((
-        CaseOutcome::tried(
-            case,
-            scenario_checks.record.judgements,
-            scenario_checks.record.checks,
-            stop,
-        ),
-        count,
-    ))
+    Ok((CaseOutcome::tried(case, scenario_checks.record, stop), count))
 }

@@ -10,6 +10,7 @@ use super::scenario::{ExpectedRequest, ReadLength};
 use super::scenario_checks::ScenarioChecks;
 use super::test_server::RecordedExchange;
 use crate::judge::assumed;
+use crate::number::u32_at;
 use crate::text::plural;
 use crate::values::until_nul;
 
@@ -28,10 +29,7 @@ struct RawRequest {
 impl RawRequest {
     fn of(exchange: &RecordedExchange) -> Option<Self> {
         let frame = exchange.request.as_slice();
-        let word = |at: usize| {
-            let bytes: [u8; 4] = frame.get(at..at.checked_add(4)?)?.try_into().ok()?;
-            Some(u32::from_le_bytes(bytes))
-        };
+        let word = |at: usize| u32_at(frame, at);
         let half = |at: usize| {
             let bytes: [u8; 2] = frame.get(at..at.checked_add(2)?)?.try_into().ok()?;
             Some(u16::from_le_bytes(bytes))
@@ -192,6 +190,5 @@ fn describe(ask: &ExpectedRequest) -> String {
 /// The result in the reply to a Write; `None` if the reply is not a complete frame with a result.
 pub(super) fn result_of(exchange: &RecordedExchange) -> Option<u32> {
     let (frame, _) = FrameRef::split(&exchange.sent, u32::MAX).ok()??;
-    let bytes: [u8; 4] = frame.data().get(..4)?.try_into().ok()?;
-    Some(u32::from_le_bytes(bytes))
+    u32_at(frame.data(), 0)
 }

@@ -84,7 +84,7 @@ impl RequestJudge {
         // the reply to the next.
         let before = self.before.replace((exchange.connection, header.invoke_id));
         let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
-        self.rules.request_headers(exchange, &header, is_repeated);
+        self.rules.records.request_headers(exchange, &header, is_repeated);
         let clause =
             service_of(command).map_or(Rule::CLIENT, |one| ads_service::clause(one).into());
         match Call::from_frame(&frame) {
@@ -99,7 +99,7 @@ impl RequestJudge {
                 if !has_task {
                     return;
                 }
-                if let Some(unknown) = self.rules.request(exchange, &call) {
+                if let Some(unknown) = self.rules.records.request(exchange, &call) {
                     check(
                         address_clause(&call),
                         false,

@@ -122,14 +122,8 @@ pub(super) enum ExpectedAnswer {
     Result(Value),
     /// The result according to the unchanged replies of the simulated CNC.
     Asked(fn(&ScenarioScript) -> Option<Value>),
-    /// This result or an error.
-    ResultOrError(Value),
-    /// The result according to the unchanged replies of the simulated CNC, or an error.
-    AskedOrError(fn(&ScenarioScript) -> Option<Value>),
     /// Any result.
     Done,
-    /// Any result or an error.
-    DoneOrError,
     /// An error.
     Error,
 }
@@ -162,6 +156,8 @@ pub struct Scenario {
     pub(super) action: String,
     pub(super) asks: Vec<ExpectedRequest>,
     pub(super) expect: ExpectedAnswer,
+    /// Whether the client may return an error instead of the expected answer.
+    pub(super) or_error: bool,
     /// The rules that the client's answer must satisfy; if empty, the method `rules` has a default.
     pub(super) rules: Vec<Rule>,
     /// Further requirements that the scenario tests.
@@ -187,6 +183,7 @@ impl Scenario {
             action: action.into(),
             asks: Vec::new(),
             expect: ExpectedAnswer::Done,
+            or_error: false,
             rules: Vec::new(),
             more: Vec::new(),
             tamper: None,

@@ -56,7 +56,7 @@ impl ScenarioChecks {
         found: &str,
     ) {
         let (own, others): (Vec<Rule>, _) = rules.iter().partition(|rule| rule.id == cause);
-        self.check(&own, false, exchange, expected, found);
+        self.check(&own[..], false, exchange, expected, found);
         for rule in others {
             self.record.add_following(rule, Verdict::Fail, cause, expected, found);
         }

@@ -133,18 +133,18 @@ impl Tamper {
             Self::Request => {
                 then_close(with_header(reply, |header| header.state_flags = StateFlags::REQUEST))
             }
-            Self::AmsError => send(rebuilt(reply, |parts| {
-                parts.header.error = AMS_ERROR;
-                parts.body = ReplyBody::None;
+            Self::AmsError => send(rebuilt(reply, |header, body| {
+                header.error = AMS_ERROR;
+                *body = None;
             })),
-            Self::BareResult => send(rebuilt(reply, |parts| {
-                parts.body = ReplyBody::Result(AdsError::INVALID_DATA, None);
+            Self::BareResult => send(rebuilt(reply, |_, body| {
+                *body = Some((AdsError::INVALID_DATA, None));
             })),
-            Self::EmptyResult => send(rebuilt(reply, |parts| {
-                parts.body = ReplyBody::Result(AdsError::INVALID_DATA, Some(Vec::new()));
+            Self::EmptyResult => send(rebuilt(reply, |_, body| {
+                *body = Some((AdsError::INVALID_DATA, Some(Vec::new())));
             })),
-            Self::ResultWithData => send(rebuilt(reply, |parts| {
-                if let ReplyBody::Result(result, _) = &mut parts.body {
+            Self::ResultWithData => send(rebuilt(reply, |_, body| {
+                if let Some((result, _)) = body {
                     *result = AdsError::INVALID_DATA;
                 }
             })),
@@ -181,49 +181,38 @@ impl Tamper {
     }
 }
 
-/// A decoded reply, to be changed and encoded again.
-struct ReplyParts {
-    header: AmsHeader,
-    body: ReplyBody,
-}
-
-enum ReplyBody {
-    None,
-    /// The result and the data; `None` for a Write, and if the reply ends after the result.
-    Result(AdsError, Option<Vec<u8>>),
-}
+/// The result of a reply and its data, which is `None` for a Write, and if the reply ends after the
+/// result; `None` if nothing follows the headers.
+type ReplyBody = Option<(AdsError, Option<Vec<u8>>)>;
 
 /// The reply, changed and encoded again with matching lengths. A reply that does not decode, or
 /// cannot be encoded after the change, is left unchanged.
-fn rebuilt(reply: &[u8], change: impl FnOnce(&mut ReplyParts)) -> Vec<u8> {
+fn rebuilt(reply: &[u8], change: impl FnOnce(&mut AmsHeader, &mut ReplyBody)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
-        let header = frame.header();
+        let mut header = frame.header();
         // A reply to a command that is not a service is decoded like a reply to a Write: a result
         // without data.
         let service = service_of(header.command).unwrap_or(AdsService::Write);
         let (result, data) = decode_reply(service, frame.data()).ok()?;
-        let body = ReplyBody::Result(result, data.map(<[u8]>::to_vec));
-        let mut parts = ReplyParts { header, body };
-        change(&mut parts);
-        let body = match &parts.body {
-            ReplyBody::None => Vec::new(),
-            ReplyBody::Result(result, data) => {
-                encode_reply(service, *result, data.as_deref()).ok()?
-            }
+        let mut body = Some((result, data.map(<[u8]>::to_vec)));
+        change(&mut header, &mut body);
+        let bytes = match body {
+            None => Vec::new(),
+            Some((result, data)) => encode_reply(service, result, data.as_deref()).ok()?,
         };
-        FrameRef::new(parts.header, &body).ok()?.encode_to_vec().ok()
+        FrameRef::new(header, &bytes).ok()?.encode_to_vec().ok()
     };
     rebuilt().unwrap_or_else(|| reply.to_vec())
 }
 
 fn with_header(reply: &[u8], change: impl FnOnce(&mut AmsHeader)) -> Vec<u8> {
-    rebuilt(reply, |parts| change(&mut parts.header))
+    rebuilt(reply, |header, _| change(header))
 }
 
 fn with_data(reply: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
-    rebuilt(reply, |parts| {
-        if let ReplyBody::Result(_, Some(data)) = &mut parts.body {
+    rebuilt(reply, |_, body| {
+        if let Some((_, Some(data))) = body {
             change(data);
         }
     })

@@ -118,35 +118,16 @@ pub(super) struct Overflow {
 impl Overflow {
     /// Why the case is inconclusive; `None` if no limit was exceeded.
     pub(super) fn stop(self) -> Option<Stop> {
-        (self != Self::default()).then(|| Stop::Inconclusive(self.to_string()))
-    }
-}
-
-impl std::fmt::Display for Overflow {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { requests, connections } = self;
-        let mebibytes = RECORDED_BYTES_MAX >> 20;
-        match (requests, connections) {
-            (0, _) => {}
-            (_, 0) => write!(
-                f,
-                "not judged: {} after the first {mebibytes} MiB",
-                plural(*requests, "request")
-            )?,
-            _ => write!(
-                f,
-                "not judged: {} after the first {mebibytes} MiB; ",
-                plural(*requests, "request")
-            )?,
-        }
-        if *connections > 0 {
-            write!(
-                f,
-                "closed at once: {} after the first {CONNECTIONS_MAX}",
-                plural(*connections, "connection")
-            )?;
-        }
-        Ok(())
+        let requests = (self.requests > 0).then(|| {
+            let (count, mebibytes) = (plural(self.requests, "request"), RECORDED_BYTES_MAX >> 20);
+            format!("not judged: {count} after the first {mebibytes} MiB")
+        });
+        let connections = (self.connections > 0).then(|| {
+            let count = plural(self.connections, "connection");
+            format!("closed at once: {count} after the first {CONNECTIONS_MAX}")
+        });
+        let exceeded: Vec<String> = [requests, connections].into_iter().flatten().collect();
+        (!exceeded.is_empty()).then(|| Stop::Inconclusive(exceeded.join("; ")))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Decodes and encodes index groups and index offsets, which are not streams of the codec.
 
+use std::fmt::Display;
+
 use ads_cnc::address::{
     Access, Addressing, Attribute, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable,
     Group, IndexGroup, IndexOffset, PlatformAxis, Spindle,
@@ -40,8 +42,8 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Co
             ("task", name("SDA/GEO")),
             ("addressing", name(addressing(class.addressing))),
             ("access", name("element")),
-            ("class", name(class_name(class.class))),
-            ("attribute", name(attribute_name(class.attribute))),
+            ("class", name(&hyphenated(class.class))),
+            ("attribute", name(&hyphenated(class.attribute))),
             ("instance", one(Type::Uns08, class.instance)),
         ]),
     }
@@ -84,27 +86,9 @@ fn addressing(addressing: Addressing) -> &'static str {
     }
 }
 
-fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::PositionController => "position-controller",
-        Class::Interpolator => "interpolator",
-        Class::Decoder => "decoder",
-        Class::Hld => "hld",
-        Class::PathPreparation => "path-preparation",
-        Class::Spindle => "spindle",
-    }
-}
-
-fn attribute_name(attribute: Attribute) -> &'static str {
-    match attribute {
-        Attribute::Content => "content",
-        Attribute::Name => "name",
-        Attribute::Type => "type",
-        Attribute::Length => "length",
-        Attribute::Unit => "unit",
-        Attribute::WriteFlag => "write-flag",
-        Attribute::ObjectAddress => "object-address",
-    }
+/// The word of the vectors for a class or an attribute, such as `write-flag`.
+fn hyphenated(shown: impl Display) -> String {
+    shown.to_string().to_lowercase().replace(' ', "-")
 }
 
 pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, CodecError> {
@@ -151,9 +135,9 @@ fn parts(of: FieldReader<'_>) -> Result<Group, CodecError> {
         }
         "SDA/GEO" => {
             let (class, attribute) = (of.word("class")?, of.word("attribute")?);
-            let known = Class::ALL.into_iter().find(|&one| class_name(one) == class);
+            let known = Class::ALL.into_iter().find(|&one| hyphenated(one) == class);
             let class = known.ok_or_else(|| no("class", class))?;
-            let known = Attribute::ALL.into_iter().find(|&one| attribute_name(one) == attribute);
+            let known = Attribute::ALL.into_iter().find(|&one| hyphenated(one) == attribute);
             let attribute = known.ok_or_else(|| no("attribute", attribute))?;
             Ok(Group::Class(ClassGroup { addressing, class, attribute, instance }))
         }

@@ -57,27 +57,20 @@ pub(super) fn text_tagged(text: TextRef<'_>) -> Tagged {
     }
 }
 
-pub(super) fn element(element: Element<'_>) -> Tagged {
+/// An element of type `kind`.
+pub(super) fn element(kind: Type, element: Element<'_>) -> Tagged {
     match element {
-        Element::Boolean(boolean) => tagged(Type::Boolean, boolean.0),
-        Element::Sgn08(number) => tagged(Type::Sgn08, number),
-        Element::Uns08(number) => tagged(Type::Uns08, number),
-        Element::Sgn16(number) => tagged(Type::Sgn16, number),
-        Element::Uns16(number) => tagged(Type::Uns16, number),
-        Element::Sgn32(number) => tagged(Type::Sgn32, number),
-        Element::Uns32(number) => tagged(Type::Uns32, number),
-        Element::Lint(number) => tagged(Type::Lint, number),
-        Element::Lword(number) => tagged(Type::Lword, number),
+        Element::Boolean(boolean) => tagged(kind, boolean.0),
         Element::Real32(number) => Tagged {
             bits: Some(format!("{:#010x}", number.to_bits())),
-            ..tagged(Type::Real32, decimal(number.into()))
+            ..tagged(kind, decimal(number.into()))
         },
         Element::Real64(number) => Tagged {
             bits: Some(format!("{:#018x}", number.to_bits())),
-            ..tagged(Type::Real64, decimal(number))
+            ..tagged(kind, decimal(number))
         },
         Element::String(text) => text_tagged(text),
-        other => tagged(Type::Name, format_args!("{other:?}")),
+        other => tagged(kind, other),
     }
 }
 

@@ -155,7 +155,7 @@ fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Codec
         }
         (FieldType::Real64, _) => {
             let number: DynamicValue = from_value(json.clone()).map_err(invalid)?;
-            element(Element::Real64(number.get()))
+            element(Type::Real64, Element::Real64(number.get()))
         }
         (FieldType::Bytes, _) => {
             let bytes: Vec<u8> = from_value(json.clone()).map_err(invalid)?;

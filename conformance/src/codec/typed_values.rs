@@ -36,7 +36,7 @@ pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Val
     }
     let (kind, data_type, dimensions) = type_of(context)?;
     let elements = Elements::new(data_type, U32List::from(dimensions), bytes)?;
-    let named = |item| Value::One(Tagged { kind, ..element(item) });
+    let named = |item| Value::One(element(kind, item));
     Ok(Value::List(elements.iter().map(named).collect()))
 }
 

@@ -31,10 +31,11 @@ use super::Support;
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CncVersion {
-    major: u16,
-    minor: u16,
-    build: u16,
-    patch: u16,
+    pub major: u16,
+    pub minor: u16,
+    pub build: u16,
+    /// 0 if the version has only three numbers.
+    pub patch: u16,
 }
 
 impl CncVersion {
@@ -69,26 +70,6 @@ impl CncVersion {
     /// Creates a version from its numbers; `patch` is 0 if the version has only three numbers.
     pub const fn from_parts(major: u16, minor: u16, build: u16, patch: u16) -> Self {
         Self { major, minor, build, patch }
-    }
-
-    /// The first number.
-    pub const fn major(self) -> u16 {
-        self.major
-    }
-
-    /// The second number.
-    pub const fn minor(self) -> u16 {
-        self.minor
-    }
-
-    /// The third number.
-    pub const fn build(self) -> u16 {
-        self.build
-    }
-
-    /// The fourth number; 0 if the version has only three numbers.
-    pub const fn patch(self) -> u16 {
-        self.patch
     }
 
     /// The branch: the major number, and up to V3 also the minor number, because V2.11 and V3.1

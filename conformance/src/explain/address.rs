@@ -13,15 +13,6 @@ use super::part;
 use crate::edition::Feature;
 use crate::value_format::ValueFormat;
 
-/// Explains the data of a service at an address.
-pub(super) fn of_place(
-    ads_address: &ServiceAddress,
-    bytes: &[u8],
-    values: &ValueFormat,
-) -> ExplainedStream {
-    of_data(ads_address, 0, bytes, values)
-}
-
 /// Explains the data of a service at an address; the data begins at offset `at` of the input.
 pub(super) fn of_data(
     ads_address: &ServiceAddress,

@@ -46,7 +46,7 @@ pub use explanation::{
 };
 pub use frame::looks_like_frame;
 pub use group::describe;
-pub use show::{Paint, print};
+pub use show::print;
 
 use ads_cnc::layout::Stream;
 
@@ -55,7 +55,7 @@ pub fn explain(question: &ExplainQuery, bytes: &[u8]) -> Explanation {
     let values = &question.values;
     let parts = match &question.subject {
         ExplainSubject::Stream(stream) => vec![part::of_stream(*stream, 0, bytes, values)],
-        ExplainSubject::Place(ads_address) => vec![address::of_place(ads_address, bytes, values)],
+        ExplainSubject::Place(ads_address) => vec![address::of_data(ads_address, 0, bytes, values)],
         ExplainSubject::Address(ads_address) => vec![address::alone(ads_address)],
         ExplainSubject::Frames(ads_address) => {
             frame::of_frames(ads_address.as_ref(), bytes, values)

@@ -13,37 +13,27 @@ const LINE: usize = 8;
 /// the rest of its row.
 const VALUE_MAX: usize = 40;
 
-/// Whether to use colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Paint {
-    /// No colour: for pipes and files.
-    Plain,
-    /// ANSI escape sequences, for terminals.
-    Colour,
-}
-
 const HEAD: Style = Style::new().bold();
 const NAME: Style = AnsiColor::Cyan.on_default();
 const DIM: Style = Style::new().dimmed();
 const FAULT: Style = AnsiColor::Red.on_default().bold();
 
-impl Paint {
-    fn style(self, style: Style, text: &str) -> String {
-        match self {
-            Self::Plain => text.to_owned(),
-            Self::Colour if text.trim().is_empty() => text.to_owned(),
-            Self::Colour => format!("{style}{text}{style:#}"),
-        }
+/// The text in this style, if colour is on.
+fn styled(color: bool, style: Style, text: &str) -> String {
+    if color && !text.trim().is_empty() {
+        format!("{style}{text}{style:#}")
+    } else {
+        text.to_owned()
     }
 }
 
-/// Writes an explanation.
-pub fn print(explanation: &Explanation, paint: Paint, out: &mut impl Write) -> io::Result<()> {
+/// Writes an explanation; with `color`, it contains ANSI escape sequences for a terminal.
+pub fn print(explanation: &Explanation, color: bool, out: &mut dyn Write) -> io::Result<()> {
     for (number, part) in explanation.parts.iter().enumerate() {
         if number > 0 {
             writeln!(out)?;
         }
-        show_part(part, explanation.parts.len() > 1, paint, out)?;
+        show_part(part, explanation.parts.len() > 1, color, out)?;
     }
     Ok(())
 }
@@ -51,11 +41,11 @@ pub fn print(explanation: &Explanation, paint: Paint, out: &mut impl Write) -> i
 fn show_part(
     part: &ExplainedStream,
     several: bool,
-    paint: Paint,
-    out: &mut impl Write,
+    color: bool,
+    out: &mut dyn Write,
 ) -> io::Result<()> {
     if let Some(address) = &part.address {
-        show_address(address, paint, out)?;
+        show_address(address, color, out)?;
         if part.title.is_empty() {
             return Ok(());
         }
@@ -64,13 +54,13 @@ fn show_part(
     let name = part.stream.map_or_else(String::new, |name| format!(": {name}"));
     let place = if several { format!(" from byte {}", part.at) } else { String::new() };
     let length = plural(part.length, "byte");
-    writeln!(out, "{}, {length}{place}", paint.style(HEAD, &format!("{}{name}", part.title)))?;
+    writeln!(out, "{}, {length}{place}", styled(color, HEAD, &format!("{}{name}", part.title)))?;
     if let Some(clause) = part.clause {
         let sources = match part.sources.as_slice() {
             [] => "in no document: assumed".to_owned(),
             sources => sources.join("; "),
         };
-        writeln!(out, "  {}", paint.style(DIM, &format!("{clause}: {sources}")))?;
+        writeln!(out, "  {}", styled(color, DIM, &format!("{clause}: {sources}")))?;
     }
     let width = |text: fn(&ExplainedField) -> usize, most: usize| {
         part.rows.iter().map(text).filter(|&width| width <= most).max().unwrap_or(0)
@@ -80,10 +70,10 @@ fn show_part(
     let (mut record, records) = (None, part.rows.iter().any(|row| row.record > 0));
     for row in &part.rows {
         if records && record != Some(row.record) {
-            writeln!(out, "  {}", paint.style(DIM, &format!("record {}", row.record)))?;
+            writeln!(out, "  {}", styled(color, DIM, &format!("record {}", row.record)))?;
         }
         record = Some(row.record);
-        show_row(row, field, value, paint, out)?;
+        show_row(row, field, value, color, out)?;
     }
     if let Some(unread) = &part.unread {
         for (number, chunk) in chunks(&unread.hex).enumerate() {
@@ -94,14 +84,14 @@ fn show_part(
                 cut.next().map(|fault| fault.field.as_str()).filter(|name| *name != "stream");
             let (name, text) = (name.unwrap_or_default(), "not read");
             let text = format!("! {at:6}  {chunk:<23}  {name:<field$}  {text}");
-            writeln!(out, "{}", paint.style(FAULT, &text))?;
+            writeln!(out, "{}", styled(color, FAULT, &text))?;
         }
     }
     for fault in &part.faults {
-        writeln!(out, "{}", paint.style(FAULT, &format!("  fault: {}", fault.text)))?;
+        writeln!(out, "{}", styled(color, FAULT, &format!("  fault: {}", fault.text)))?;
     }
     for note in &part.notes {
-        writeln!(out, "  {}", paint.style(DIM, &format!("note: {note}")))?;
+        writeln!(out, "  {}", styled(color, DIM, &format!("note: {note}")))?;
     }
     Ok(())
 }
@@ -110,8 +100,8 @@ fn show_row(
     row: &ExplainedField,
     field: usize,
     value: usize,
-    paint: Paint,
-    out: &mut impl Write,
+    color: bool,
+    out: &mut dyn Write,
 ) -> io::Result<()> {
     let ExplainedField { offset, hex, clause, meaning, .. } = row;
     let hex = if row.below { "" } else { hex.as_str() };
@@ -121,27 +111,27 @@ fn show_row(
     let (name, value) = (format!("{:<field$}", row.field), format!("{:<value$}", row.value));
     let line = format!(
         "{}  {}  {}  {}  {meaning}",
-        paint.style(style, &first),
-        paint.style(NAME, &name),
-        paint.style(style, &value),
-        paint.style(DIM, &format!("{clause:<6}")),
+        styled(color, style, &first),
+        styled(color, NAME, &name),
+        styled(color, style, &value),
+        styled(color, DIM, &format!("{clause:<6}")),
     );
     writeln!(out, "{}", line.trim_end())?;
     for (number, chunk) in (1_usize..).zip(lines) {
         let at = offset + number * LINE;
-        writeln!(out, "{}", paint.style(style, &format!("{mark} {at:6}  {chunk}")))?;
+        writeln!(out, "{}", styled(color, style, &format!("{mark} {at:6}  {chunk}")))?;
     }
     for note in &row.notes {
-        writeln!(out, "{:33}  {}", "", paint.style(DIM, &format!("= {note}")))?;
+        writeln!(out, "{:33}  {}", "", styled(color, DIM, &format!("= {note}")))?;
     }
     Ok(())
 }
 
-fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) -> io::Result<()> {
+fn show_address(address: &ExplainedAddress, color: bool, out: &mut dyn Write) -> io::Result<()> {
     let service = address.service.as_deref().unwrap_or("Service");
     let port = address.port.map_or_else(String::new, |port| format!(" at port {port}"));
     let (group, offset) = (address.index_group, address.index_offset);
-    writeln!(out, "{}", paint.style(HEAD, &format!("{service} {group:#x}, {offset:#x}{port}")))?;
+    writeln!(out, "{}", styled(color, HEAD, &format!("{service} {group:#x}, {offset:#x}{port}")))?;
     writeln!(out, "  {:<8}  {group:#x}: {}", "group", address.group)?;
     if !address.offset.is_empty() {
         writeln!(out, "  {:<8}  {offset:#x}: {}", "offset", address.offset)?;
@@ -156,7 +146,7 @@ fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) 
             out,
             "  {:<8}  {}: {} of {}, port {}; {effect}",
             "function",
-            paint.style(NAME, function.name),
+            styled(color, NAME, function.name),
             function.service,
             function.task,
             function.port,
@@ -169,10 +159,10 @@ fn show_address(address: &ExplainedAddress, paint: Paint, out: &mut impl Write) 
         };
         writeln!(out, "  {:<8}  {streams}", "")?;
         let text = format!("{}: {}", function.clause, function.section);
-        writeln!(out, "  {:<8}  {}", "", paint.style(DIM, &text))?;
+        writeln!(out, "  {:<8}  {}", "", styled(color, DIM, &text))?;
     }
     for note in &address.notes {
-        writeln!(out, "  {:<8}  {}", "", paint.style(DIM, &format!("= {note}")))?;
+        writeln!(out, "  {:<8}  {}", "", styled(color, DIM, &format!("= {note}")))?;
     }
     Ok(())
 }

@@ -18,14 +18,14 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use self::change::Argument::{Axis, Channel, Index};
-use self::change::{asked, changed, instead, kept, least, mistaken, of_first_kind, rewritten};
+use self::change::{asked, instead, kept, least, mistaken, of_first_kind, rewritten};
 use self::functions::{
     differs_by_channel, differs_by_rank, has_axis, has_end, has_fields, has_index, has_kind,
     has_rank, has_reply, has_unknown, is_alike, is_attribute, writes,
 };
 use super::cnc::{
-    CncFault, LOGICAL, ReplyData, Upstream, delay_write, first, group, offset, or_short,
-    within_length,
+    CncFault, LOGICAL, ReplyData, Upstream, changed, delay_write, first, forgiven, group, offset,
+    or_short, within_length,
 };
 use super::seeded_defect::{DefectKind, Mechanism, SeededDefect};
 
@@ -308,24 +308,14 @@ const OF_ANSWERS: &[Operator] = &[
         "a write to a read-only value succeeds and changes nothing",
         &[VAR_6, COM_2],
         |spec| writes(spec) && spec.clause != "VAR-26",
-        |cnc, call| {
-            cnc.answer(call).or_else(|error| match error {
-                AdsError::INVALID_ACCESS => Ok(Vec::new()),
-                error => Err(error),
-            })
-        },
+        |cnc, call| forgiven(cnc.answer(call), AdsError::INVALID_ACCESS),
     ),
     operator(
         "size-ignored",
         "a write of a value of a wrong size succeeds and changes nothing",
         &[],
         |spec| writes(spec) && !matches!(spec.clause, "SDA-9" | "VAR-26"),
-        |cnc, call| {
-            cnc.answer(call).or_else(|error| match error {
-                AdsError::INVALID_SIZE => Ok(Vec::new()),
-                error => Err(error),
-            })
-        },
+        |cnc, call| forgiven(cnc.answer(call), AdsError::INVALID_SIZE),
     ),
     operator(
         "once",

@@ -12,9 +12,9 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    CncDefect, CncFault, ELEMENT_TEXTS, INDEXED, ReplyData, Upstream, dimensions, fault, first,
-    function, group, is, measured, number, offset, on, or_short, records_mut, row, set_u32, text,
-    u32_at, within_length,
+    CncDefect, CncFault, ELEMENT_TEXTS, INDEXED, ReplyData, Upstream, changed, dimensions, each,
+    fault, first, function, group, is, measured, number, offset, on, or_short, reply, row, set,
+    set_u32, text, u32_at,
 };
 use row::{sent, unprinted};
 
@@ -78,10 +78,7 @@ const ROWS: &[CncDefect] = &[
         "names, types and units end with the reply, without a NUL",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
-                cnc.answer(call).map(|mut bytes| {
-                    bytes.pop();
-                    bytes
-                })
+                changed(cnc, call, |bytes| _ = bytes.pop())
             }
             Some(function) if ELEMENT_TEXTS.contains(&function) => {
                 cnc.answer(call).map(|bytes| match text(&bytes) {
@@ -156,44 +153,24 @@ const ROWS: &[CncDefect] = &[
             Some(Function::ReadElementWriteFlag) => cnc.answer(call).map(|bytes| {
                 bytes.into_iter().map(|byte| if byte == 0 { 0 } else { 0xFF }).collect()
             }),
-            Some(Function::ReadDescriptors) => cnc.answer(call).map(|mut bytes| {
-                for record in records_mut(&mut bytes) {
-                    if record.iter().skip(8).take(2).any(|byte| *byte != 0) {
-                        record.iter_mut().skip(8).take(2).for_each(|byte| *byte = 0xFF);
-                    }
+            _ => each(cnc, call, |record| {
+                if record.iter().skip(8).take(2).any(|byte| *byte != 0) {
+                    set(record, 8, &[0xFF; 2]);
                 }
-                bytes
             }),
-            _ => cnc.answer(call),
         }),
-    unprinted(on("different.length-1-byte", &[], "the length of an element takes 1 byte",
-        &[Function::ReadElementLength], |cnc, call| within_length(
-            call,
-            cnc.whole(call).map(|mut bytes| {
-                bytes.truncate(1);
-                bytes
-            }),
-        ))),
-    unprinted(on("different.length-2-bytes", &[], "the length of an element takes 2 bytes",
-        &[Function::ReadElementLength], |cnc, call| within_length(
-            call,
-            cnc.whole(call).map(|mut bytes| {
-                bytes.truncate(2);
-                bytes
-            }),
-        ))),
-    unprinted(on("different.descriptor-remains", &[],
+    unprinted(row("different.length-1-byte", &[], "the length of an element takes 1 byte",
+        |cnc, call| reply(cnc, call, &[Function::ReadElementLength], |bytes| bytes.truncate(1)))),
+    unprinted(row("different.length-2-bytes", &[], "the length of an element takes 2 bytes",
+        |cnc, call| reply(cnc, call, &[Function::ReadElementLength], |bytes| bytes.truncate(2)))),
+    unprinted(row("different.descriptor-remains", &[],
         "descriptors have arbitrary bytes in the unassigned field and after the NULs of texts",
-        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
-            for record in records_mut(&mut bytes) {
-                record.iter_mut().skip(10).take(2).for_each(|byte| *byte = 0xAA);
-                for field in [20, 52] {
-                    let ended =
-                        record.iter_mut().skip(field).take(32).skip_while(|byte| **byte != 0);
-                    ended.skip(1).for_each(|byte| *byte = b'x');
-                }
+        |cnc, call| each(cnc, call, |record| {
+            set(record, 10, &[0xAA; 2]);
+            for field in [20, 52] {
+                let ended = record.iter_mut().skip(field).take(32).skip_while(|byte| **byte != 0);
+                ended.skip(1).for_each(|byte| *byte = b'x');
             }
-            bytes
         }))),
     row("different.no-axis-lists", &[],
         "the CNC has no object lists of platform axes (0x130200 + axis)",

@@ -1,9 +1,8 @@
 //! Reads the file of `--allow-write`.
 
-use std::fmt;
 use std::fs;
 use std::net::IpAddr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ads_cnc::address::{
     Attribute, Channel, ChannelAxis, ClassGroup, ElementAddress, Group, IndexGroup, IndexOffset,
@@ -18,36 +17,15 @@ use serde::de::{Deserializer, Error as _};
 use toml::Value;
 
 use super::{Allowed, AllowedList, Entry, Moment};
-use crate::text::{found, plural, toml_error, utf8};
-
-/// An error in the file of `--allow-write`.
-#[derive(Clone, Debug)]
-pub struct AllowFileError {
-    file: Option<PathBuf>,
-    why: String,
-}
-
-impl fmt::Display for AllowFileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.file {
-            Some(file) => write!(f, "{}: {}", file.display(), self.why),
-            None => f.write_str(&self.why),
-        }
-    }
-}
-
-impl std::error::Error for AllowFileError {}
+use crate::text::{FileError, found, plural, toml_error};
 
 impl Allowed {
     /// Reads a file.
     ///
     /// # Errors
     /// If the file cannot be read, or [`from_toml`](Self::from_toml) fails.
-    pub fn from_file(file: &Path) -> Result<Self, AllowFileError> {
-        let failed = |why: String| AllowFileError { file: Some(file.to_owned()), why };
-        let bytes = fs::read(file).map_err(|error| failed(error.to_string()))?;
-        let text = utf8(bytes).map_err(failed)?;
-        Self::from_toml(&text).map_err(|error| failed(error.why))
+    pub fn from_file(file: &Path) -> Result<Self, FileError> {
+        FileError::parse(file, fs::read(file), Self::from_toml)
     }
 
     /// Parses the text of a file.
@@ -55,9 +33,9 @@ impl Allowed {
     /// # Errors
     /// Invalid TOML, unknown or missing keys, invalid values, or an address that cannot be written.
     /// The error contains the number of the line, if it is known.
-    pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
-        let file: AllowListFile = toml::from_str(text)
-            .map_err(|error| AllowFileError { file: None, why: toml_error(&error) })?;
+    pub fn from_toml(text: &str) -> Result<Self, FileError> {
+        let file: AllowListFile =
+            toml::from_str(text).map_err(|error| FileError::new(toml_error(&error)))?;
         let AllowListFile {
             target,
             address,

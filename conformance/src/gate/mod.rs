@@ -36,7 +36,6 @@ mod rejection;
 pub use crate::text::Moment;
 pub use allowed::{Allowed, NET_ID};
 pub use entry::{AllowedList, Entry};
-pub use file::AllowFileError;
 pub use rejection::{Ambiguity, GateRejection, Reason};
 
 use std::net::{IpAddr, SocketAddr};

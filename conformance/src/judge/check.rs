@@ -151,18 +151,6 @@ impl<R: Into<Rule> + Copy> Rules for &[R] {
     }
 }
 
-impl<R: Into<Rule> + Copy, const N: usize> Rules for &[R; N] {
-    fn rules(self) -> impl Iterator<Item = Rule> {
-        self.as_slice().rules()
-    }
-}
-
-impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
-    fn rules(self) -> impl Iterator<Item = Rule> {
-        self.as_slice().rules()
-    }
-}
-
 #[derive(Clone, Debug)]
 pub struct Judgement {
     pub requirement: &'static str,

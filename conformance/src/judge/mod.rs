@@ -31,7 +31,7 @@ pub use unrestored_value::UnrestoredValue;
 pub use vectors::siblings_of;
 pub(crate) use vectors::{case_of, codec_cases, typed};
 pub use verdict::Verdict;
-pub use waivers::{WaiverError, WaiverReport, WaiverState, Waivers};
+pub use waivers::{WaiverReport, WaiverState, Waivers};
 
 /// The note of a case that was not run because `--max-fail` other cases had failed.
 pub const ENOUGH: &str = "enough cases had failed before";

@@ -3,7 +3,7 @@
 use std::panic::{self, AssertUnwindSafe};
 use std::time::{Duration, Instant};
 
-use super::{Case, Judgement, Stop, Verdict};
+use super::{Case, Judgement, Record, Stop, Verdict};
 
 #[derive(Clone, Debug)]
 pub struct CaseOutcome {
@@ -57,12 +57,8 @@ impl CaseOutcome {
         Self { case, verdicts, checks: 0, note: Some(note.into()), rejected: false, time: None }
     }
 
-    pub(crate) fn tried(
-        case: Case,
-        judgements: Vec<Judgement>,
-        checks: usize,
-        stop: Option<Stop>,
-    ) -> Self {
+    pub(crate) fn tried(case: Case, record: Record, stop: Option<Stop>) -> Self {
+        let Record { judgements, checks } = record;
         let (unjudged, note) = match &stop {
             None | Some(Stop::Judged) => (Verdict::NotObserved, None),
             Some(Stop::NotApplicable(why)) => (Verdict::NotApplicable, Some(why.clone())),

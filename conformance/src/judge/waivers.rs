@@ -12,7 +12,7 @@
 //!     expires = 2027-01-31
 //! "#)?;
 //! assert_eq!(waivers.len(), 1);
-//! # Ok::<(), ads_cnc_conformance::judge::WaiverError>(())
+//! # Ok::<(), ads_cnc_conformance::text::FileError>(())
 //! ```
 //!
 //! A waiver is stale if it has expired, if no case has its ID and requirement, or if the verdict
@@ -21,7 +21,6 @@
 //! waiver has expired.
 
 use std::collections::HashSet;
-use std::path::Path;
 
 use ads_cnc_vectors::requirement;
 use serde::de::{Deserializer, Error as _};
@@ -30,20 +29,11 @@ use toml::value::{Date, Datetime};
 use toml::{Spanned, Value};
 
 use super::{CaseOutcome, SkippedCase, Verdict};
-use crate::text::{Moment, found, toml_error};
+use crate::text::{FileError, Moment, found, toml_error};
 
 /// The waivers of a file.
 #[derive(Clone, Debug, Default)]
 pub struct Waivers(Vec<Waiver>);
-
-/// An error in the file, with the line number and, after [`in_file`](Self::in_file), the name of
-/// the file.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}{why}", file.as_deref().map(|file| format!("{file}: ")).unwrap_or_default())]
-pub struct WaiverError {
-    file: Option<String>,
-    why: String,
-}
 
 /// A waiver and its state after a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -119,14 +109,6 @@ struct WaiverFile {
     waiver: Vec<Spanned<Waiver>>,
 }
 
-impl WaiverError {
-    /// Adds the file name to the error.
-    #[must_use]
-    pub fn in_file(self, file: &Path) -> Self {
-        Self { file: Some(file.display().to_string()), ..self }
-    }
-}
-
 impl Waivers {
     /// Parses the text of a file.
     ///
@@ -134,9 +116,9 @@ impl Waivers {
     /// The line and its fault, such as invalid TOML, an unknown or missing key, an empty ID or
     /// reason, a requirement that does not exist, a verdict that cannot be waived, a date that is
     /// not a day, or a duplicate waiver.
-    pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
-        let failed = |why: String| WaiverError { file: None, why };
-        let file: WaiverFile = toml::from_str(text).map_err(|error| failed(toml_error(&error)))?;
+    pub fn from_toml(text: &str) -> Result<Self, FileError> {
+        let file: WaiverFile =
+            toml::from_str(text).map_err(|error| FileError::new(toml_error(&error)))?;
         let mut known = HashSet::new();
         for waiver in &file.waiver {
             let Waiver { test, requirement, .. } = waiver.get_ref();
@@ -144,7 +126,7 @@ impl Waivers {
                 let before = &text.as_bytes()[..waiver.span().start];
                 let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
                 let why = format!("line {line}: duplicate waiver of {requirement} in {test}");
-                return Err(failed(why));
+                return Err(FileError::new(why));
             }
         }
         Ok(Self(file.waiver.into_iter().map(Spanned::into_inner).collect()))

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use ads_cnc::address::{Channel, ChannelAxis, PlatformAxis, Spindle};
@@ -17,39 +17,18 @@ use toml::Spanned;
 
 use super::{LISTED, Profile, Section};
 use crate::edition::{CncVersion, Edition};
-use crate::text::{did_you_mean, toml_error, utf8};
+use crate::text::{FileError, did_you_mean, toml_error};
 
 /// A profile with a comment on each key. Its values are the defaults for a device.
 pub const EXAMPLE: &str = include_str!("device.toml");
-
-/// An error while reading or parsing the file of `--profile`.
-#[derive(Clone, Debug)]
-pub struct ProfileFileError {
-    file: Option<PathBuf>,
-    why: String,
-}
-
-impl fmt::Display for ProfileFileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.file {
-            Some(file) => write!(f, "{}: {}", file.display(), self.why),
-            None => f.write_str(&self.why),
-        }
-    }
-}
-
-impl std::error::Error for ProfileFileError {}
 
 impl Profile {
     /// Reads a profile from a file.
     ///
     /// # Errors
     /// If the file cannot be read, and the errors of [`from_toml`](Self::from_toml).
-    pub fn from_file(file: &Path) -> Result<Self, ProfileFileError> {
-        let failed = |why: String| ProfileFileError { file: Some(file.to_owned()), why };
-        let bytes = fs::read(file).map_err(|error| failed(error.to_string()))?;
-        let text = utf8(bytes).map_err(failed)?;
-        Self::from_toml(&text).map_err(|error| failed(error.why))
+    pub fn from_file(file: &Path) -> Result<Self, FileError> {
+        FileError::parse(file, fs::read(file), Self::from_toml)
     }
 
     /// Parses the text of a file. Missing keys have the values of [`DEVICE`](Self::DEVICE).
@@ -66,9 +45,9 @@ impl Profile {
     ///
     /// # Errors
     /// Invalid TOML, an unknown key, or an invalid value, each with its line.
-    pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
-        let file: ProfileFile = toml::from_str(text)
-            .map_err(|error| ProfileFileError { file: None, why: toml_error(&error) })?;
+    pub fn from_toml(text: &str) -> Result<Self, FileError> {
+        let file: ProfileFile =
+            toml::from_str(text).map_err(|error| FileError::new(toml_error(&error)))?;
         let absent = file.absent_channel.as_ref().map(|absent| (*absent.get_ref(), absent.span()));
         let profile = Self::from(file);
         match absent {
@@ -76,7 +55,7 @@ impl Profile {
                 let before = text.as_bytes().iter().take(place.start);
                 let line = before.filter(|byte| **byte == b'\n').count().saturating_add(1);
                 let why = format!("line {line}: channel {number} is also in `channels`");
-                Err(ProfileFileError { file: None, why })
+                Err(FileError::new(why))
             }
             _ => Ok(profile),
         }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use crate::edition::{CncVersion, Edition, Feature};
 
-pub use file::{EXAMPLE, ProfileFileError};
+pub use file::EXAMPLE;
 
 /// The claims of a target.
 #[derive(Clone, Debug, Serialize)]

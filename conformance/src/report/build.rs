@@ -8,7 +8,7 @@ use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 use super::display::NAMES_MAX;
 use super::document::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
-    RequirementReport, SubjectReport, TargetReport, Totals,
+    RequirementReport, SubjectReport, TargetReport, Totals, tally,
 };
 use super::failures::{differing_field, list};
 use super::{BytesReport, FoundReport};
@@ -205,12 +205,7 @@ fn of_subject(subject: CaseSubject, cases: &[&CaseReport], only: &[String]) -> S
 }
 
 fn totals(requirements: &[RequirementReport]) -> Totals {
-    let mut totals = Totals::new();
-    for one in requirements {
-        let number = totals.entry(one.verdict).or_default();
-        *number += 1;
-    }
-    totals
+    tally(requirements.iter().map(|one| one.verdict))
 }
 
 /// The verdict on a requirement over all these cases. If no case has the requirement, the verdict

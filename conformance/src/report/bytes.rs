@@ -341,21 +341,4 @@ mod tests {
                 .any(|one| matches!(one, ShownField::Field(field) if !field.differs.is_empty()))
         );
     }
-
-    /// An invalid stream is split into fields up to the error, which names the field.
-    #[test]
-    fn an_error_names_its_field() {
-        let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
-        let report =
-            BytesReport::new(Some("variable-handle-read"), &bytes, None, &ValueFormat::default());
-        let shown: Vec<_> =
-            report.fields.iter().map(|one| (one.offset, one.field.as_str())).collect();
-        assert_eq!(shown, [(0, "handle"), (4, "index_count"), (8, "?")]);
-        assert_eq!(
-            report.faults,
-            [
-                "index_count at offset 4: too many, expected at most 0 in the bytes that follow, found 9"
-            ]
-        );
-    }
 }

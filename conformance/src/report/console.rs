@@ -9,6 +9,7 @@ use anstyle::AnsiColor;
 use super::display::{Detail, DisplayOptions, NAMES_MAX, RESULT_MAX, worded};
 use super::document::{
     CaseReport, FailureReport, Report, RequirementReport, SubjectReport, TargetReport, Totals,
+    tally,
 };
 use super::failures::{blocks, list};
 use crate::exit::Exit;
@@ -185,12 +186,7 @@ fn cases(report: &Report, judged_subject: CaseSubject, out: &mut dyn Write) -> i
 }
 
 fn of_cases(cases: &[&CaseReport]) -> Totals {
-    let mut totals = Totals::new();
-    for case in cases {
-        let number = totals.entry(case.verdict).or_default();
-        *number += 1;
-    }
-    totals
+    tally(cases.iter().map(|case| case.verdict))
 }
 
 /// Writes a line for each subject, each followed by the most common notes of its cases.

@@ -20,6 +20,15 @@ pub const FORMAT: u32 = 1;
 /// The number of occurrences of each verdict.
 pub type Totals = BTreeMap<Verdict, usize>;
 
+/// The number of occurrences of each key.
+pub(super) fn tally<K: Ord>(keys: impl Iterator<Item = K>) -> BTreeMap<K, usize> {
+    let mut numbers = BTreeMap::new();
+    for key in keys {
+        *numbers.entry(key).or_default() += 1;
+    }
+    numbers
+}
+
 /// The report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

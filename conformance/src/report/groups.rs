@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{sequence, vector};
 
-use super::document::{CaseReport, FailureReport, Report};
+use super::document::{CaseReport, FailureReport, Report, tally};
 use crate::judge::{CLIENT, CaseSubject, TESTEE, Verdict, clauses_of};
 
 /// Checks with the same verdict that did not pass for the same clause, in the same field of vectors
@@ -98,10 +98,7 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
     }
     let mut all: Vec<Group<'_>> = all.into_values().collect();
     for group in &mut all {
-        let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
-        for clause in &group.requirements {
-            *numbers.entry(clause).or_default() += 1;
-        }
+        let numbers = tally(group.requirements.iter().copied());
         let mut sorted: Vec<(&str, usize)> = numbers.into_iter().collect();
         sorted.sort_by_key(|(clause, number)| (std::cmp::Reverse(*number), position(clause)));
         group.requirements = sorted.into_iter().map(|(clause, _)| clause).collect();

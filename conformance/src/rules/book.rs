@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use ads_cnc::ads::{AmsHeader, AmsNetId};
+use ads_cnc::ads::AmsNetId;
 use ads_cnc::operation::{Call, Request};
 
 use super::knowledge::{ExchangeJudge, Knowledge, MemoryBudget, TargetVariable};
 use super::observation::Observation;
+use super::replies;
 use super::topic::TopicRecords;
-use super::{replies, requests};
 use crate::exchange::{Exchange, Violation};
 
 /// Maximum number of CNCs whose state is stored. Of the replies of further CNCs, only the headers
@@ -56,27 +56,6 @@ impl RuleBook {
         self.is_lost = true;
     }
 
-    /// Judges the AMS header of a request. `is_repeated`: whether an earlier request, which may
-    /// still be without a reply, has the same invoke ID; `None` if unknown.
-    pub(crate) fn request_headers(
-        &mut self,
-        observation: &dyn Observation,
-        header: &AmsHeader,
-        is_repeated: Option<bool>,
-    ) {
-        requests::headers(&mut self.records, observation, header, is_repeated);
-    }
-
-    /// Judges a request. Returns its service and address as text if it is not judged, because no
-    /// function is found for it or because it may access content at this address (SDA-12).
-    pub(crate) fn request(
-        &mut self,
-        observation: &dyn Observation,
-        call: &Call<'_>,
-    ) -> Option<String> {
-        requests::judge(&mut self.records, observation, call)
-    }
-
     /// Judges a reply, alone and together with earlier replies of the same CNC.
     pub(crate) fn reply(
         &mut self,
@@ -99,9 +78,14 @@ impl RuleBook {
             return;
         }
         let knowledge = self.cncs.entry(cnc).or_insert_with(|| Knowledge::new(self.is_lost));
-        let mut judge =
-            ExchangeJudge { records: &mut self.records, cnc: knowledge, budget: &mut self.budget };
-        replies::judge(&mut judge, observation, call, answer);
+        let mut judge = ExchangeJudge {
+            observation,
+            call,
+            records: &mut self.records,
+            cnc: knowledge,
+            budget: &mut self.budget,
+        };
+        replies::judge(&mut judge, answer);
     }
 
     /// The variable that a request reads or writes, if its description is known.

@@ -12,7 +12,6 @@ use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
 use super::knowledge::ExchangeJudge;
-use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed};
 use crate::number::to_u32;
@@ -72,26 +71,21 @@ pub(crate) fn check_length(
 }
 
 impl ExchangeJudge<'_> {
-    pub(super) fn elements(
-        &mut self,
-        observation: &dyn Observation,
-        request: &Request<'_>,
-        reply: Option<&Reply<'_>>,
-        call: &Call<'_>,
-    ) {
+    pub(super) fn elements(&mut self, request: &Request<'_>, reply: Option<&Reply<'_>>) {
+        let call = self.call;
         if let (Request::FindInstance(find), Some(Reply::ObjectAddress(address))) = (request, reply)
         {
-            self.instance(observation, find, *address);
+            self.instance(find, *address);
             return;
         }
         let Some(key) = key(call) else { return };
-        let all = &mut self.cnc.elements.known;
+        let all = &mut self.cnc.elements;
         if !all.contains_key(&key) && !self.budget.take(0) {
             return;
         }
         let element = all.entry(key).or_default();
         let at = format!("the element at {}, {}", call.index_group, call.index_offset);
-        let mut record = self.records.on(Topic::CncSda, observation);
+        let mut record = self.records.on(Topic::CncSda, self.observation);
         match (request, reply) {
             (Request::ReadElementType(_), Some(Reply::ElementText(text))) => {
                 element.data_type = check_type(&mut record, &text.text.text().to_string(), &at);
@@ -120,7 +114,7 @@ impl ExchangeJudge<'_> {
                 let given = to_u32(write.content().bytes.len());
                 if let Some(length) = element.length {
                     let expected = || format!("the {} of the element", plural(length, "byte"));
-                    let mut record = self.records.on(Topic::ClientSda, observation);
+                    let mut record = self.records.on(Topic::ClientSda, self.observation);
                     record.check(SDA_8, given == length, expected, || plural(given, "byte"));
                 }
                 return;
@@ -137,13 +131,8 @@ impl ExchangeJudge<'_> {
         check_length(&mut record, Some(data_type), length, &at);
     }
 
-    fn instance(
-        &mut self,
-        observation: &dyn Observation,
-        find: &FindInstance,
-        address: ObjectAddress,
-    ) {
-        let mut record = self.records.on(Topic::CncSda, observation);
+    fn instance(&mut self, find: &FindInstance, address: ObjectAddress) {
+        let mut record = self.records.on(Topic::CncSda, self.observation);
         let class = find.class_group().class;
         let query = find.query();
         if address == ObjectAddress::NONE {
@@ -155,7 +144,7 @@ impl ExchangeJudge<'_> {
             record.check(ADR_5, false, "the group of a class", found);
             return;
         };
-        let record = &mut self.records.on(Topic::CncSda, observation);
+        let record = &mut self.records.on(Topic::CncSda, self.observation);
         // If the request contains the rank of a channel, the instance in the reply is not checked.
         let is_by_number = find.class_group().addressing == Addressing::Logical;
         let instance = (is_by_number || class == Class::Spindle).then_some(query.channel);
@@ -228,6 +217,7 @@ mod tests {
 
     use super::*;
     use crate::evidence::Evidence;
+    use crate::rules::Observation;
     use crate::rules::topic::TopicRecords;
 
     struct Unobserved;

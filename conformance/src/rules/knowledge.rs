@@ -1,10 +1,9 @@
 //! The known state of a CNC, and the context in which an exchange is judged.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::time::Duration;
 
-use ads_cnc::operation::Request;
+use ads_cnc::operation::{Call, Request};
 use ads_cnc::streaming::Checker;
 use ads_cnc::value::DataType;
 use ads_cnc::{Description, Descriptor};
@@ -16,6 +15,8 @@ use crate::judge::{Checks as _, Rule, assumed};
 
 /// The context of the judgement of one exchange.
 pub(super) struct ExchangeJudge<'j> {
+    pub(super) observation: &'j dyn Observation,
+    pub(super) call: &'j Call<'j>,
     pub(super) records: &'j mut TopicRecords,
     pub(super) cnc: &'j mut Knowledge,
     pub(super) budget: &'j mut MemoryBudget,
@@ -26,14 +27,13 @@ impl ExchangeJudge<'_> {
     /// an earlier reply. No manual forbids such a request, so the rule is assumed.
     pub(super) fn judge_nonexistent(
         &mut self,
-        observation: &dyn Observation,
         request: &Request<'_>,
         rule: impl Into<Rule>,
         expected: impl Describe,
         found: impl Describe,
     ) {
         let topic = Topic::of_request(request.function());
-        self.records.on(topic, observation).check(assumed(rule), false, expected, found);
+        self.records.on(topic, self.observation).check(assumed(rule), false, expected, found);
     }
 }
 
@@ -66,21 +66,22 @@ impl MemoryBudget {
 #[derive(Debug, Default)]
 pub(super) struct Knowledge {
     pub(super) objects: Objects,
-    pub(super) elements: ObservedElements,
-    pub(super) parameters: ObservedParameters,
+    /// By index group and index offset of the content.
+    pub(super) elements: BTreeMap<(u32, u32), ObservedElement>,
+    /// The numbers of dynamic parameters, by index group and kind.
+    pub(super) parameter_counts: BTreeMap<(u32, String), ObservedCount>,
     pub(super) variables: Variables,
-    pub(super) streams: ObservedProgramStreams,
-    pub(super) services: Services,
+    /// By index group of the channel.
+    pub(super) streams: BTreeMap<u32, ObservedProgramStream>,
+    /// The Service Interfaces, by index group of the channel.
+    pub(super) services: BTreeMap<u32, ObservedInterface>,
+    /// Whether the CNC may have received requests before the first observed request.
+    pub(super) is_lost: bool,
 }
 
 impl Knowledge {
-    /// `is_lost`: whether the CNC may have received requests before the first observed request.
     pub(super) fn new(is_lost: bool) -> Self {
-        Self {
-            streams: ObservedProgramStreams::new(is_lost),
-            services: Services::new(is_lost),
-            ..Self::default()
-        }
+        Self { is_lost, ..Self::default() }
     }
 }
 
@@ -111,25 +112,11 @@ pub(super) struct ObservedContent {
     pub(super) writable: bool,
 }
 
-/// The elements of a CNC as far as observed.
-#[derive(Debug, Default)]
-pub(super) struct ObservedElements {
-    /// By index group and index offset of the content.
-    pub(super) known: BTreeMap<(u32, u32), ObservedElement>,
-}
-
 #[derive(Clone, Debug, Default)]
 pub(super) struct ObservedElement {
     pub(super) data_type: Option<DataType>,
     pub(super) length: Option<u32>,
     pub(super) writable: Option<bool>,
-}
-
-/// The numbers of dynamic parameters of a CNC as far as observed.
-#[derive(Debug, Default)]
-pub(super) struct ObservedParameters {
-    /// By index group and kind.
-    pub(super) counts: BTreeMap<(u32, String), ObservedCount>,
 }
 
 /// The number of parameters of a kind, which a program may change at any time.
@@ -159,21 +146,7 @@ pub(super) struct ChannelVariables {
     pub(super) names: BTreeMap<String, u32>,
 }
 
-/// The program streams of a CNC as far as observed, by index group of the channel.
 #[derive(Debug, Default)]
-pub(super) struct ObservedProgramStreams {
-    pub(super) known: BTreeMap<u32, ObservedProgramStream>,
-    /// Whether earlier writes may exist that were not observed.
-    pub(super) is_lost: bool,
-}
-
-impl ObservedProgramStreams {
-    pub(super) const fn new(is_lost: bool) -> Self {
-        Self { known: BTreeMap::new(), is_lost }
-    }
-}
-
-#[derive(Default)]
 pub(super) struct ObservedProgramStream {
     /// The packet of the previous write and its time, if known; only if the write was rejected and
     /// the packet has whole lines and at most 992 bytes.
@@ -181,28 +154,6 @@ pub(super) struct ObservedProgramStream {
     /// Checks the current program; `None` before the first accepted packet of a program, and while
     /// packets may be missing.
     pub(super) checker: Option<Checker>,
-}
-
-impl fmt::Debug for ObservedProgramStream {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ObservedProgramStream")
-            .field("rejected", &self.rejected)
-            .finish_non_exhaustive()
-    }
-}
-
-/// The Service Interfaces of a CNC as far as observed, by index group of the channel.
-#[derive(Debug, Default)]
-pub(super) struct Services {
-    pub(super) known: BTreeMap<u32, ObservedInterface>,
-    /// Whether the CNC may have received requests before the first observed request.
-    pub(super) is_lost: bool,
-}
-
-impl Services {
-    pub(super) const fn new(is_lost: bool) -> Self {
-        Self { known: BTreeMap::new(), is_lost }
-    }
 }
 
 /// The state of one channel's interface.

@@ -2,51 +2,44 @@
 
 use ads_cnc::address::{Access, ComGroup, Group};
 use ads_cnc::limits::DESCRIPTOR_LEN;
-use ads_cnc::operation::{Call, ReadDescriptors, Reply, Request};
+use ads_cnc::operation::{ReadDescriptors, Reply, Request};
 use ads_cnc::value::DataType;
 use ads_cnc::{DescriptorRef, DescriptorsRef};
 use ads_cnc_vectors::ids::*;
 
 use super::knowledge::{ExchangeJudge, ObservedContent, ObservedList};
-use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, Rule, assumed, online};
 use crate::text::plural;
 
 impl ExchangeJudge<'_> {
-    pub(super) fn objects(
-        &mut self,
-        observation: &dyn Observation,
-        request: &Request<'_>,
-        reply: Option<&Reply<'_>>,
-        call: &Call<'_>,
-    ) {
+    pub(super) fn objects(&mut self, request: &Request<'_>, reply: Option<&Reply<'_>>) {
         match (request, reply) {
             (Request::CountObjects(_), Some(Reply::ObjectCount(count))) => {
-                self.count(observation, call.index_group.get(), count.0);
+                self.count(count.0);
             }
             (Request::ReadDescriptors(read), reply) => {
                 let given = match reply {
                     Some(Reply::Descriptors(given)) => Some(*given),
                     _ => None,
                 };
-                self.descriptors(observation, request, read, given, call);
+                self.descriptors(request, read, given);
             }
             (Request::ReadObject(_), Some(Reply::Content(content))) => {
-                let Some(known) = self.content(call) else { return };
-                let full = call.read_length >= known.size && known.type_size.is_some();
+                let Some(known) = self.content() else { return };
+                let full = self.call.read_length >= known.size && known.type_size.is_some();
                 if full {
                     let given = content.bytes.len();
                     let sized = u32::try_from(given) == Ok(known.size);
                     let expected =
                         || format!("the {} of its descriptor", plural(known.size, "byte"));
                     let found = || format!("{} of {}", plural(given, "byte"), known.name);
-                    let mut record = self.records.on(Topic::CncCom, observation);
+                    let mut record = self.records.on(Topic::CncCom, self.observation);
                     record.check([COM_5, COM_2], sized, expected, found);
                 }
             }
             (Request::WriteObject(write), reply) => {
-                let Some(known) = self.content(call) else { return };
+                let Some(known) = self.content() else { return };
                 let given = write.content().bytes.len();
                 if known.type_size.is_some() {
                     let sized = u32::try_from(given) == Ok(known.size);
@@ -54,25 +47,26 @@ impl ExchangeJudge<'_> {
                         || format!("the {} of {}", plural(known.size, "byte"), known.name);
                     let found = || plural(given, "byte");
                     self.records
-                        .on(Topic::ClientCom, observation)
+                        .on(Topic::ClientCom, self.observation)
                         .check(COM_5, sized, expected, found);
                 }
                 let passed = known.writable || reply.is_none();
                 let expected =
                     || format!("an error number, because {} may not be written", known.name);
-                let mut record = self.records.on(Topic::CncCom, observation);
+                let mut record = self.records.on(Topic::CncCom, self.observation);
                 record.check(assumed(COM_2), passed, expected, "a success");
             }
             _ => {}
         }
     }
 
-    fn content(&self, call: &Call<'_>) -> Option<ObservedContent> {
-        let place = (call.index_group.get(), call.index_offset.get());
+    fn content(&self) -> Option<ObservedContent> {
+        let place = (self.call.index_group.get(), self.call.index_offset.get());
         self.cnc.objects.contents.get(&place).cloned()
     }
 
-    fn count(&mut self, observation: &dyn Observation, group: u32, count: u32) {
+    fn count(&mut self, count: u32) {
+        let group = self.call.index_group.get();
         let list = self.cnc.objects.lists.entry(group).or_default();
         if list.count.is_some_and(|known| known != count) {
             *list = ObservedList::default();
@@ -80,29 +74,27 @@ impl ExchangeJudge<'_> {
         list.count = Some(count);
         let last = list.known.last_key_value().map_or(0, |(&last, _)| last);
         let found = || format!("{}, but object {last} has a descriptor", plural(count, "object"));
-        let mut record = self.records.on(Topic::CncCom, observation);
+        let mut record = self.records.on(Topic::CncCom, self.observation);
         record.check(COM_1, last <= count, || format!("at least {last} objects"), found);
     }
 
     fn descriptors(
         &mut self,
-        observation: &dyn Observation,
         request: &Request<'_>,
         read: &ReadDescriptors,
         given: Option<DescriptorsRef<'_>>,
-        call: &Call<'_>,
     ) {
-        let group = call.index_group.get();
+        let group = self.call.index_group.get();
         let first = read.first();
         let count = self.cnc.objects.lists.get(&group).and_then(|list| list.count);
         if let Some(count) = count.filter(|count| first > *count) {
             let expected = || format!("an index within {}", plural(count, "object"));
             let asked = || format!("index {first}");
-            self.judge_nonexistent(observation, request, COM_2, expected, asked);
+            self.judge_nonexistent(request, COM_2, expected, asked);
             let expected =
                 || format!("an error number, because the list has {}", plural(count, "object"));
             let found = || format!("a descriptor of object {first}");
-            let mut record = self.records.on(Topic::CncCom, observation);
+            let mut record = self.records.on(Topic::CncCom, self.observation);
             record.check(COM_2, given.is_none_or(|given| given.is_empty()), expected, found);
             return;
         }
@@ -110,7 +102,7 @@ impl ExchangeJudge<'_> {
         if let Some(count) = count {
             let left = count.saturating_sub(first).saturating_add(1);
             let length = u32::try_from(DESCRIPTOR_LEN).unwrap_or(1);
-            let exact = call.read_length.checked_rem(length) == Some(0);
+            let exact = self.call.read_length.checked_rem(length) == Some(0);
             let asked = if exact { read.count() } else { 1 };
             let expected = asked.min(left);
             // For more descriptors than are left, or a read length that is not a multiple of a
@@ -119,12 +111,13 @@ impl ExchangeJudge<'_> {
             let passed = u32::try_from(given.len()) == Ok(expected);
             let expected =
                 || format!("{} starting with object {first}", plural(expected, "descriptor"));
-            self.records.on(Topic::CncCom, observation).check(rule, passed, expected, given.len());
+            let mut record = self.records.on(Topic::CncCom, self.observation);
+            record.check(rule, passed, expected, given.len());
         }
         let alone = given.len() == 1;
         for (index, object) in (first..=u32::MAX).zip(given.iter()) {
             let owned = object.to_owned();
-            let mut record = self.records.on(Topic::CncCom, observation);
+            let mut record = self.records.on(Topic::CncCom, self.observation);
             record.about(object.name());
             check_descriptor(&mut record, object);
             let list = self.cnc.objects.lists.entry(group).or_default();
@@ -142,7 +135,7 @@ impl ExchangeJudge<'_> {
             if is_listed && (known.is_some() || self.budget.take(0)) {
                 list.known.insert(index, (owned, alone));
             }
-            let mut record = self.records.on(Topic::CncCom, observation);
+            let mut record = self.records.on(Topic::CncCom, self.observation);
             record.check(COM_2, other.is_none(), "an ID that no other object has", found);
             if let Some((known, was_alone)) = known {
                 // Descriptors must be equal whether they are read one by one or in a range.

@@ -1,30 +1,19 @@
 //! Dynamic parameters, compared across exchanges.
 
-use ads_cnc::operation::{Call, Reply, Request};
+use ads_cnc::operation::{Reply, Request};
 use ads_cnc_vectors::ids::*;
 
 use super::knowledge::{ExchangeJudge, ObservedCount};
-use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, assumed};
 
 impl ExchangeJudge<'_> {
-    pub(super) fn parameters(
-        &mut self,
-        observation: &dyn Observation,
-        request: &Request<'_>,
-        reply: Option<&Reply<'_>>,
-        call: &Call<'_>,
-    ) {
-        let group = call.index_group.get();
+    pub(super) fn parameters(&mut self, request: &Request<'_>, reply: Option<&Reply<'_>>) {
+        let group = self.call.index_group.get();
         let (kind, index) = match request {
             Request::CountDynamic(count) => {
                 if let Some(Reply::DynamicCount(number)) = reply {
-                    self.number_of_parameters(
-                        observation,
-                        (group, count.kind.to_string()),
-                        number.0,
-                    );
+                    self.number_of_parameters((group, count.kind.to_string()), number.0);
                 }
                 return;
             }
@@ -32,7 +21,7 @@ impl ExchangeJudge<'_> {
             Request::DynamicValueByIndex(value) => (value.kind, value.index),
             _ => return,
         };
-        let known = self.cnc.parameters.counts.get_mut(&(group, kind.to_string()));
+        let known = self.cnc.parameter_counts.get_mut(&(group, kind.to_string()));
         let Some(ObservedCount { number: count, answered_beyond }) = known else { return };
         let count = *count;
         match (index > count, reply.is_some()) {
@@ -49,34 +38,29 @@ impl ExchangeJudge<'_> {
                     _ => format!("an index from 1 to {count}"),
                 };
                 let found = || format!("index {index}");
-                self.judge_nonexistent(observation, request, DYN_5, expected, found);
+                self.judge_nonexistent(request, DYN_5, expected, found);
             }
             (false, true) => {}
         }
-        self.records.on(Topic::CncDyn, observation).pass(DYN_5);
+        self.records.on(Topic::CncDyn, self.observation).pass(DYN_5);
         let name = match reply {
             Some(Reply::DynamicName(name)) => name.name.text(),
             _ => return,
         };
         let prefix = kind.to_string();
         let of_kind = name.to_string().starts_with(&prefix);
-        let mut record = self.records.on(Topic::CncDyn, observation);
+        let mut record = self.records.on(Topic::CncDyn, self.observation);
         record.check(DYN_2, of_kind, || format!("a name of {prefix}"), || format!("{name:?}"));
     }
 
     /// Compares the number of parameters of a kind with the previous number, and stores it. Names
     /// are not stored, because the index of a parameter may change (DYN-4).
-    fn number_of_parameters(
-        &mut self,
-        observation: &dyn Observation,
-        key: (u32, String),
-        number: u32,
-    ) {
+    fn number_of_parameters(&mut self, key: (u32, String), number: u32) {
         let length = key.1.len();
         // Between two counts, a subprogram may have created a V.L variable, which is deleted when
         // the subprogram ends.
         let rule = if key.1 == "V.L" { assumed(DYN_5) } else { DYN_5.into() };
-        let counts = &mut self.cnc.parameters.counts;
+        let counts = &mut self.cnc.parameter_counts;
         if !counts.contains_key(&key) && !self.budget.take(length) {
             return;
         }
@@ -85,7 +69,8 @@ impl ExchangeJudge<'_> {
         if let Some(index) = same.and_then(|before| before.answered_beyond) {
             let expected =
                 || format!("an error number for index {index} between two counts of {number}");
-            self.records.on(Topic::CncDyn, observation).check(rule, false, expected, "a success");
+            let mut record = self.records.on(Topic::CncDyn, self.observation);
+            record.check(rule, false, expected, "a success");
         }
     }
 }

@@ -3,7 +3,7 @@
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::AmsHeader;
 use ads_cnc::limits::DESCRIPTOR_LEN;
-use ads_cnc::operation::{AdsService, Call, DispatchError, Reply, Request};
+use ads_cnc::operation::{AdsService, DispatchError, Reply, Request};
 use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::requirement;
 
@@ -74,12 +74,8 @@ fn short_error(
     }
 }
 
-pub(super) fn judge(
-    context: &mut ExchangeJudge<'_>,
-    observation: &dyn Observation,
-    call: &Call<'_>,
-    answer: &AdsReply,
-) {
+pub(super) fn judge(context: &mut ExchangeJudge<'_>, answer: &AdsReply) {
+    let (observation, call) = (context.observation, context.call);
     let data = answer.success();
     let request = match call.dispatch() {
         Ok(request) => request,
@@ -92,16 +88,10 @@ pub(super) fn judge(
             let Some(clause) = spec.filter(|id| requirement(id).is_some()) else { return };
             let rule =
                 if clause == VAR_24.as_str() { VAR_24.into() } else { assumed(Rule::of(clause)) };
-            let case = match clause.get(..3) {
-                Some("COM") => Topic::CncCom,
-                Some("SDA") => Topic::CncSda,
-                Some("DYN") => Topic::CncDyn,
-                Some("STM") => Topic::CncStream,
-                _ => Topic::CncVar,
-            };
+            let (_, topic) = Topic::of_clause(clause);
             let given =
                 data.is_some_and(|data| !data.is_empty() || call.service == AdsService::Write);
-            let mut record = context.records.on(case, observation);
+            let mut record = context.records.on(topic, observation);
             if given && record.knows(clause) {
                 record.check(rule, false, || format!("an error number for {error}"), "a success");
             }
@@ -148,40 +138,20 @@ pub(super) fn judge(
             return;
         }
     };
-    together(context, observation, &request, reply.as_ref(), call);
+    together(context, &request, reply.as_ref());
 }
 
 /// Judges a reply together with earlier replies.
-fn together(
-    context: &mut ExchangeJudge<'_>,
-    observation: &dyn Observation,
-    request: &Request<'_>,
-    reply: Option<&Reply<'_>>,
-    call: &Call<'_>,
-) {
-    match request {
-        Request::CountObjects(_)
-        | Request::ReadDescriptors(_)
-        | Request::ReadObject(_)
-        | Request::WriteObject(_) => context.objects(observation, request, reply, call),
-        Request::WriteProgramStream(_) => context.stream(observation, call, reply.is_some()),
-        Request::FindInstance(_)
-        | Request::CountElements(_)
-        | Request::ReadElement(_)
-        | Request::WriteElement(_)
-        | Request::ReadElementName(_)
-        | Request::ReadElementType(_)
-        | Request::ReadElementLength(_)
-        | Request::ReadElementUnit(_)
-        | Request::ReadElementWriteFlag(_) => context.elements(observation, request, reply, call),
-        Request::CountDynamic(_)
-        | Request::DynamicNameByIndex(_)
-        | Request::DynamicValueByName(_)
-        | Request::DynamicValueByIndex(_) => context.parameters(observation, request, reply, call),
+fn together(context: &mut ExchangeJudge<'_>, request: &Request<'_>, reply: Option<&Reply<'_>>) {
+    match Topic::of_reply(request.function()) {
+        Topic::CncCom => context.objects(request, reply),
+        Topic::CncStream => context.stream(reply.is_some()),
+        Topic::CncSda => context.elements(request, reply),
+        Topic::CncDyn => context.parameters(request, reply),
         _ => {
-            context.variables(observation, request, reply, call);
-            context.values(observation, request, reply, call);
-            context.service(observation, request, reply, call);
+            context.variables(request, reply);
+            context.values(request, reply);
+            context.service(request, reply);
         }
     }
 }

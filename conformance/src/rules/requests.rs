@@ -14,83 +14,88 @@ use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::text::plural;
 use crate::values::until_nul;
 
-/// Checks the AMS header of a request. `again` is `is_repeated` of
-/// `RuleBook::request_headers`.
-pub(super) fn headers(
-    records: &mut TopicRecords,
-    observation: &dyn Observation,
-    header: &AmsHeader,
-    again: Option<bool>,
-) {
-    let mut record = records.on(Topic::ClientFrames, observation);
-    let flags = header.state_flags;
-    let found = || format!("state flags {:#06x}", flags.0);
-    record.check(ADS_5, flags == StateFlags::REQUEST, "state flags 0x0004", found);
-    let is_free = header.error == AdsError::NO_ERROR;
-    let found = || format!("AMS error {:#x}", header.error);
-    record.check(ADS_5, is_free, "no AMS error in a request", found);
-    if let Some(again) = again {
-        let found =
-            || format!("the invoke ID {:#x} of a request without a reply", header.invoke_id);
-        record.check(assumed(ADS_5), !again, "an invoke ID that no pending request has", found);
+impl TopicRecords {
+    /// Judges the AMS header of a request. `is_repeated`: whether an earlier request, which may
+    /// still be without a reply, has the same invoke ID; `None` if unknown.
+    pub(crate) fn request_headers(
+        &mut self,
+        observation: &dyn Observation,
+        header: &AmsHeader,
+        is_repeated: Option<bool>,
+    ) {
+        let mut record = self.on(Topic::ClientFrames, observation);
+        let flags = header.state_flags;
+        let found = || format!("state flags {:#06x}", flags.0);
+        record.check(ADS_5, flags == StateFlags::REQUEST, "state flags 0x0004", found);
+        let is_free = header.error == AdsError::NO_ERROR;
+        let found = || format!("AMS error {:#x}", header.error);
+        record.check(ADS_5, is_free, "no AMS error in a request", found);
+        if let Some(is_repeated) = is_repeated {
+            let found =
+                || format!("the invoke ID {:#x} of a request without a reply", header.invoke_id);
+            let expected = "an invoke ID that no pending request has";
+            record.check(assumed(ADS_5), !is_repeated, expected, found);
+        }
     }
-}
 
-/// Judges a request. Returns its service and address as text if it is not judged, because no
-/// function is found for it or because it may access content.
-pub(super) fn judge(
-    records: &mut TopicRecords,
-    observation: &dyn Observation,
-    call: &Call<'_>,
-) -> Option<String> {
-    match call.dispatch() {
-        Ok(request) => {
-            records.on(Topic::ClientPorts, observation).pass(port_rule(call.port));
-            documented(records, observation, call, &request);
-            None
-        }
-        Err(DispatchError::Stream(error)) => {
-            if let Some(function) = function_at(call) {
-                let spec = function.spec();
-                let clause = error.field().spec().map(|spec| spec.clause);
-                let known = clause.filter(|id| requirement(id).is_some());
-                let rule = match error.kind() {
-                    ErrorKind::TooMany => VAR_24.into(),
-                    ErrorKind::TooLong if function == Function::WriteProgramStream => STM_2.into(),
-                    // The read length is too small for the reply. The required read length is
-                    // assumed.
-                    ErrorKind::BufferTooSmall => assumed(COM_3),
-                    _ => Rule::of(known.unwrap_or(spec.clause)),
-                };
-                let expected = || format!("the request of {:?}", spec.name);
-                records
-                    .on(Topic::of_request(function), observation)
-                    .check(rule, false, expected, error);
+    /// Judges a request. Returns its service and address as text if it is not judged, because no
+    /// function is found for it or because it may access content at this address (SDA-12).
+    pub(crate) fn request(
+        &mut self,
+        observation: &dyn Observation,
+        call: &Call<'_>,
+    ) -> Option<String> {
+        match call.dispatch() {
+            Ok(request) => {
+                self.on(Topic::ClientPorts, observation).pass(port_rule(call.port));
+                documented(self, observation, call, &request);
+                None
             }
-            None
-        }
-        Err(rejection) => {
-            let other = if call.port == AmsPort::COM { AmsPort::SDA } else { AmsPort::COM };
-            let elsewhere = Call { port: other, ..*call };
-            let is_elsewhere = match elsewhere.dispatch() {
-                Ok(_) => true,
-                Err(DispatchError::Stream(_) | DispatchError::Service { .. }) => {
-                    matches!(rejection, DispatchError::Group(_))
+            Err(DispatchError::Stream(error)) => {
+                if let Some(function) = function_at(call) {
+                    let spec = function.spec();
+                    let clause = error.field().spec().map(|spec| spec.clause);
+                    let known = clause.filter(|id| requirement(id).is_some());
+                    let rule = match error.kind() {
+                        ErrorKind::TooMany => VAR_24.into(),
+                        ErrorKind::TooLong if function == Function::WriteProgramStream => {
+                            STM_2.into()
+                        }
+                        // The read length is too small for the reply. The required read length is
+                        // assumed.
+                        ErrorKind::BufferTooSmall => assumed(COM_3),
+                        _ => Rule::of(known.unwrap_or(spec.clause)),
+                    };
+                    let expected = || format!("the request of {:?}", spec.name);
+                    self.on(Topic::of_request(function), observation)
+                        .check(rule, false, expected, error);
                 }
-                Err(_) => false,
-            };
-            if let Some(function) = function_at(&elsewhere).filter(|_| is_elsewhere) {
-                let spec = function.spec();
-                let expected = || format!("port {} for {}", spec.task.port(), spec.name);
-                let mut record = records.on(Topic::ClientPorts, observation);
-                record.check(port_rule(other), false, expected, || format!("port {}", call.port));
-                return None;
+                None
             }
-            if matches!(rejection, DispatchError::Service { .. }) {
-                return wrong_service(records, observation, call, rejection);
+            Err(rejection) => {
+                let other = if call.port == AmsPort::COM { AmsPort::SDA } else { AmsPort::COM };
+                let elsewhere = Call { port: other, ..*call };
+                let is_elsewhere = match elsewhere.dispatch() {
+                    Ok(_) => true,
+                    Err(DispatchError::Stream(_) | DispatchError::Service { .. }) => {
+                        matches!(rejection, DispatchError::Group(_))
+                    }
+                    Err(_) => false,
+                };
+                if let Some(function) = function_at(&elsewhere).filter(|_| is_elsewhere) {
+                    let spec = function.spec();
+                    let expected = || format!("port {} for {}", spec.task.port(), spec.name);
+                    let mut record = self.on(Topic::ClientPorts, observation);
+                    record
+                        .check(port_rule(other), false, expected, || format!("port {}", call.port));
+                    return None;
+                }
+                if matches!(rejection, DispatchError::Service { .. }) {
+                    return wrong_service(self, observation, call, rejection);
+                }
+                let Call { port, service, index_group, index_offset, .. } = call;
+                Some(format!("{service} {index_group}, {index_offset} at {port}"))
             }
-            let Call { port, service, index_group, index_offset, .. } = call;
-            Some(format!("{service} {index_group}, {index_offset} at {port}"))
         }
     }
 }

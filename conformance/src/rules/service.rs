@@ -1,26 +1,19 @@
 //! The variables of the Service Interface: sizes and order of access.
 
 use ads_cnc::limits::SERVICE_TEXT_MAX;
-use ads_cnc::operation::{Call, Reply, Request};
+use ads_cnc::operation::{Reply, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
-use super::knowledge::{ExchangeJudge, ObservedInterface, Services};
-use super::observation::Observation;
+use super::knowledge::{ExchangeJudge, ObservedInterface};
 use super::requests::name_of;
 use super::topic::{Topic, TopicRecord};
 use crate::judge::{Checks as _, assumed};
 use crate::text::plural;
 
 impl ExchangeJudge<'_> {
-    pub(super) fn service(
-        &mut self,
-        observation: &dyn Observation,
-        request: &Request<'_>,
-        reply: Option<&Reply<'_>>,
-        call: &Call<'_>,
-    ) {
-        let group = call.index_group.get();
+    pub(super) fn service(&mut self, request: &Request<'_>, reply: Option<&Reply<'_>>) {
+        let group = self.call.index_group.get();
         let handle = match request {
             Request::ReadByHandle(read) => Some(read.handle.0),
             Request::WriteByHandle(write) => Some(write.handle.0),
@@ -28,7 +21,8 @@ impl ExchangeJudge<'_> {
         };
         let by_handle = handle.and_then(|handle| self.cnc.variables.name_of(group, handle));
         let name = by_handle.map(str::to_owned);
-        let name = name.or_else(|| name_of(request.function(), call).map(|name| name.to_string()));
+        let name =
+            name.or_else(|| name_of(request.function(), self.call).map(|name| name.to_string()));
         let variable = name.as_deref().and_then(ServiceVariable::by_name);
         let (Some(variable), Some(reply)) = (variable, reply) else { return };
         let written = match request {
@@ -37,17 +31,17 @@ impl ExchangeJudge<'_> {
             Request::ReadByHandle(_) | Request::ReadByName(_) => None,
             _ => return,
         };
-        let Services { known, is_lost } = &mut self.cnc.services;
-        let new = || ObservedInterface { is_lost: *is_lost, ..ObservedInterface::default() };
-        let interface = known.entry(group).or_insert_with(new);
+        let is_lost = self.cnc.is_lost;
+        let new = || ObservedInterface { is_lost, ..ObservedInterface::default() };
+        let interface = self.cnc.services.entry(group).or_insert_with(new);
         match (written, reply) {
             (Some(value), _) => {
-                let mut record = self.records.on(Topic::ClientService, observation);
+                let mut record = self.records.on(Topic::ClientService, self.observation);
                 form(&mut record, variable, value);
                 interface.write(&mut record, variable, value);
             }
             (None, Reply::Value(value)) => {
-                let mut record = self.records.on(Topic::CncService, observation);
+                let mut record = self.records.on(Topic::CncService, self.observation);
                 form(&mut record, variable, value.bytes);
                 interface.read(&mut record, variable, value.bytes);
             }

@@ -3,12 +3,10 @@
 use std::time::Duration;
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
-use ads_cnc::operation::Call;
 use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
 use ads_cnc_vectors::ids::*;
 
 use super::knowledge::ExchangeJudge;
-use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::text::plural;
@@ -18,12 +16,8 @@ use crate::text::plural;
 const RETRY_TIMEOUT: Duration = Duration::from_secs(30);
 
 impl ExchangeJudge<'_> {
-    pub(super) fn stream(
-        &mut self,
-        observation: &dyn Observation,
-        call: &Call<'_>,
-        accepted: bool,
-    ) {
+    pub(super) fn stream(&mut self, accepted: bool) {
+        let (observation, call) = (self.observation, self.call);
         let data = call.data;
         let mut record = self.records.on(Topic::ClientStream, observation);
         let length = data.len();
@@ -50,8 +44,8 @@ impl ExchangeJudge<'_> {
             }
         }
         let now = observation.time();
-        let is_lost = self.cnc.streams.is_lost;
-        let stream = self.cnc.streams.known.entry(call.index_group.get()).or_default();
+        let is_lost = self.cnc.is_lost;
+        let stream = self.cnc.streams.entry(call.index_group.get()).or_default();
         if let Some((rejected, then)) = stream.rejected.take() {
             let waited = match (now, then) {
                 (Some(now), Some(then)) => now.saturating_sub(then),

@@ -10,8 +10,7 @@ use ads_cnc_vectors::requirements;
 use super::observation::Observation;
 use crate::evidence::{Describe, Evidence};
 use crate::judge::{
-    Body, Case, CaseOutcome, CaseSubject, Checks, Needs, Record, Rule, Rules, Stop, Verdict,
-    clauses_of,
+    Body, Case, CaseOutcome, CaseSubject, Checks, Needs, Record, Rule, Rules, Verdict, clauses_of,
 };
 
 /// Declares [`Topic`].
@@ -97,25 +96,25 @@ traffic_cases! {
 }
 
 impl Topic {
-    pub(crate) fn of_request(function: Function) -> Self {
-        match function.spec().clause.get(..3) {
-            Some("COM") => Self::ClientCom,
-            Some("SDA") => Self::ClientSda,
-            Some("DYN") => Self::ClientDyn,
-            Some("STM") => Self::ClientStream,
-            _ => Self::ClientVar,
+    /// The topics of requests and of replies whose function or field has this clause.
+    pub(super) fn of_clause(clause: &str) -> (Self, Self) {
+        match clause.get(..3) {
+            Some("COM") => (Self::ClientCom, Self::CncCom),
+            Some("SDA") => (Self::ClientSda, Self::CncSda),
+            Some("DYN") => (Self::ClientDyn, Self::CncDyn),
+            Some("STM") => (Self::ClientStream, Self::CncStream),
+            _ => (Self::ClientVar, Self::CncVar),
         }
+    }
+
+    /// The topic of requests of a function.
+    pub(crate) fn of_request(function: Function) -> Self {
+        Self::of_clause(function.spec().clause).0
     }
 
     /// The topic of replies of a function.
     pub(crate) fn of_reply(function: Function) -> Self {
-        match function.spec().clause.get(..3) {
-            Some("COM") => Self::CncCom,
-            Some("SDA") => Self::CncSda,
-            Some("DYN") => Self::CncDyn,
-            Some("STM") => Self::CncStream,
-            _ => Self::CncVar,
-        }
+        Self::of_clause(function.spec().clause).1
     }
 }
 
@@ -210,8 +209,7 @@ impl TopicRecords {
 
     pub(crate) fn finish(self) -> Vec<CaseOutcome> {
         let outcomes = self.records.into_iter().map(|(case, record, notes)| {
-            let Record { judgements, checks } = record;
-            let outcome = CaseOutcome::tried(case, judgements, checks, None::<Stop>);
+            let outcome = CaseOutcome::tried(case, record, None);
             let note = (!notes.is_empty()).then(|| notes.join("; "));
             CaseOutcome { note: note.or(outcome.note), ..outcome }
         });

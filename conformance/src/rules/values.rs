@@ -1,12 +1,11 @@
 //! Values of variables, compared with their descriptions.
 
-use ads_cnc::operation::{Call, Reply, Request};
+use ads_cnc::operation::{Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
 use ads_cnc_vectors::ids::*;
 
 use super::knowledge::ExchangeJudge;
 use super::knowledge::TargetVariable;
-use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks as _, assumed};
 use crate::text::plural;
@@ -33,13 +32,7 @@ impl TargetVariable {
 }
 
 impl ExchangeJudge<'_> {
-    pub(super) fn values(
-        &mut self,
-        observation: &dyn Observation,
-        request: &Request<'_>,
-        reply: Option<&Reply<'_>>,
-        _: &Call<'_>,
-    ) {
+    pub(super) fn values(&mut self, request: &Request<'_>, reply: Option<&Reply<'_>>) {
         let Some(target) = self.cnc.variables.described(request) else { return };
         let name = &target.description.name.text;
         let by_handle = matches!(request, Request::ReadByHandle(_) | Request::WriteByHandle(_));
@@ -51,7 +44,7 @@ impl ExchangeJudge<'_> {
         let dimensions = target.description.dimensions.len();
         let indices = target.indices.len();
         let fits = target.has_valid_index_count();
-        let mut record = self.records.on(Topic::ClientVar, observation);
+        let mut record = self.records.on(Topic::ClientVar, self.observation);
         let found = || format!("{} of {name}", plural(indices, "index"));
         let rule = assumed(if by_handle { VAR_11 } else { VAR_20 });
         record.check(rule, fits, || format!("no index, or {}", plural(dimensions, "index")), found);
@@ -61,7 +54,7 @@ impl ExchangeJudge<'_> {
             let expected = || format!("the {} of {name}", plural(size, "byte"));
             record.check(clause, sized, expected, || plural(given, "byte"));
         }
-        let mut record = self.records.on(Topic::CncVar, observation);
+        let mut record = self.records.on(Topic::CncVar, self.observation);
         record.about(name);
         if !fits {
             let expected = || {

@@ -9,7 +9,6 @@ use ads_cnc::{
 use ads_cnc_vectors::ids::*;
 
 use super::knowledge::{ChannelVariables, ExchangeJudge, MemoryBudget, TargetVariable, Variables};
-use super::observation::Observation;
 use super::topic::Topic;
 use crate::judge::{Checks, assumed};
 use crate::text::plural;
@@ -83,47 +82,33 @@ impl Variables {
 const OF_PROGRAM: [&str; 3] = ["V.P", "V.L", "V.S"];
 
 impl ExchangeJudge<'_> {
-    pub(super) fn variables(
-        &mut self,
-        observation: &dyn Observation,
-        request: &Request<'_>,
-        reply: Option<&Reply<'_>>,
-        call: &Call<'_>,
-    ) {
+    pub(super) fn variables(&mut self, request: &Request<'_>, reply: Option<&Reply<'_>>) {
         match (request, reply) {
             (Request::CountVariables(count), Some(Reply::VariableCount(number))) => {
-                self.number(observation, call, count.kind.text().to_string(), number.0);
+                self.number(count.kind.text().to_string(), number.0);
             }
             (Request::DescribeByIndex(describe), reply) => {
                 let kind = describe.kind.text().to_string();
-                let known = self.bound(call, &kind).filter(|count| describe.index >= *count);
+                let known = self.bound(&kind).filter(|count| describe.index >= *count);
                 if let Some(count) = known {
                     let (index, none) = (describe.index, reply.is_none());
                     let expected = || format!("an index below {count}");
                     let found = || format!("index {index}");
-                    self.judge_nonexistent(observation, request, VAR_2, expected, found);
+                    self.judge_nonexistent(request, VAR_2, expected, found);
                     let expected = || format!("an error number for index {index} of {count}");
-                    let mut record = self.records.on(Topic::CncVar, observation);
+                    let mut record = self.records.on(Topic::CncVar, self.observation);
                     record.check(VAR_2, none, expected, "a description");
                     return;
                 }
                 if let Some(Reply::Description(variable)) = reply {
-                    let variable = Description {
-                        handle: variable.handle,
-                        var_type: variable.var_type,
-                        access: variable.access,
-                        size: variable.size,
-                        dimensions: variable.dimensions.iter().collect(),
-                        name: variable.name.into(),
-                    };
-                    self.description(observation, call, variable, kind, describe.index);
+                    self.description(variable.to_owned(), kind, describe.index);
                 }
             }
             (Request::HandleByName(handle), Some(Reply::Handle(given))) => {
-                self.handle(observation, call, handle.name.text(), given.0);
+                self.handle(handle.name.text(), given.0);
             }
             (Request::DescribeExtended(describe), Some(Reply::Extended(given))) => {
-                let mut record = self.records.on(Topic::CncVar, observation);
+                let mut record = self.records.on(Topic::CncVar, self.observation);
                 let at = format!("index {} of {}", describe.index, describe.kind.text());
                 if describe.kind == Kind::V_E {
                     check_extended(&mut record, given, &at);
@@ -134,7 +119,7 @@ impl ExchangeJudge<'_> {
             }
             (Request::DescribeByName(describe), Some(Reply::DescriptionByName(given))) => {
                 let name = describe.name.text().to_string();
-                let known = self.cnc.variables.channel(call);
+                let known = self.cnc.variables.channel(self.call);
                 let known = known.and_then(|channel| channel.described.get(&name)).cloned();
                 if let Some((known, ..)) = known {
                     let same = given.var_type == known.var_type
@@ -143,7 +128,7 @@ impl ExchangeJudge<'_> {
                         && given.dimensions.iter().eq(known.dimensions.iter().copied());
                     let dimensions = given.dimensions.iter().collect::<Vec<_>>();
                     let found = || in_words(given.var_type, given.access, given.size, &dimensions);
-                    let mut record = self.records.on(Topic::CncVar, observation);
+                    let mut record = self.records.on(Topic::CncVar, self.observation);
                     let expected = || {
                         let Description { var_type, access, size, ref dimensions, .. } = known;
                         format!("as by index: {}", in_words(var_type, access, size, dimensions))
@@ -156,21 +141,15 @@ impl ExchangeJudge<'_> {
     }
 
     /// The number of variables of a kind, unless a program may change it.
-    fn bound(&mut self, call: &Call<'_>, kind: &str) -> Option<u32> {
-        let counts = &self.cnc.variables.channel(call)?.counts;
+    fn bound(&mut self, kind: &str) -> Option<u32> {
+        let counts = &self.cnc.variables.channel(self.call)?.counts;
         // The number for the empty kind is not a bound either, because it belongs to several kinds.
         let is_of_program = kind.is_empty() || OF_PROGRAM.contains(&kind);
         counts.get(kind).copied().filter(|_| !is_of_program)
     }
 
-    fn number(
-        &mut self,
-        observation: &dyn Observation,
-        call: &Call<'_>,
-        kind: String,
-        number: u32,
-    ) {
-        let Some(channel) = self.cnc.variables.channel(call) else { return };
+    fn number(&mut self, kind: String, number: u32) {
+        let Some(channel) = self.cnc.variables.channel(self.call) else { return };
         let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
         if changed {
             // The configuration may have changed, so everything that is stored about the channel
@@ -185,22 +164,16 @@ impl ExchangeJudge<'_> {
         if let (Some(all), Some(g), Some(e), Some(a)) = (of(""), of("V.G"), of("V.E"), of("V.A")) {
             let sum = g.saturating_add(e).saturating_add(a);
             let expected = || format!("{} of all kinds", plural(sum, "variable"));
-            self.records.on(Topic::CncVar, observation).check(VAR_1, all == sum, expected, all);
+            let mut record = self.records.on(Topic::CncVar, self.observation);
+            record.check(VAR_1, all == sum, expected, all);
         }
     }
 
-    fn description(
-        &mut self,
-        observation: &dyn Observation,
-        call: &Call<'_>,
-        variable: Description,
-        kind: String,
-        index: u32,
-    ) {
-        let mut record = self.records.on(Topic::CncVar, observation);
+    fn description(&mut self, variable: Description, kind: String, index: u32) {
+        let mut record = self.records.on(Topic::CncVar, self.observation);
         record.about(&variable.name.text);
         check_description(&mut record, &variable, &kind);
-        let Some(channel) = self.cnc.variables.channel(call) else { return };
+        let Some(channel) = self.cnc.variables.channel(self.call) else { return };
         let name = variable.name.text.to_string();
         let handle = variable.handle.0;
         if let Some((known, of, at)) = channel.described.get(&name) {
@@ -227,21 +200,15 @@ impl ExchangeJudge<'_> {
         }
     }
 
-    fn handle(
-        &mut self,
-        observation: &dyn Observation,
-        call: &Call<'_>,
-        name: CncStr<'_>,
-        handle: u32,
-    ) {
+    fn handle(&mut self, name: CncStr<'_>, handle: u32) {
         let text = name.to_string();
-        let mut record = self.records.on(Topic::CncVar, observation);
+        let mut record = self.records.on(Topic::CncVar, self.observation);
         // Both editions exclude V.CYC from requests for handles. Only one edition also excludes
         // V.P, V.L and V.S, so these kinds are not judged.
         let barred = text.starts_with("V.CYC");
         let expected = "an error number, because V.CYC has no handles";
         record.check(VAR_18, !barred, expected, || format!("{handle:#x}"));
-        let Some(channel) = self.cnc.variables.channel(call) else { return };
+        let Some(channel) = self.cnc.variables.channel(self.call) else { return };
         let before = channel.names.get(&text).copied();
         let rule = assumed(VAR_10);
         if let Some(before) = before {

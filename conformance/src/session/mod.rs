@@ -88,7 +88,7 @@ impl Session {
             ToolError::Internal(format!("the simulated CNC could not be started: {error}"))
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
-        let server = Server::start(listener, cnc).map_err(failed)?;
+        let server = Server::start(listener, Arc::new(cnc)).map_err(failed)?;
         // The timeout is longer than for a device: a busy machine may delay a reply of the
         // simulated CNC, and such a delay is not a fault of the CNC.
         let target =

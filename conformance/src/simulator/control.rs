@@ -201,7 +201,6 @@ mod tests {
     use ads_cnc::address::{IndexGroup, IndexOffset};
     use ads_cnc::ads::{AdsError, AmsPort};
     use ads_cnc::operation::{AdsService, Call};
-    use ads_cnc::service::ServiceVariable;
 
     use super::*;
 
@@ -218,19 +217,6 @@ mod tests {
             read_length: 2048,
             data,
         })
-    }
-
-    #[test]
-    fn activation_changes_ranks() {
-        let cnc = cnc();
-        let of_rank = |rank: u32| ask(&cnc, 0x02_2300 + rank, 0x48, b"V.E.channel\0");
-        assert_eq!((of_rank(1), of_rank(2)), (Ok(vec![1, 0, 0, 0]), Ok(vec![2, 0, 0, 0])));
-        cnc.set_active(1, false).unwrap();
-        assert_eq!((of_rank(1), of_rank(2)), (Ok(vec![2, 0, 0, 0]), Ok(vec![6, 0, 0, 0])));
-        assert_eq!(of_rank(3), Err(AdsError::INVALID_GROUP));
-        cnc.set_active(1, true).unwrap();
-        assert_eq!(of_rank(3), Ok(vec![6, 0, 0, 0]));
-        assert_eq!(cnc.set_active(5, true), Err(ControlError::Channel(5)));
     }
 
     #[test]
@@ -271,20 +257,6 @@ mod tests {
             let error = cnc.set_parameters(1, DynamicKind::P, &named).unwrap_err();
             assert_eq!(error, ControlError::Name((*names.last().unwrap()).to_owned()));
         }
-    }
-
-    /// The program writes its request without ADS, and the service reads the request state over
-    /// ADS.
-    #[test]
-    fn a_program_uses_the_service_interface() {
-        let cnc = cnc();
-        let asked = cnc.with_service(2, |service| {
-            service.write(ServiceVariable::Request, b"3\0")?;
-            service.write(ServiceVariable::RequestState, &[7, 0, 0, 0])
-        });
-        asked.unwrap().unwrap();
-        let state = ask(&cnc, 0x12_2302, 0x48, b"V.G.SERVICE.REQUEST_STATE\0");
-        assert_eq!(state, Ok(vec![7, 0, 0, 0]));
     }
 
     /// A panic while the lock is held does not stop the CNC from answering.

@@ -1,7 +1,6 @@
 //! The trait of a CNC, or of middleware around a CNC, that answers ADS requests.
 
 use std::fmt;
-use std::sync::Arc;
 use std::time::Duration;
 
 use ads_cnc::ads::{AmsNetId, FrameRef};
@@ -42,26 +41,4 @@ pub trait Responder: fmt::Debug + Send + Sync {
 
     /// Advances the clock of the CNC by `time`.
     fn pass(&self, time: Duration);
-}
-
-impl<R: Responder + ?Sized> Responder for Arc<R> {
-    fn answer(&self, call: &Call<'_>) -> ReplyData {
-        (**self).answer(call)
-    }
-
-    fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
-        (**self).respond(net_id, frame, answers);
-    }
-
-    fn respond_all(&self, net_id: AmsNetId, frames: &mut Frames<'_>, answers: &mut Vec<u8>) {
-        (**self).respond_all(net_id, frames, answers);
-    }
-
-    fn piece(&self) -> usize {
-        (**self).piece()
-    }
-
-    fn pass(&self, time: Duration) {
-        (**self).pass(time);
-    }
 }

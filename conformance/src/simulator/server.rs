@@ -44,7 +44,7 @@ pub struct Server {
 
 #[derive(Debug)]
 struct ServerState {
-    cnc: Box<dyn Responder>,
+    cnc: Arc<dyn Responder>,
     options: ServerOptions,
     /// The open connections, to close them from outside.
     connections: Mutex<BTreeMap<u64, TcpStream>>,
@@ -66,7 +66,7 @@ impl Server {
     ///
     /// # Errors
     /// If the listener has no address, or the system cannot start a thread.
-    pub fn start(listener: TcpListener, cnc: impl Responder + 'static) -> io::Result<Self> {
+    pub fn start(listener: TcpListener, cnc: Arc<dyn Responder>) -> io::Result<Self> {
         Self::with_options(listener, cnc, ServerOptions::default())
     }
 
@@ -76,11 +76,11 @@ impl Server {
     /// If the listener has no address, or the system cannot start a thread.
     pub fn with_options(
         listener: TcpListener,
-        cnc: impl Responder + 'static,
+        cnc: Arc<dyn Responder>,
         options: ServerOptions,
     ) -> io::Result<Self> {
         let (connections, threads) = Default::default();
-        let shared = Arc::new(ServerState { cnc: Box::new(cnc), options, connections, threads });
+        let shared = Arc::new(ServerState { cnc, options, connections, threads });
         let (accepting, mut ids) = (Arc::clone(&shared), 0_u64..);
         let acceptor = net::Acceptor::start("cnc-accept", listener, move |stream, peer| {
             lock(&accepting.threads).retain(|thread| !thread.is_finished());

@@ -106,7 +106,7 @@ fn same_by_rank(probe: &mut Probe<'_>, clause: ClauseId, rank: Channel, number: 
         let rules = rules_by_index(probe, clause, logical, by_index, same)?;
         let by = number.number();
         let expected = || format!("{function}: {}, the answer of channel {by}", spaced(&by_number));
-        probe.check_reply(&rules, same == Some(true), &by_number, expected, &exchange);
+        probe.check_reply(&rules[..], same == Some(true), &by_number, expected, &exchange);
     }
     let items = ChannelItems::read(probe, number)?;
     let mut steady = Steady::default();

@@ -133,7 +133,7 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
         probe.rejects(GEN_6, &what, &invalid, &valid)?;
     }
     let Some(variables) = probe.variables(channel).if_known()? else { return Ok(()) };
-    let Some(name) = name_on_axes(&variables) else { return Ok(()) };
+    let Some(name) = variables.iter().find_map(name_on_axes) else { return Ok(()) };
     let axis = ChannelAxis::new(1)?;
     let request: Request<'_> =
         AxisHandleByName { channel, axis, name: name.as_cnc_str().into() }.into();
@@ -230,7 +230,7 @@ mod tests {
         let mut target = TargetState::new(client, Profile::DEVICE);
         let mut probe = Probe::new(&mut target);
         type_sizes(&mut probe).unwrap();
-        let (judgements, _) = probe.into_findings();
+        let judgements = probe.record.judgements;
         assert!(judgements.iter().any(|one| one.verdict == Verdict::Fail), "{judgements:?}");
     }
 

@@ -74,8 +74,8 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
         None => true,
     });
     let printed = || format!("{} as printed", spaced(&expected));
-    probe.check_reply(&passed, true, &expected, printed, &found);
-    probe.check_reply(&failed, false, &expected, printed, &found);
+    probe.check_reply(&passed[..], true, &expected, printed, &found);
+    probe.check_reply(&failed[..], false, &expected, printed, &found);
     Ok(())
 }
 

@@ -147,8 +147,7 @@ fn one(mut case: Case, run: Option<CaseFunction>, target: Option<&mut TargetStat
     });
     let step = step.and(restored_all);
     let step = probe.end(step);
-    let (judgements, checks) = probe.into_findings();
-    CaseOutcome::tried(case, judgements, checks, step.err())
+    CaseOutcome::tried(case, probe.record, step.err())
 }
 
 #[cfg(test)]

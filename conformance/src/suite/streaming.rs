@@ -10,8 +10,9 @@ use ads_cnc::streaming::{Ack, RETRY_AFTER};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::kit::{Probe, StreamWrite, send};
+use super::kit::{Probe, RawCall, with_reply};
 use super::row::{CaseRow, case};
+use crate::exchange::Exchange;
 use crate::judge::{Checks as _, Needs, Step, Stop, assumed};
 use crate::objects::ValueList;
 use crate::text::plural;
@@ -74,17 +75,20 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     Err(Stop::not_applicable("no stream may be written"))
 }
 
+/// Sends bytes to the program stream, valid or not. Without a valid reply, the case is
+/// inconclusive.
+fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Exchange> {
+    let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
+    with_reply(probe.call(&lines.with(|call| call.data = data.to_vec()))?)
+}
+
 /// Writes a packet repeatedly until it is accepted or the timeout has expired. Returns the last
 /// reply if the packet was not accepted, and the number of earlier rejections.
-fn repeat(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    data: &[u8],
-) -> Step<(Option<StreamWrite>, u32)> {
+fn repeat(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<(Option<Exchange>, u32)> {
     let (begun, mut waited, mut rejections) = (Instant::now(), Duration::ZERO, 0_u32);
     loop {
         let sent = send(probe, channel, data)?;
-        if sent.is_taken() {
+        if sent.success().is_some() {
             return Ok((None, rejections));
         }
         if begun.elapsed().max(waited) > BUSY_TIMEOUT {
@@ -116,9 +120,10 @@ fn write(
         let (rejection, rejections) = repeat(probe, channel, data)?;
         let Some(rejection) = rejection else { return Ok(Some(rejections)) };
         for _ in 0..2 {
-            if !send(probe, by_number, &half)?.is_taken() {
+            if send(probe, by_number, &half)?.is_error() {
                 let seconds = BUSY_TIMEOUT.as_secs();
-                let why = format!("still rejected after {seconds} s: {rejection}");
+                let result = rejection.result();
+                let why = format!("still rejected after {seconds} s: {result}");
                 return Err(Stop::Inconclusive(why));
             }
         }
@@ -184,13 +189,13 @@ fn too_long(probe: &mut Probe<'_>) -> Step {
     write_accepted(probe, &[STM_2], channel, &comment(STREAM_PACKET_MAX))?;
     for len in [993, 993, 994, 1024, 1984, 2048, 4094, 4096] {
         let sent = send(probe, channel, &comment(len))?;
-        probe.check(
-            STM_2,
-            sent.is_rejected(),
-            || format!("{} rejected", plural(len, "byte")),
-            &sent,
-        );
-        let valid = sent.assumed() == Ack::Rejected;
+        let expected = || format!("{} rejected", plural(len, "byte"));
+        probe.check(STM_2, sent.is_error(), expected, &sent);
+        // No manual states which error numbers mean a temporary and which a permanent rejection,
+        // so the meaning of the error numbers is assumed.
+        let errors = sent.reply().map(|reply| [reply.ams_error, reply.result]);
+        let error = errors.into_iter().flatten().find(|error| !error.is_ok());
+        let valid = error.map(Ack::from_result) == Some(Ack::Rejected);
         probe.check(assumed(STM_2), valid, "a permanent rejection", &sent);
     }
     Ok(())

@@ -75,7 +75,7 @@ fn elements(
                 let expected = || format!("{} of {name}, as written", Hex(new.to_vec()));
                 let stated: Vec<Rule> =
                     write_check.rules.iter().map(|rule| Rule::of(rule.id)).collect();
-                probe.check(&stated, passed, expected, || Hex(read.clone()));
+                probe.check(&stated[..], passed, expected, || Hex(read.clone()));
                 // In the whole array, only this element must have changed.
                 let mut expected = before.clone();
                 let size = old.len();

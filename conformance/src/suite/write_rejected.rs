@@ -8,9 +8,9 @@ use ads_cnc_vectors::ids::*;
 use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{
-    NOTHING_WRITABLE, Probe, RawCall, WritableNumber, WriteCheck, axis_address, changed_value,
-    each_of_access, elements_with_flag, handle_of, in_channel, is_sendable, require_taken,
-    writable_numbers, write_check,
+    IntoRawCall, NOTHING_WRITABLE, Probe, RawCall, WritableNumber, WriteCheck, axis_address,
+    changed_value, each_of_access, elements_with_flag, handle_of, in_channel, is_sendable,
+    require_taken, writable_numbers, write_check,
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Rule, Step, Stop, applicable};
@@ -97,31 +97,21 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
 /// Sends the valid write, then the invalid write, which must be rejected without an effect on
 /// `watched`, and then the valid write again. If the target rejects the first valid write, the case
 /// is inconclusive. Sends nothing if a write cannot be encoded.
-fn rejected(
+fn rejected<'a>(
     probe: &mut Probe<'_>,
     rules: &[ClauseId],
     what: &str,
-    (invalid, valid): (Request<'_>, Request<'_>),
+    (invalid, valid): (impl IntoRawCall<'a>, Request<'_>),
     watched: &ValueAddress,
 ) -> Step {
-    let Ok(invalid) = RawCall::new(invalid) else { return Ok(()) };
-    rejected_call(probe, rules, what, (&invalid, valid), watched)
-}
-
-fn rejected_call(
-    probe: &mut Probe<'_>,
-    rules: &[ClauseId],
-    what: &str,
-    (invalid, valid): (&RawCall, Request<'_>),
-    watched: &ValueAddress,
-) -> Step {
+    let Ok(invalid) = invalid.into_raw_call() else { return Ok(()) };
     let Some(&rule) = rules.first() else { return Ok(()) };
     if !is_sendable(&valid) {
         return Ok(());
     }
     require_taken(probe, rule, valid)?;
     let before = probe.value_at(watched)?;
-    let exchange = probe.call(invalid)?;
+    let exchange = probe.call(&invalid)?;
     let rejected = exchange.is_error();
     let expected = || format!("an error number for {what}");
     probe.check(rules, rejected, expected, &exchange);
@@ -145,7 +135,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let other = changed_value(value, false);
     let valid = known.by_handle(U32List::EMPTY, value);
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
-        let invalid = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, &other[..]).into();
+        let invalid = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, &other[..]);
         let what = format!("a write to the handle {free:#x}");
         rejected(probe, &[ADS_4, VAR_12], &what, (invalid, valid), &watched)?;
     }
@@ -172,12 +162,12 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         }
         let what = format!("a write to the name \"{unknown}\"");
         let value = other.as_slice().into();
-        let invalid = WriteByName { channel, name: unknown.as_cnc_str(), value }.into();
+        let invalid = WriteByName { channel, name: unknown.as_cnc_str(), value };
         rejected(probe, &[ADS_4, VAR_13], &what, (invalid, valid), &watched)?;
     }
     let element: CncString = format!("{text}[0]").parse()?;
     let value = other.as_slice().into();
-    let invalid = WriteByName { channel, name: element.as_cnc_str(), value }.into();
+    let invalid = WriteByName { channel, name: element.as_cnc_str(), value };
     rejected(
         probe,
         &[VAR_13],
@@ -214,7 +204,7 @@ fn to_absent_channel(probe: &mut Probe<'_>) -> Step {
         let Some(invalid) = in_channel(&invalid, channel, absent) else { continue };
         functions.push(valid.function());
         let what = format!("a write to channel {}, which is not configured", absent.number());
-        rejected_call(probe, &[ADS_4], &what, (&invalid, valid), &address)?;
+        rejected(probe, &[ADS_4], &what, (invalid, valid), &address)?;
     }
     applicable(!functions.is_empty(), NOTHING_WRITABLE)
 }
@@ -269,7 +259,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let data = [&name[..], &vec![b'A'; size]].concat();
             let what = format!("a write of {} to a name without NUL", plural(size, "byte"));
             let invalid = call.with(|call| call.data = data);
-            rejected_call(probe, &[VAR_13], &what, (&invalid, valid), &watched)?;
+            rejected(probe, &[VAR_13], &what, (invalid, valid), &watched)?;
         }
         let valid = known.by_handle(U32List::EMPTY, &known.value);
         let call = RawCall::new(valid)?;
@@ -280,7 +270,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 .for_each(|four| four.copy_from_slice(&count.to_le_bytes()));
             let what = format!("a write with a count of {count:#x} indices");
             let invalid = call.with(|call| call.data = data);
-            rejected_call(probe, &[VAR_24, VAR_12], &what, (&invalid, valid), &watched)?;
+            rejected(probe, &[VAR_24, VAR_12], &what, (invalid, valid), &watched)?;
         }
     }
     Ok(())

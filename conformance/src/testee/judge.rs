@@ -9,7 +9,7 @@ use super::protocol_rules::ProtocolRules;
 use super::verdicts::{JudgementOptions, Reactions, Verdicts};
 use super::{Testee, TesteeReaction};
 use crate::codec::message::{Answer, TesteeHello};
-use crate::judge::{Case, CaseOutcome, CaseSubject, HELLO, Stop, Verdict, caught};
+use crate::judge::{Case, CaseOutcome, CaseSubject, HELLO, Record, Stop, Verdict, caught};
 use crate::process::{interrupt, progress};
 
 /// After this many consecutive invalid or missing answers, no more questions are asked.
@@ -167,7 +167,7 @@ pub fn judge(
         };
         let judged = judged.unwrap_or_else(|why| {
             let case = cases.get(place)?.clone();
-            Some(CaseOutcome::tried(case, Vec::new(), 0, Some(Stop::Harness(why))))
+            Some(CaseOutcome::tried(case, Record::default(), Some(Stop::Harness(why))))
         });
         judged.map(|judged| CaseOutcome { time: times.get(&place).copied(), ..judged })
     };

@@ -83,7 +83,6 @@ impl ProtocolRules {
         if self.record.checks == 0 {
             self.record.add_all(RULE, true, "", "", || None);
         }
-        let Record { judgements, checks } = self.record;
-        CaseOutcome::tried(case, judgements, checks, None)
+        CaseOutcome::tried(case, self.record, None)
     }
 }

@@ -98,7 +98,8 @@ impl Verdicts<'_> {
             }
             self.record(&mut record, case, question, reaction, deviation);
         }
-        Some(CaseOutcome::tried(case.clone(), record.judgements, claimed.len(), stop))
+        record.checks = claimed.len();
+        Some(CaseOutcome::tried(case.clone(), record, stop))
     }
 
     /// The clauses of the wrong fields by which a case fails.

@@ -5,74 +5,38 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use serde_json::Serializer;
-use serde_json::ser::{Formatter, PrettyFormatter};
 
 use super::is_escaped;
 
 /// Writes a value as indented JSON with a line end.
 pub(crate) fn write(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
-    let escaping = Escaping(PrettyFormatter::new());
-    value.serialize(&mut Serializer::with_formatter(&mut *out, escaping))?;
+    serde_json::to_writer_pretty(Escaping(&mut *out), value)?;
     writeln!(out)
 }
 
-struct Escaping<'a>(PrettyFormatter<'a>);
+/// Writes JSON, and escapes the characters for which [`is_escaped`] returns true. The line feeds
+/// between the values are kept; those in strings are already escaped.
+struct Escaping<'w>(&'w mut dyn Write);
 
-/// Formats like [`PrettyFormatter`], except for string fragments.
-impl Formatter for Escaping<'_> {
-    fn write_string_fragment<W: ?Sized + Write>(
-        &mut self,
-        out: &mut W,
-        fragment: &str,
-    ) -> io::Result<()> {
-        for part in fragment.split_inclusive(is_escaped) {
+impl Write for Escaping<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        // `serde_json` writes whole characters.
+        let text = std::str::from_utf8(bytes).map_err(io::Error::other)?;
+        for part in text.split_inclusive(|one| one != '\n' && is_escaped(one)) {
             // All escaped characters have one UTF-16 code unit.
             match part.char_indices().next_back() {
-                Some((at, last)) if is_escaped(last) => {
+                Some((at, last)) if last != '\n' && is_escaped(last) => {
                     let before = part.get(..at).unwrap_or_default();
-                    write!(out, "{before}\\u{:04x}", u32::from(last))?;
+                    write!(self.0, "{before}\\u{:04x}", u32::from(last))?;
                 }
-                _ => out.write_all(part.as_bytes())?,
+                _ => self.0.write_all(part.as_bytes())?,
             }
         }
-        Ok(())
+        Ok(bytes.len())
     }
 
-    fn begin_array<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
-        self.0.begin_array(out)
-    }
-
-    fn end_array<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
-        self.0.end_array(out)
-    }
-
-    fn begin_array_value<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
-        self.0.begin_array_value(out, first)
-    }
-
-    fn end_array_value<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
-        self.0.end_array_value(out)
-    }
-
-    fn begin_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
-        self.0.begin_object(out)
-    }
-
-    fn end_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
-        self.0.end_object(out)
-    }
-
-    fn begin_object_key<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
-        self.0.begin_object_key(out, first)
-    }
-
-    fn begin_object_value<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
-        self.0.begin_object_value(out)
-    }
-
-    fn end_object_value<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
-        self.0.end_object_value(out)
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
     }
 }
 

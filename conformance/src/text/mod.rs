@@ -1,10 +1,11 @@
-//! Text, such as hex, escapes, durations, points in time, patterns of names and JSON. This module
-//! opens no file or socket, and imports no other module of this crate.
+//! Text, such as hex, escapes, durations, points in time, patterns of names, JSON and errors of
+//! files. This module opens no file or socket, and imports no other module of this crate.
 
 use std::fmt::Display;
 
 mod duration;
 mod escape;
+mod file_error;
 pub mod hex;
 pub(crate) mod json;
 mod moment;
@@ -14,6 +15,7 @@ mod pattern;
 
 pub(crate) use duration::{duration, shown_time, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
+pub use file_error::FileError;
 pub use moment::Moment;
 pub(crate) use nearest::{did_you_mean, nearest};
 pub(crate) use parse_error::{found, in_words, json_error, toml_error};

@@ -35,20 +35,15 @@ pub fn value_of(ty: &Type, bytes: &[u8]) -> Option<Value> {
 fn element(element: Element<'_>) -> Value {
     match element {
         Element::Boolean(flag) => flag.is_true().into(),
-        Element::Sgn08(number) => number.into(),
-        Element::Uns08(number) => number.into(),
-        Element::Sgn16(number) => number.into(),
-        Element::Uns16(number) => number.into(),
-        Element::Sgn32(number) => number.into(),
-        Element::Uns32(number) => number.into(),
-        Element::Lint(number) => number.into(),
-        Element::Lword(number) => number.into(),
         Element::Real32(number) if number.is_finite() => number.into(),
         Element::Real32(number) => format!("{number:?}").into(),
         Element::Real64(number) if number.is_finite() => number.into(),
         Element::Real64(number) => format!("{number:?}").into(),
         Element::String(text) => text.text().to_string().into(),
-        other => printable(&format!("{other:?}")).into(),
+        other => match other.to_string().parse() {
+            Ok(integer) => Value::Number(integer),
+            Err(_) => printable(&format!("{other:?}")).into(),
+        },
     }
 }
 

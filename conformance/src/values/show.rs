@@ -45,19 +45,10 @@ fn listed(text: &str) -> String {
 /// Formats an element that is not a text, in the form that `parse` accepts if the number is finite.
 pub(crate) fn number(element: Element<'_>) -> String {
     match element {
-        Element::Boolean(flag) if flag.is_true() => "TRUE".to_owned(),
-        Element::Boolean(_) => "FALSE".to_owned(),
-        Element::Sgn08(number) => number.to_string(),
-        Element::Uns08(number) => number.to_string(),
-        Element::Sgn16(number) => number.to_string(),
-        Element::Uns16(number) => number.to_string(),
-        Element::Sgn32(number) => number.to_string(),
-        Element::Uns32(number) => number.to_string(),
-        Element::Lint(number) => number.to_string(),
-        Element::Lword(number) => number.to_string(),
+        // Unlike the display format, the debug format always has a decimal point or an exponent.
         Element::Real32(number) => format!("{number:?}"),
         Element::Real64(number) => format!("{number:?}"),
-        other => format!("{other:?}"),
+        other => other.to_string(),
     }
 }
 

@@ -3,9 +3,10 @@
 
 use std::fs;
 use std::net::SocketAddr;
-use std::process::Command;
 use std::sync::Arc;
 
+use crate::common::ads_cnc;
+use crate::common::file::TestFile;
 use ads_cnc::Kind;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, ReadByName, Request};
@@ -46,7 +47,7 @@ fn sum(parts: &[&[u8]]) -> u16 {
 }
 
 /// The packets of a capture; checks that they are complete and in the order of their times.
-fn packets(capture: &[u8]) -> Vec<Vec<u8>> {
+pub(crate) fn packets(capture: &[u8]) -> Vec<Vec<u8>> {
     let mut reader = create_reader(1 << 20, capture).unwrap();
     let (mut packets, mut last) = (Vec::new(), (0, 0));
     loop {
@@ -123,14 +124,10 @@ fn flows(capture: &[u8]) -> Vec<Flow> {
 fn conversation(listen: SocketAddr) {
     let cnc = Arc::new(Cnc::with_default_model().unwrap());
     let server = Server::start(net::listen(listen).unwrap(), cnc).unwrap();
-    let file = std::env::temp_dir().join(format!(
-        "ads-cnc-capture-{}-{}.pcapng",
-        std::process::id(),
-        u8::from(listen.is_ipv6())
-    ));
+    let file = TestFile::new(".pcapng", b"");
     let target = Target::local(server.addr(), server.net_id());
     let client = Client::connect(target, Gate::queries()).unwrap();
-    let mut client = client.with_capture(Capture::create(&file).unwrap());
+    let mut client = client.with_capture(Capture::create(&file.0).unwrap());
     let channel = Channel::new(1).unwrap();
     let (mut sent, mut received) = (Vec::new(), Vec::new());
     let requests: [Request<'_>; 3] = [
@@ -146,8 +143,7 @@ fn conversation(listen: SocketAddr) {
         received.extend(&exchange.received);
     }
     client.end_capture().unwrap();
-    let flows = flows(&fs::read(&file).unwrap());
-    fs::remove_file(&file).unwrap();
+    let flows = flows(&fs::read(&file.0).unwrap());
     assert_eq!(flows.len(), 1);
     assert_eq!(flows[0].ports.1, server.addr().port());
     assert!(received.len() > 2048);
@@ -163,17 +159,11 @@ fn a_capture_contains_the_exchanges_of_a_client() {
 /// The capture contains every frame of a run, including the queries before the first case.
 #[test]
 fn a_run_is_captured_completely() {
-    let stem = std::env::temp_dir().join(format!("ads-cnc-capture-run-{}", std::process::id()));
-    let (capture, json) = (stem.with_extension("pcapng"), stem.with_extension("json"));
-    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-        .args(["run", "--only", "COM", "--capture"])
-        .args([&capture, &std::path::PathBuf::from("--json"), &json])
-        .output()
-        .unwrap();
+    let capture = TestFile::new(".pcapng", b"");
+    let output = ads_cnc(&["run", "--only", "COM", "--json", "-", "--capture", capture.path()]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
-    let report: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
-    let flows = flows(&fs::read(&capture).unwrap());
-    fs::remove_file(&capture).and(fs::remove_file(&json)).unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let flows = flows(&fs::read(&capture.0).unwrap());
     let frames = |bytes: &[u8]| {
         let (mut rest, mut count) = (bytes, 0);
         while !rest.is_empty() {
@@ -188,15 +178,4 @@ fn a_run_is_captured_completely() {
     let received: u64 = flows.iter().map(|flow| frames(&flow.received)).sum();
     assert!(sent >= report["frames"].as_u64().unwrap(), "{sent}");
     assert_eq!(sent, received);
-}
-
-#[test]
-fn a_capture_that_cannot_be_written_is_an_error() {
-    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-        .args(["run", "--only", "COM-1", "--capture", "/no/such/folder/run.pcapng"])
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    let why = String::from_utf8(output.stderr).unwrap();
-    assert!(why.contains("/no/such/folder/run.pcapng"), "{why}");
 }

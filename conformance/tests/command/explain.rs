@@ -1,6 +1,7 @@
 //! `ads-cnc explain` as users call it, for example with printed examples of the manual, complete
 //! and truncated.
 
+use crate::common::file::TestFile;
 use crate::common::text;
 use std::io::Write as _;
 use std::process::{Command, Output, Stdio};
@@ -184,11 +185,9 @@ fn all_inputs_give_the_same_result() {
         child.stdin.take().unwrap().write_all(given).unwrap();
         text(&child.wait_with_output().unwrap().stdout)
     };
-    let file = std::env::temp_dir().join(format!("ads-cnc-explain-{}", std::process::id()));
-    std::fs::write(&file, bytes).unwrap();
-    let name = file.to_str().unwrap();
-    let from_file = text(&ads_cnc(&["--stream", "variable-handle-read", "--file", name]).stdout);
-    std::fs::remove_file(&file).unwrap();
+    let file = TestFile::new("", &bytes);
+    let from_file =
+        text(&ads_cnc(&["--stream", "variable-handle-read", "--file", file.path()]).stdout);
     let from_hex =
         text(&ads_cnc(&["--stream", "variable-handle-read", printed::HANDLE_READ]).stdout);
     assert!(from_hex.contains("33559092 (0x2001234)"), "{from_hex}");

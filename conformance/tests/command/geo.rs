@@ -4,7 +4,7 @@
 use std::net::SocketAddr;
 use std::process::Output;
 
-use crate::common::fake::{Reaction, reacting};
+use crate::common::fake::serving;
 use crate::common::{ads_cnc, text};
 use ads_cnc::Encode as _;
 use ads_cnc::address::{Class, Group};
@@ -23,13 +23,13 @@ enum GeoSupport {
 
 fn cnc(only: GeoSupport) -> SocketAddr {
     let cnc = Cnc::with_default_model().unwrap();
-    reacting(move |frame| {
+    serving(move |frame, out| {
         let call = Call::from_frame(frame).unwrap().unwrap();
         let of_class = match call.index_group.parts() {
             Some(Group::Class(group)) => group.class == Class::PositionController,
             _ => false,
         };
-        Reaction::Send(match (only, call.port) {
+        let answer = match (only, call.port) {
             (GeoSupport::Nobody, AmsPort::GEO) => {
                 to(frame.header(), AdsError::TARGET_PORT_NOT_FOUND, &[])
             }
@@ -43,7 +43,8 @@ fn cnc(only: GeoSupport) -> SocketAddr {
                 cnc.respond(NET_ID, frame, &mut answer);
                 answer
             }
-        })
+        };
+        out.write_all(&answer)
     })
 }
 

@@ -3,13 +3,13 @@
 //! defect has changed them.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, BufRead as _, BufReader, Read as _, Write};
+use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::net::{SocketAddr, TcpStream};
 use std::process::{Command, Output};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 
-use crate::common::file::TestFile;
+use crate::common::file::{MemoryFile, TestFile};
 use crate::common::harmless::number;
 use crate::common::{Serve, connect};
 use ads_cnc_conformance::client::{Client, Target};
@@ -87,23 +87,9 @@ const OBJECT: Named = Named {
     cases: &["write-objects", "write-objects-by-index"],
 };
 
-/// The log of a simulated CNC in this process.
-#[derive(Clone, Default)]
-struct Lines(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Lines {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 /// The writes in the log of a simulated CNC in this process with this defect.
 fn written(model: Model, defect: &SeededDefect, named: &Named) -> BTreeSet<String> {
-    let lines = Lines::default();
+    let lines = MemoryFile::default();
     let writer = lines.clone();
     // The writes are in the log of the simulated CNC; the log of the client would be most of the
     // work.
@@ -193,36 +179,45 @@ fn the_command_writes_nothing_else() {
     }
 }
 
-/// Reads a complete frame; `None` if the connection ends.
-fn frame(stream: &mut TcpStream) -> Option<Vec<u8>> {
+/// Reads a complete frame.
+fn frame(stream: &mut TcpStream) -> io::Result<Vec<u8>> {
     let mut frame = vec![0; 6];
-    stream.read_exact(&mut frame).ok()?;
+    stream.read_exact(&mut frame)?;
     frame.resize(6 + number(&frame, 2) as usize, 0);
-    stream.read_exact(&mut frame[6..]).ok()?;
-    Some(frame)
+    stream.read_exact(&mut frame[6..])?;
+    Ok(frame)
 }
 
-/// Starts a proxy that forwards the replies of the CNC after `change` has changed them. Returns its
-/// address.
-fn lying(cnc: &str, change: fn(&[u8], &mut [u8])) -> SocketAddr {
+/// Starts a proxy that serves one connection after the other. It forwards each reply of the CNC
+/// after `change` has changed it, and closes the connection after a reply for which `change` returns
+/// false. Returns its address.
+fn lying(cnc: &str, mut change: impl FnMut(&[u8], &mut [u8]) -> bool + Send + 'static) -> String {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let (addr, cnc) = (listener.local_addr().unwrap(), cnc.parse().unwrap());
     thread::spawn(move || {
         for client in listener.incoming() {
-            let (mut client, mut cnc) = (client.unwrap(), connect(cnc));
-            thread::spawn(move || {
-                while let Some(request) = frame(&mut client) {
-                    cnc.write_all(&request).unwrap();
-                    let Some(mut reply) = frame(&mut cnc) else { break };
-                    change(&request, &mut reply);
-                    if client.write_all(&reply).is_err() {
-                        break;
-                    }
-                }
-            });
+            // Either side may disconnect at any time.
+            let _gone = forward(&mut client.unwrap(), &mut connect(cnc), &mut change);
         }
     });
-    addr
+    addr.to_string()
+}
+
+fn forward(
+    client: &mut TcpStream,
+    cnc: &mut TcpStream,
+    change: &mut impl FnMut(&[u8], &mut [u8]) -> bool,
+) -> io::Result<()> {
+    loop {
+        let request = frame(client)?;
+        cnc.write_all(&request)?;
+        let mut reply = frame(cnc)?;
+        let continues = change(&request, &mut reply);
+        client.write_all(&reply)?;
+        if !continues {
+            return Ok(());
+        }
+    }
 }
 
 /// The offset of the data in a reply frame, after the headers, the result and the length.
@@ -239,14 +234,14 @@ fn put(reply: &mut [u8], at: usize, value: u32) {
 }
 
 /// Changes the list of objects: example_subroutine_w has the address of mc_command_single_block_w.
-fn shares_an_address(request: &[u8], reply: &mut [u8]) {
-    if request.len() < 42 || number(request, 38) & !0x10_0000 != 0x3_0101 {
-        return;
+fn shares_an_address(request: &[u8], reply: &mut [u8]) -> bool {
+    if request.len() >= 42 && number(request, 38) & !0x10_0000 == 0x3_0101 {
+        let objects = reply.get_mut(DATA..).unwrap_or_default().chunks_exact_mut(84);
+        for object in objects.filter(|one| one[20..].starts_with(b"example_subroutine_w\0")) {
+            put(object, 16, 1);
+        }
     }
-    let objects = reply.get_mut(DATA..).unwrap_or_default().chunks_exact_mut(84);
-    for object in objects.filter(|object| object[20..].starts_with(b"example_subroutine_w\0")) {
-        put(object, 16, 1);
-    }
+    true
 }
 
 /// The handle of V.E.Testvar in the simulated CNC.
@@ -268,26 +263,19 @@ const OTHER: u32 = 0x4040_0003;
 /// in its description by name. The gate rejects the write by handle.
 #[test]
 fn a_handle_of_another_variable_is_not_written() {
-    let every: fn(&[u8], &mut [u8]) = |request, reply| {
-        if is_asked(request, 0x12_2301, 0x46) {
-            put(reply, DATA, OTHER);
-        }
-    };
-    let one: fn(&[u8], &mut [u8]) = |request, reply| {
-        if is_asked(request, 0x12_2301, 0x46) && request.ends_with(b"V.E.test\0") {
-            put(reply, DATA, OTHER);
-        }
-    };
-    let described: fn(&[u8], &mut [u8]) = |request, reply| {
-        let by_name = [0x46, 0x4C].iter().any(|&offset| is_asked(request, 0x12_2301, offset));
-        if by_name && request.ends_with(b"V.E.test\0") {
-            put(reply, DATA, OTHER);
-        }
-    };
-    for change in [every, one, described] {
+    for (offsets, name) in
+        [(&[0x46][..], &b""[..]), (&[0x46], b"V.E.test\0"), (&[0x46, 0x4C], b"V.E.test\0")]
+    {
+        let change = move |request: &[u8], reply: &mut [u8]| {
+            let by_name = offsets.iter().any(|&offset| is_asked(request, 0x12_2301, offset));
+            if by_name && request.ends_with(name) {
+                put(reply, DATA, OTHER);
+            }
+            true
+        };
         let cnc = Logged::start(&[]);
         assert_eq!(handle_of_another(&cnc.serve.addr), OTHER);
-        let addr = lying(&cnc.serve.addr, change).to_string();
+        let addr = lying(&cnc.serve.addr, change);
         let file = TestFile::allowing(ARRAY.table);
         let output = run(&addr, &file, &["write-by-handle", "write-elements-by-handle"]);
         let shown = String::from_utf8(output.stdout).unwrap();
@@ -299,7 +287,7 @@ fn a_handle_of_another_variable_is_not_written() {
 
         // The file still allows the write by name.
         let cnc = Logged::start(&[]);
-        let addr = lying(&cnc.serve.addr, change).to_string();
+        let addr = lying(&cnc.serve.addr, change);
         run(&addr, &file, &["write-by-name"]);
         let mut writes = cnc.end();
         assert!(writes.remove(ARRAY.log).is_some_and(|count| count > 2), "{writes:?}");
@@ -312,27 +300,12 @@ fn a_handle_of_another_variable_is_not_written() {
 #[test]
 fn a_lost_connection_leaves_nothing_changed() {
     let cnc = Logged::start(&[]);
-    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
-    let (addr, to) = (listener.local_addr().unwrap(), cnc.serve.addr.parse().unwrap());
-    let lost = thread::spawn(move || {
-        let mut writes = 0;
-        for (connection, client) in (1_usize..).zip(listener.incoming()) {
-            let (mut client, mut cnc) = (client.unwrap(), connect(to));
-            while let Some(request) = frame(&mut client) {
-                cnc.write_all(&request).unwrap();
-                let Some(reply) = frame(&mut cnc) else { break };
-                client.write_all(&reply).unwrap();
-                writes += usize::from(is_asked(&request, 0x12_2301, 0x49));
-                // Closes the connection after the second write, which writes another value.
-                if writes == 2 && connection == 1 {
-                    break;
-                }
-            }
-            if connection == 2 {
-                return writes;
-            }
-        }
-        0
+    let mut writes = 0;
+    let addr = lying(&cnc.serve.addr, move |request, _| {
+        let is_write = is_asked(request, 0x12_2301, 0x49);
+        writes += u32::from(is_write);
+        // The second write writes another value.
+        !(is_write && writes == 2)
     });
     let value = || {
         let target = ["--target", &cnc.serve.addr, "--net-id", "127.0.0.1.1.1"];
@@ -341,10 +314,9 @@ fn a_lost_connection_leaves_nothing_changed() {
     };
     let before = value();
     let file = TestFile::allowing(VARIABLE.table);
-    let output = run(&addr.to_string(), &file, &["write-by-handle"]);
+    let output = run(&addr, &file, &["write-by-handle"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert!(!before.is_empty() && value() == before);
-    assert_eq!(lost.join().unwrap(), 3);
     assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
 }
 
@@ -353,32 +325,18 @@ fn a_lost_connection_leaves_nothing_changed() {
 #[test]
 fn a_value_that_is_not_restored_has_a_reason() {
     let cnc = Logged::start(&[]);
-    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
-    let (addr, to) = (listener.local_addr().unwrap(), cnc.serve.addr.parse().unwrap());
-    thread::spawn(move || {
-        let mut writes = 0;
-        for (connection, client) in (1_usize..).zip(listener.incoming()) {
-            let (mut client, mut cnc) = (client.unwrap(), connect(to));
-            while let Some(request) = frame(&mut client) {
-                cnc.write_all(&request).unwrap();
-                let Some(mut reply) = frame(&mut cnc) else { break };
-                if connection > 1 {
-                    shares_an_address(&request, &mut reply);
-                }
-                // The tool may have disconnected.
-                if client.write_all(&reply).is_err() {
-                    break;
-                }
-                writes += usize::from(number(&request, 22) & 0xFFFF == 3);
-                // Closes the connection after the second write, which writes another value.
-                if writes == 2 && connection == 1 {
-                    break;
-                }
-            }
+    let (mut writes, mut is_lost) = (0, false);
+    let addr = lying(&cnc.serve.addr, move |request, reply| {
+        if is_lost {
+            return shares_an_address(request, reply);
         }
+        writes += u32::from(number(request, 22) & 0xFFFF == 3);
+        // The second write writes another value.
+        is_lost = writes == 2;
+        !is_lost
     });
     let file = TestFile::allowing(OBJECT.table);
-    let output = run(&addr.to_string(), &file, &["write-objects"]);
+    let output = run(&addr, &file, &["write-objects"]);
     assert_eq!(output.status.code(), Some(6), "{output:?}");
     let stderr_text = String::from_utf8(output.stderr).unwrap();
     let last = stderr_text.lines().last().unwrap();
@@ -392,7 +350,7 @@ fn a_value_that_is_not_restored_has_a_reason() {
 #[test]
 fn an_address_of_two_objects_is_not_written() {
     let cnc = Logged::start(&[]);
-    let addr = lying(&cnc.serve.addr, shares_an_address).to_string();
+    let addr = lying(&cnc.serve.addr, shares_an_address);
     let file = TestFile::allowing(OBJECT.table);
     let output = run(&addr, &file, OBJECT.cases);
     let shown = String::from_utf8(output.stdout).unwrap();

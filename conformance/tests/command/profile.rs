@@ -1,11 +1,9 @@
 //! The claims of a profile determine the requests to a device, and the functions that it must have.
 
-use std::fs;
-use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Output;
 
-use crate::common::Serve;
 use crate::common::file::TestFile;
+use crate::common::{Serve, ads_cnc};
 
 /// A temporary file with this profile.
 fn claiming(text: &str) -> TestFile {
@@ -16,15 +14,10 @@ fn claiming(text: &str) -> TestFile {
 /// report.
 fn run(serve: &[&str], profile: &TestFile) -> (Output, serde_json::Value) {
     let serve = Serve::start(serve);
-    let json = profile.0.with_extension("json");
-    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-        .args(["run", "--target", &serve.addr, "--net-id", &serve.net_id, "--profile"])
-        .args([&profile.0, &PathBuf::from("--json"), &json])
-        .output()
-        .unwrap();
-    let report = fs::read(&json)
-        .map_or_else(|_| serde_json::Value::Null, |text| serde_json::from_slice(&text).unwrap());
-    let _gone = fs::remove_file(&json);
+    let target = ["--target", &serve.addr, "--net-id", &serve.net_id];
+    let output =
+        ads_cnc(&[&["run", "--json", "-", "--profile", profile.path()], &target[..]].concat());
+    let report = serde_json::from_slice(&output.stdout).unwrap_or_default();
     (output, report)
 }
 
@@ -52,16 +45,16 @@ fn unclaimed_functions_are_not_applicable() {
 /// profile contains the channels and axes of the device, and passes with this device.
 #[test]
 fn a_printed_profile_passes() {
-    let ads_cnc =
-        |args: &[&str]| Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap();
     let printed = |args: &[&str]| {
         let output = ads_cnc(&[&["run", "--print-profile"], args].concat());
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         String::from_utf8(output.stdout).unwrap()
     };
-    let example = claiming(&printed(&[]));
+    let example = printed(&[]);
+    assert_eq!(example, ads_cnc_conformance::profile::EXAMPLE);
+    let example = claiming(&example);
     for seed in ["1", "2", "3"] {
-        let file = example.0.to_str().unwrap();
+        let file = example.path();
         let output = ads_cnc(&["run", "--profile", file, "--only", "VAR", "--seed", seed]);
         assert_eq!(output.status.code(), Some(0), "{seed}: {output:?}");
     }
@@ -121,14 +114,4 @@ fn an_invalid_profile_is_wrong_usage() {
     assert_eq!(output.status.code(), Some(2));
     let why = String::from_utf8(output.stderr).unwrap();
     assert!(why.contains("line 2") && why.contains("551, 552 and 553"), "{why}");
-}
-
-#[test]
-fn a_commented_profile_is_printed() {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["run", "--print-profile"]).output();
-    let output = output.unwrap();
-    assert_eq!(output.status.code(), Some(0));
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(text, ads_cnc_conformance::profile::EXAMPLE);
 }

@@ -57,11 +57,10 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
 /// The run writes its report as JSON, with the device and the judged clauses.
 #[test]
 fn the_report_is_written_as_json() {
-    let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
-    let output = ads_cnc(&["run", "--json", file.to_str().unwrap()]);
+    let file = TestFile::new(".json", b"");
+    let output = ads_cnc(&["run", "--json", file.path()]);
     assert_eq!(output.status.code(), Some(0));
-    let report: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
-    std::fs::remove_file(&file).unwrap();
+    let report: Value = serde_json::from_slice(&std::fs::read(&file.0).unwrap()).unwrap();
     assert_eq!(report["format"], 1);
     assert_eq!(report["exit_code"], 0);
     let device = &report["target"]["device"];
@@ -139,10 +138,8 @@ fn a_run_without_a_profile_judges_found_channels() {
         "{stderr_text}"
     );
 
-    let profile = std::env::temp_dir().join(format!("ads-cnc-found-{}.toml", std::process::id()));
-    std::fs::write(&profile, "channels = [6]").unwrap();
-    let (report, stderr_text) = run(&["--profile", profile.to_str().unwrap()]);
-    std::fs::remove_file(&profile).unwrap();
+    let profile = TestFile::new(".toml", b"channels = [6]");
+    let (report, stderr_text) = run(&["--profile", profile.path()]);
     assert_eq!(report["profile"]["claims"]["channels"], serde_json::json!([6]));
     assert_eq!(report["found"]["ports"], serde_json::json!([]));
     assert!(stderr_text.contains("channel 6 with 3 axis indices;"), "{stderr_text}");
@@ -157,10 +154,8 @@ fn a_long_list_is_read_completely_with_all() {
         .map(|one| format!("  {{ name = \"V.E.more_{one}\", type = \"SGN32\" }},\n"))
         .collect();
     let tail = tail.replacen("variables = [\n", &format!("variables = [\n{more}"), 1);
-    let file = std::env::temp_dir().join(format!("ads-cnc-long-{}.toml", std::process::id()));
-    std::fs::write(&file, format!("{head}[[channel]]{tail}")).unwrap();
-    let serve = Serve::start(&["--model", file.to_str().unwrap()]);
-    std::fs::remove_file(&file).unwrap();
+    let file = TestFile::new(".toml", format!("{head}[[channel]]{tail}").as_bytes());
+    let serve = Serve::start(&["--model", file.path()]);
     let run = |args: &[&str]| {
         let target = ["run", "--target", &serve.addr, "--net-id", "127.0.0.1.1.1"];
         let only = ["--only", "var-extended-descriptions", "--seed", "1"];
@@ -184,13 +179,11 @@ fn a_long_list_is_read_completely_with_all() {
 #[test]
 fn malformed_requests_need_a_file_that_permits_them() {
     let serve = Serve::start(&[]);
-    let file = std::env::temp_dir().join(format!("ads-cnc-malformed-{}.toml", std::process::id()));
-    let head = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
     let net_id = ["--net-id", "127.0.0.1.1.1"];
     let run = |addr: &str, tables: &str| {
-        std::fs::write(&file, format!("{head}{tables}")).unwrap();
-        let file = ["--allow-write", file.to_str().unwrap()];
-        ads_cnc(&[&["run", "--malformed", "--target", addr], &net_id[..], &file].concat())
+        let file = TestFile::allowing(tables);
+        let allow = ["--allow-write", file.path()];
+        ads_cnc(&[&["run", "--malformed", "--target", addr], &net_id[..], &allow].concat())
     };
     let shown = run(&serve.addr, "malformed = true");
     assert_eq!(shown.status.code(), Some(0), "{}", text(&shown.stdout));
@@ -200,7 +193,6 @@ fn malformed_requests_need_a_file_that_permits_them() {
     assert_eq!(away.status.code(), Some(4), "{}", text(&away.stderr));
     let named = run(&serve.addr, "[[variable]]\nchannel = 1\nname = \"V.E.test\"");
     let other = run(&serve.addr, "malformed = true\naddress = \"192.0.2.1\"");
-    std::fs::remove_file(&file).unwrap();
     let without =
         ads_cnc(&[&["run", "--malformed", "--target", &serve.addr], &net_id[..]].concat());
     for (rejected, why) in [
@@ -325,9 +317,6 @@ fn a_vacuous_rejection_follows_from_its_sibling() {
 /// A dry run lists the functions that the run would request, and the writes that a file allows.
 #[test]
 fn a_dry_run_lists_functions_and_writes() {
-    let folder = std::env::temp_dir().join(format!("ads-cnc-dry-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let file = folder.join("allow.toml");
     let target = ["--target", "192.0.2.10", "--net-id", "192.0.2.10.1.1"];
     let dry = |more: &[&str]| ads_cnc(&[&["run", "--dry-run"], &target[..], more].concat());
     let listed = text(&dry(&[]).stdout);
@@ -344,26 +333,22 @@ fn a_dry_run_lists_functions_and_writes() {
     assert!(!listed.contains("write variable value by name"), "{listed}");
     let entry = "[[variable]]\nchannel = 1\nname = \"V.E.test[4]\"\n";
     let head = "target = \"192.0.2.10.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
-    std::fs::write(&file, format!("{head}{entry}")).unwrap();
-    let listed = text(&dry(&["--allow-write", file.to_str().unwrap()]).stdout);
+    let file = TestFile::new(".toml", format!("{head}{entry}").as_bytes());
+    let listed = text(&dry(&["--allow-write", file.path()]).stdout);
     assert!(listed.contains("  name = \"V.E.test[4]\"\n"), "{listed}");
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 /// A run with a file whose entries allow no write of the suite reports this, and is not a success.
 #[test]
 fn a_file_without_effect_is_reported() {
-    let folder = std::env::temp_dir().join(format!("ads-cnc-allow-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
     let serve = Serve::start(&[]);
     let said_of = |channel: u8, target: &str, expires: &str, name: &str| {
-        let file = folder.join("allow.toml");
         let entry = format!("[[variable]]\nchannel = {channel}\nname = \"{name}\"\n");
         let head = format!("target = \"{target}\"\nexpires = {expires}\n");
-        std::fs::write(&file, format!("{head}{entry}")).unwrap();
+        let file = TestFile::new(".toml", format!("{head}{entry}").as_bytes());
         let args = ["run", "--only", "write-by-name", "--target", &serve.addr, "--net-id"];
-        let file = ["--allow-write", file.to_str().unwrap()];
-        let output = ads_cnc(&[&args[..], &[&serve.net_id], &file].concat());
+        let allow = ["--allow-write", file.path()];
+        let output = ads_cnc(&[&args[..], &[&serve.net_id], &allow].concat());
         (text(&output.stderr), text(&output.stdout), output.status.code())
     };
     let said = |target: &str, expires: &str, name: &str| said_of(1, target, expires, name);
@@ -398,5 +383,4 @@ fn a_file_without_effect_is_reported() {
     assert!(found.contains("ads-cnc: found ") && !found.contains("nothing "), "{found}");
     assert!(shown.contains("\nwrote     V.E.vartest (restored)\n"), "{shown}");
     assert_eq!(code, Some(0), "{shown}");
-    std::fs::remove_dir_all(&folder).unwrap();
 }

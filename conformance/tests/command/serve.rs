@@ -1,9 +1,9 @@
 //! `ads-cnc serve` as users call it. Other tests check the replies.
 
 use std::io::{Read as _, Write as _};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use crate::common::{Serve, connect};
+use crate::common::{Serve, ads_cnc, connect, text};
 
 /// ReadState of the COM task, and its reply.
 const STATE: &[u8] = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
@@ -119,13 +119,9 @@ fn logs_are_filtered() {
         serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
         assert_eq!(log.contains("connected"), logged, "{filter}: {log}");
     }
-    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-        .args(["serve", "--listen", "127.0.0.1:0", "--log", "loud"])
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
+    let output = ads_cnc(&["serve", "--listen", "127.0.0.1:0", "--log", "loud"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("info"));
+    assert!(text(&output.stderr).contains("info"));
 }
 
 /// Other machines can connect only with an option, which causes a warning.
@@ -143,17 +139,20 @@ fn other_machines_need_an_option() {
 
 /// The error for an invalid address to listen on contains a valid address.
 #[test]
-fn an_invalid_address_is_rejected_with_advice() {
+fn invalid_options_are_rejected_with_advice() {
     let serve = |options: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-        let output = command.arg("serve").args(options).output().unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+        let output = ads_cnc(&[&["serve"], options].concat());
+        assert_eq!(text(&output.stdout), "");
+        (output.status.code(), text(&output.stderr))
     };
-    let (code, why) = serve(&["--listen", "localhost"]);
-    assert!(code == Some(2) && why.contains("as 127.0.0.1:48898"), "{why}");
-    let other = Serve::start(&[]);
-    let (code, why) = serve(&["--listen", &other.addr]);
-    assert!(code == Some(2) && why.contains("--listen 127.0.0.1:0"), "{why}");
+    for (options, advice) in [
+        (["--listen", "localhost"], "as 127.0.0.1:48898"),
+        (["--listen", "0.0.0.0:0"], "not a loopback address"),
+        (["--defect", "no.such.defect"], "serve --list-defects"),
+    ] {
+        let (code, why) = serve(&options);
+        assert!(code == Some(2) && why.contains(advice), "{why}");
+    }
     for executed in ["9=x.nc", "x.nc", "1=", "1=/none/x.nc"] {
         assert_eq!(serve(&["--listen", "127.0.0.1:0", "--executed", executed]).0, Some(2));
     }

@@ -39,7 +39,7 @@ impl Bench {
     fn start() -> Self {
         let cnc = Arc::new(Cnc::with_default_model().unwrap());
         let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
-        let server = Server::start(listener, Arc::clone(&cnc)).unwrap();
+        let server = Server::start(listener, cnc.clone()).unwrap();
         Self { cnc, server, allow: TestFile::allowing("[[service]]\nchannel = 2\n") }
     }
 

@@ -290,7 +290,7 @@ fn a_slow_cnc_executes_every_line_once() {
     let pace = Pace::lines_per_second(2000).unwrap();
     cnc.set_program(1, ProgramConfig { pace, ..ProgramConfig::default() }).unwrap();
     let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
-    let server = Server::start(listener, Arc::clone(&cnc)).unwrap();
+    let server = Server::start(listener, cnc.clone()).unwrap();
     let allow = TestFile::allowing(STREAM_1);
     let output = stream(program().as_bytes(), server.addr(), &allow, &["--retry-after", "10ms"]);
     let shown = text(&output.stdout);

@@ -1,10 +1,9 @@
 //! `ads-cnc browse`, `get` and `set` as users call them.
 
-use std::fs;
 use std::process::Output;
 
 use crate::common::file::TestFile;
-use crate::common::{Serve, ads_cnc, text};
+use crate::common::{Serve, ads_cnc, check_schema, text};
 use serde_json::Value;
 
 /// The text of a snapshot: each call with its stdout, its stderr and its exit code.
@@ -303,12 +302,8 @@ fn a_device_is_browsed() {
 /// The output of `tables --json` matches its schema, and the text output contains the same streams.
 #[test]
 fn tables_match_their_schema() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/tables.schema.json");
-    let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
-    let schema = jsonschema::validator_for(&schema).unwrap();
     let tables: Value = serde_json::from_slice(&ads_cnc(&["tables", "--json"]).stdout).unwrap();
-    let errors: Vec<String> = schema.iter_errors(&tables).map(|error| error.to_string()).collect();
-    assert!(errors.is_empty(), "{errors:?}");
+    check_schema(&tables, "tables");
     let shown = text(&ads_cnc(&["tables"]).stdout);
     for stream in tables["streams"].as_array().unwrap() {
         let name = stream["name"].as_str().unwrap();
@@ -318,9 +313,6 @@ fn tables_match_their_schema() {
 
 #[test]
 fn json_matches_its_schema() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/objects.schema.json");
-    let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
-    let schema = jsonschema::validator_for(&schema).unwrap();
     let calls: [&[&str]; 4] = [
         &["browse", "--format", "json", "--content"],
         &["browse", "--format", "json", "--variables", "--content"],
@@ -329,9 +321,7 @@ fn json_matches_its_schema() {
     ];
     for args in calls {
         let document: Value = serde_json::from_slice(&ads_cnc(args).stdout).unwrap();
-        let errors: Vec<String> =
-            schema.iter_errors(&document).map(|error| error.to_string()).collect();
-        assert!(errors.is_empty(), "{args:?}: {errors:?}");
+        check_schema(&document, "objects");
         let objects = document["objects"].as_array().unwrap();
         assert!(!objects.is_empty() && document["notes"] == serde_json::json!([]), "{args:?}");
         if args[0] == "get" {

@@ -2,7 +2,7 @@
 //! checks too.
 
 use ads_cnc_conformance::explain::{
-    ExplainedStream, Explanation, ExplanationOutcome, Paint, parse_hex, print,
+    ExplainedStream, Explanation, ExplanationOutcome, parse_hex, print,
 };
 
 /// Checks that the rows and the unread bytes of a part cover all bytes of the part, in order and without
@@ -64,12 +64,12 @@ pub(crate) fn check_explanation(explanation: &Explanation, bytes: &[u8]) {
     check_whole(explanation, bytes);
     let faulty = explanation.parts.iter().any(|part| !part.faults.is_empty());
     assert_eq!(explanation.outcome == ExplanationOutcome::Faulty, faulty);
-    print(explanation, Paint::Colour, &mut Vec::new()).unwrap();
+    print(explanation, true, &mut Vec::new()).unwrap();
 }
 
 /// The explanation as printed text.
 pub(crate) fn printed(explanation: &Explanation) -> Vec<u8> {
     let mut plain = Vec::new();
-    print(explanation, Paint::Plain, &mut plain).unwrap();
+    print(explanation, false, &mut plain).unwrap();
     plain
 }

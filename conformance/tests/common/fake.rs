@@ -1,8 +1,8 @@
-//! A fake CNC whose replies a test determines, mainly to writes to the program stream.
+//! Fake CNCs whose replies a test determines.
 
-use std::io::{self, Read as _, Write as _};
-use std::net::SocketAddr;
-use std::net::TcpStream;
+use std::io::{self, Read as _};
+use std::net::{SocketAddr, TcpStream};
+use std::sync::{Arc, Mutex};
 use std::thread;
 
 use ads_cnc::Encode as _;
@@ -18,53 +18,48 @@ pub(crate) enum Answer {
     Close,
 }
 
-/// The reaction to a frame.
-#[derive(Clone, Debug)]
-pub(crate) enum Reaction {
-    Send(Vec<u8>),
-    Silence,
-    Close,
-}
-
-/// Starts a fake CNC that replies to writes to the program stream as `answer` decides. It serves one
-/// connection after the other; any other request ends the fake CNC with a panic. Returns its
-/// address.
-pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static) -> SocketAddr {
-    reacting(move |frame| {
+/// Starts a fake CNC that replies to writes to the program stream as `answer` decides. Any other
+/// request closes its connection with a panic. Returns its address.
+pub(crate) fn fake(answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static) -> SocketAddr {
+    let answer = Mutex::new(answer);
+    serving(move |frame, out| {
         let request = Call::from_frame(frame).unwrap().unwrap();
         let Ok(Request::WriteProgramStream(op)) = request.dispatch() else { panic!("{request:?}") };
-        match answer(op.channel.number(), op.packet) {
-            Answer::Silence => Reaction::Silence,
-            Answer::Close => Reaction::Close,
+        match (answer.lock().unwrap())(op.channel.number(), op.packet) {
+            Answer::Silence => Ok(()),
+            Answer::Close => Err(io::ErrorKind::ConnectionAborted.into()),
             Answer::Result(result) => {
                 let data = WriteReply { result }.encode_to_vec().unwrap();
                 let reply = FrameRef::new(frame.header().response(), &data).unwrap();
-                Reaction::Send(reply.encode_to_vec().unwrap())
+                out.write_all(&reply.encode_to_vec().unwrap())
             }
         }
     })
 }
 
-/// Starts a fake CNC that reacts to each frame as `react` decides. It serves one connection after the
-/// other. Returns its address.
-pub(crate) fn reacting(
-    mut react: impl FnMut(&FrameRef<'_>) -> Reaction + Send + 'static,
+/// Starts a server that calls `react` for each frame, and closes the connection after an error.
+/// Returns its address.
+pub(crate) fn serving(
+    react: impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()> + Send + Sync + 'static,
 ) -> SocketAddr {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let addr = listener.local_addr().unwrap();
+    let react = Arc::new(react);
     thread::spawn(move || {
         for stream in listener.incoming() {
+            let react = Arc::clone(&react);
             // The tool may disconnect at any time.
-            let _gone = serve(&stream.unwrap(), &mut react);
+            thread::spawn(move || serve(stream.unwrap(), &*react));
         }
     });
     addr
 }
 
 fn serve(
-    mut stream: &TcpStream,
-    react: &mut impl FnMut(&FrameRef<'_>) -> Reaction,
+    mut stream: TcpStream,
+    react: &impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()>,
 ) -> io::Result<()> {
+    stream.set_nodelay(true)?;
     let (mut received, mut chunk) = (Vec::new(), [0; 4096]);
     loop {
         match stream.read(&mut chunk)? {
@@ -72,11 +67,7 @@ fn serve(
             len => received.extend_from_slice(&chunk[..len]),
         }
         while let Some((frame, len)) = FrameRef::split(&received, 0x1_0000).unwrap() {
-            match react(&frame) {
-                Reaction::Silence => {}
-                Reaction::Close => return Ok(()),
-                Reaction::Send(bytes) => stream.write_all(&bytes)?,
-            }
+            react(&frame, &mut stream)?;
             received.drain(..len);
         }
     }

@@ -1,7 +1,9 @@
 //! Temporary files and folders of tests.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// A temporary file that is removed when this value is dropped.
 pub(crate) struct TestFile(pub(crate) PathBuf);
@@ -58,6 +60,20 @@ impl TestFolder {
 impl Drop for TestFolder {
     fn drop(&mut self) {
         let _gone = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A file in memory, which its clones share.
+#[derive(Clone, Default)]
+pub(crate) struct MemoryFile(pub(crate) Arc<Mutex<Vec<u8>>>);
+
+impl Write for MemoryFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.lock().unwrap().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 

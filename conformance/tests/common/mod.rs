@@ -9,10 +9,13 @@ pub(crate) mod harmless;
 pub(crate) mod proxy;
 pub(crate) mod task;
 
+use std::fs;
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
+
+use serde_json::Value;
 
 /// Runs the command with these arguments, and waits for its end.
 pub(crate) fn ads_cnc(args: &[&str]) -> Output {
@@ -22,6 +25,18 @@ pub(crate) fn ads_cnc(args: &[&str]) -> Output {
 /// An output as text, which must be UTF-8.
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Checks that a document matches the JSON Schema `schema/<name>.schema.json`, and that this is a
+/// valid schema.
+#[track_caller]
+pub(crate) fn check_schema(document: &Value, name: &str) {
+    let file = format!("{}/schema/{name}.schema.json", env!("CARGO_MANIFEST_DIR"));
+    let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    jsonschema::draft202012::meta::validate(&schema).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let errors: Vec<String> = schema.iter_errors(document).map(|error| error.to_string()).collect();
+    assert!(errors.is_empty(), "{:?}", &errors[..errors.len().min(5)]);
 }
 
 /// A simulated CNC in a separate process, which is ended when this value is dropped.

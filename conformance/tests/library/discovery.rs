@@ -1,33 +1,17 @@
 //! The queries with which a run without a profile discovers what a CNC has, and the cases that judge
 //! what was found.
 
-use std::net::SocketAddr;
-use std::sync::Arc;
-
-use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::faults::{self, DefectKind, Faulty, SeededDefect};
-use ads_cnc_conformance::gate::Gate;
-use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection, Verdict};
-use ads_cnc_conformance::profile::Profile;
-use ads_cnc_conformance::simulator::{Cnc, LocalCnc, NET_ID};
-use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
+use ads_cnc_conformance::judge::Verdict;
+use ads_cnc_conformance::simulator::Cnc;
+use ads_cnc_conformance::suite::{Discovery, Sample, TargetState};
 
-/// A simulated CNC in this process as a device, after the queries with which a run discovers what the
-/// device has.
+use super::large::{connected, outcomes};
+
+/// The default model, discovered like a device.
 fn discovered(defect: Option<&SeededDefect>) -> (TargetState, Discovery) {
     let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
-    let cnc = Arc::new(Faulty::new(cnc, defect));
-    let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
-    let client = Client::in_process(target, Gate::queries(), LocalCnc::new(cnc, NET_ID)).unwrap();
-    let mut target = TargetState::new(client, Profile::DEVICE).with_sample(Sample::BySeed(1));
-    let discovery = suite::discover(&mut target, ClaimsBy::Queries);
-    (target, discovery)
-}
-
-fn outcomes(target: &mut TargetState) -> Vec<CaseOutcome> {
-    let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
-    let plan = Selection::default().plan(cases, 1).unwrap();
-    suite::run(plan.cases, Some(target), None, 1)
+    connected(Faulty::new(cnc, defect), Sample::BySeed(1))
 }
 
 #[test]
@@ -51,7 +35,7 @@ fn the_default_model_is_found_without_a_profile() {
 fn a_missing_port_fails() {
     let (mut target, _) = discovered(faults::by_id("cnc.gen.geo-missing"));
     assert_eq!(target.profile.ports[..], [551, 552, 553]);
-    let outcomes = outcomes(&mut target);
+    let outcomes = outcomes(&mut target, &[]);
     let ports = outcomes.iter().find(|one| one.case.id == "gen-ports-answer").unwrap();
     assert_eq!(ports.verdict(), Verdict::Fail);
 }
@@ -67,7 +51,7 @@ fn a_sample_of_valid_variants_passes() {
         count += 1;
         let (mut target, Discovery { found, .. }) = discovered(Some(defect));
         println!("{}: {}", defect.id, found.summary());
-        let failed = outcomes(&mut target).into_iter().filter(|one| one.verdict().fails_run());
+        let failed = outcomes(&mut target, &[]).into_iter().filter(|one| one.verdict().fails_run());
         alarms
             .extend(failed.map(|one| format!("{}: {} {:?}", defect.id, one.case.id, one.verdicts)));
     }

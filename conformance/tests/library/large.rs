@@ -7,7 +7,9 @@ use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection, Verdict};
 use ads_cnc_conformance::profile::Profile;
-use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, LocalCnc, Model, NET_ID, Settings};
+use ads_cnc_conformance::simulator::{
+    Cnc, DEFAULT_MODEL, LocalCnc, Model, NET_ID, Responder, Settings,
+};
 use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
 
 /// The default model with more variables in its first channel.
@@ -26,7 +28,9 @@ fn with_variables(count: usize) -> Cnc {
     Cnc::new(model).with_stopped_clock()
 }
 
-fn connected(cnc: Cnc, sample: Sample) -> (TargetState, Discovery) {
+/// A simulated CNC in this process as a device, after the queries with which a run discovers what the
+/// device has.
+pub(crate) fn connected(cnc: impl Responder + 'static, sample: Sample) -> (TargetState, Discovery) {
     let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
     let client =
         Client::in_process(target, Gate::queries(), LocalCnc::new(Arc::new(cnc), NET_ID)).unwrap();
@@ -35,7 +39,8 @@ fn connected(cnc: Cnc, sample: Sample) -> (TargetState, Discovery) {
     (target, discovery)
 }
 
-fn outcomes(target: &mut TargetState, only: &[&str]) -> Vec<CaseOutcome> {
+/// The outcomes of the cases that `only` selects, or of all cases for a target.
+pub(crate) fn outcomes(target: &mut TargetState, only: &[&str]) -> Vec<CaseOutcome> {
     let only = only.iter().map(|&word| word.to_owned()).collect();
     let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
     let plan = Selection { only, ..Selection::default() }.plan(cases, 1).unwrap();

@@ -6,7 +6,7 @@ use ads_cnc::CncStr;
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
-use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
+use ads_cnc::streaming::{Ack, LineErrorKind};
 use ads_cnc_conformance::simulator::program::StreamingInterface;
 use ads_cnc_conformance::simulator::program::service::{
     CallError, CallStep, Clears, ServiceCall, ServiceInterface, SysServiceWait,
@@ -139,29 +139,6 @@ fn invalid_calls_are_rejected() {
 
 proptest! {
     #![proptest_config(kept::cases(500, file!()))]
-
-    /// A CNC that reads its interface only occasionally receives the whole text of a sender.
-    #[test]
-    fn a_cnc_gets_the_text(
-        lines in vec("[ -~]{0,90}", 0..60),
-        reads in vec(any::<bool>(), 1..20),
-        end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
-    ) {
-        let text = lines.iter().map(|line| format!("{line}{end}")).collect::<String>();
-        let wire = lines.iter().map(|line| format!("{line}\r\n")).collect::<String>();
-        let mut sender = Sender::new(NcText::new(text.as_bytes()).unwrap());
-        let mut interface = CheckedInterface::new(InterfaceMutation::NONE);
-        let (mut got, mut reads) = (Vec::<u8>::new(), reads.into_iter().chain([true]).cycle());
-        while let Some(packet) = sender.packet() {
-            let ack = interface.write(packet);
-            sender.acknowledge(ack).unwrap();
-            if reads.next() == Some(true) {
-                got.extend(interface.read().unwrap());
-            }
-        }
-        got.extend(interface.read().unwrap());
-        prop_assert_eq!(got, wire.as_bytes());
-    }
 
     /// Compares the interface with a vector of bytes.
     #[test]

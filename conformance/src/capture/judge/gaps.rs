@@ -8,9 +8,9 @@ use ads_cnc::{Decode as _, Error};
 use ads_cnc_vectors::ClauseId;
 use ads_cnc_vectors::ids::*;
 
-use super::super::frames::{Span, is_cnc, is_reply};
+use super::super::connection_event::{ConnectionEnd, SegmentDirection, Span};
+use super::super::frames::{is_cnc, is_reply};
 use super::super::observation::CapturedFrames;
-use super::super::table::{ConnectionEnd, SegmentDirection};
 use super::super::tally::count;
 use super::super::tcp::CapturePosition;
 use super::pair::REORDERED_MAX;

@@ -9,9 +9,10 @@ use std::time::Duration;
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::operation::Call;
 
-use super::frames::{Span, is_cnc, is_reply};
+use super::connection_event::{ConnectionEvent, SegmentDirection, Span};
+use super::frames::{is_cnc, is_reply};
 use super::observation::{CapturedFrames, Location};
-use super::table::{ConnectionEvent, ConnectionTable, SegmentDirection};
+use super::table::ConnectionTable;
 use super::tally::{CaptureTally, count, count_of};
 use super::time::Time;
 use super::vectors::Collector;
@@ -198,7 +199,7 @@ impl TrafficJudge {
             None => CapturedFrames::Bytes(&captured.frame, place),
         };
         let again = self.is_repeated(&captured, table);
-        self.rules.request_headers(&observation, &header, again);
+        self.rules.records.request_headers(&observation, &header, again);
         match call {
             Err(error) => {
                 let rule = service_clause(header.command);
@@ -214,7 +215,7 @@ impl TrafficJudge {
                     .records
                     .on(Topic::ClientServices, &observation)
                     .pass(service_clause(header.command));
-                if let Some(unknown) = self.rules.request(&observation, &call) {
+                if let Some(unknown) = self.rules.records.request(&observation, &call) {
                     count_of(&mut self.tally.unknown, unknown);
                 }
             }

@@ -2,9 +2,10 @@
 
 use ads_cnc_vectors::ids::*;
 
+use super::super::connection_event::SegmentDirection;
 use super::super::frames::is_cnc;
 use super::super::observation::CapturedFrames;
-use super::super::table::{ConnectionTable, SegmentDirection};
+use super::super::table::ConnectionTable;
 use super::super::tally::{count, count_of};
 use super::{CapturedFrame, EarlyReplies, TrafficJudge, location};
 use crate::judge::Checks as _;

@@ -1,8 +1,25 @@
 //! Tests the reassembly of segments in any order, and with gaps.
 
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+
 use super::*;
+use crate::capture::endpoint::Endpoint;
 
 const MARK: CapturePosition = CapturePosition { packet: 1, time: None, acknowledged: None };
+
+const END: Endpoint = Endpoint::Tcp(SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 1));
+
+const SEGMENT: TcpSegment<'_> = TcpSegment {
+    from: END,
+    to: END,
+    sequence: 0,
+    acknowledged: None,
+    syn: false,
+    fin: false,
+    rst: false,
+    payload: &[],
+    missing: 0,
+};
 
 /// The bytes emitted for segments, with `_` for each byte of a gap.
 fn joined(half: &mut DirectionState, parts: &[(u32, &[u8])], end: bool) -> String {
@@ -12,10 +29,7 @@ fn joined(half: &mut DirectionState, parts: &[(u32, &[u8])], end: bool) -> Strin
         ReassembledPiece::Gap(length, _) => all.extend((0..length).map(|_| '_')),
     };
     for &(sequence, payload) in parts {
-        half.push(
-            DirectedSegment { sequence, syn: false, payload, missing: 0, mark: MARK },
-            &mut out,
-        );
+        half.push(&TcpSegment { sequence, payload, ..SEGMENT }, MARK, &mut out);
     }
     if end {
         half.flush(&mut out);
@@ -29,14 +43,8 @@ fn segments_are_reassembled_in_any_order() {
         let at = |offset: u32| start.wrapping_add(offset);
         let begun = || {
             let mut half = DirectionState::default();
-            let syn = DirectedSegment {
-                sequence: at(u32::MAX),
-                syn: true,
-                payload: &[],
-                missing: 0,
-                mark: MARK,
-            };
-            half.push(syn, &mut |_| panic!("a SYN has no bytes"));
+            let syn = TcpSegment { sequence: at(u32::MAX), syn: true, ..SEGMENT };
+            half.push(&syn, MARK, &mut |_| panic!("a SYN has no bytes"));
             half
         };
         let parts: [(u32, &[u8]); 4] =
@@ -108,10 +116,7 @@ fn the_number_of_waiting_bytes_is_limited() {
     let mut out = |_: ReassembledPiece<'_>| {};
     for offset in 0..200_u32 {
         let sequence = 10_u32.wrapping_add(offset.wrapping_mul(70_000));
-        half.push(
-            DirectedSegment { sequence, syn: false, payload: &payload, missing: 0, mark: MARK },
-            &mut out,
-        );
+        half.push(&TcpSegment { sequence, payload: &payload, ..SEGMENT }, MARK, &mut out);
         assert!(half.memory_size() <= AHEAD_MAX + 60_000);
     }
 }
@@ -121,10 +126,9 @@ fn truncated_bytes_are_a_gap() {
     let mut half = DirectionState::default();
     let mut all = Vec::new();
     let mut out = |piece: ReassembledPiece<'_>| all.push(format!("{piece:?}"));
-    let part = DirectedSegment { sequence: 5, syn: false, payload: b"ab", missing: 3, mark: MARK };
-    half.push(part, &mut out);
-    half.push(DirectedSegment { sequence: 10, payload: b"f", missing: 0, ..part }, &mut out);
-    half.push(DirectedSegment { sequence: 8, payload: b"d", missing: 3, ..part }, &mut out);
+    for (sequence, payload, missing) in [(5, &b"ab"[..], 3), (10, b"f", 0), (8, b"d", 3)] {
+        half.push(&TcpSegment { sequence, payload, missing, ..SEGMENT }, MARK, &mut out);
+    }
     let mark = format!("{MARK:?}");
     let gap = |length: u64| format!("Gap({length}, {mark})");
     let data = |bytes: &[u8]| format!("Data({bytes:?}, {mark})");

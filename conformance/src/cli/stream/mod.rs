@@ -162,9 +162,10 @@ impl StreamArgs {
         };
         let mut progress = StreamProgress::new(text, self.quiet);
         let end = sending.run(&mut session, &interrupt, &mut progress);
-        progress.clear();
+        let took = progress.elapsed();
+        drop(progress);
         let channel = self.channel.channel.number();
-        let summary = sending.summary(name, lines.get(), &end, progress.elapsed());
+        let summary = sending.summary(name, lines.get(), &end, took);
         if let Err(error) = writeln!(io::stdout().lock(), "{summary}") {
             print_error(format_args!("{summary}"));
             return Err(ToolError::Internal(format!("cannot write the summary: {error}")));

@@ -1,6 +1,5 @@
 //! Shows the progress of streaming on stderr.
 
-use std::fmt;
 use std::time::{Duration, Instant};
 
 use ads_cnc::streaming::{self, NcText};
@@ -57,45 +56,34 @@ impl StreamProgress {
 
     fn text(&self, sent: streaming::Progress, waits: Option<&str>) -> String {
         let streaming::Progress { lines, bytes, .. } = sent;
-        let (all, of, rate) = (self.lines, ByteCount(self.bytes), Rate(bytes, self.elapsed()));
-        let bytes = ByteCount(bytes);
+        let (all, of, rate) = (self.lines, byte_count(self.bytes), rate(bytes, self.elapsed()));
+        let bytes = byte_count(bytes);
         let (comma, waits) = waits.map_or(("", ""), |waits| (", ", waits));
         format!("{lines} of {}, {bytes} of {of}, {rate}{comma}{waits}", plural(all, "line"))
     }
-
-    /// Clears the line of a terminal.
-    pub(super) fn clear(&mut self) {
-        self.line.clear();
-    }
 }
 
-/// Formats a number of bytes with a unit.
-pub(super) struct ByteCount(pub(super) usize);
-
-impl fmt::Display for ByteCount {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        scaled(u32::try_from(self.0).map_or(f64::MAX, f64::from), f)
-    }
+/// A number of bytes with a unit.
+pub(super) fn byte_count(bytes: usize) -> String {
+    scaled(to_float(bytes))
 }
 
-/// Formats a number of bytes and the time in which they were accepted as bytes per second.
-pub(super) struct Rate(pub(super) usize, pub(super) Duration);
-
-impl fmt::Display for Rate {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Avoid a division by zero.
-        let seconds = self.1.as_secs_f64().max(0.001);
-        let bytes = u32::try_from(self.0).map_or(f64::MAX, f64::from);
-        scaled(bytes / seconds, f)?;
-        f.write_str("/s")
-    }
+/// A number of bytes and the time in which they were accepted, as bytes per second.
+pub(super) fn rate(bytes: usize, took: Duration) -> String {
+    // Avoid a division by zero.
+    let seconds = took.as_secs_f64().max(0.001);
+    scaled(to_float(bytes) / seconds) + "/s"
 }
 
-fn scaled(bytes: f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+fn to_float(bytes: usize) -> f64 {
+    u32::try_from(bytes).map_or(f64::MAX, f64::from)
+}
+
+fn scaled(bytes: f64) -> String {
     match bytes {
-        bytes if bytes < 10_000.0 => f.write_str(&plural(bytes.round(), "byte")),
-        bytes if bytes < 10_000_000.0 => write!(f, "{:.1} kB", bytes / 1e3),
-        bytes => write!(f, "{:.1} MB", bytes / 1e6),
+        bytes if bytes < 10_000.0 => plural(bytes.round(), "byte"),
+        bytes if bytes < 10_000_000.0 => format!("{:.1} kB", bytes / 1e3),
+        bytes => format!("{:.1} MB", bytes / 1e6),
     }
 }
 
@@ -112,10 +100,10 @@ mod tests {
             (10_000, "10.0 kB"),
             (10_485_760, "10.5 MB"),
         ] {
-            assert_eq!(ByteCount(bytes).to_string(), shown);
+            assert_eq!(byte_count(bytes), shown);
         }
-        assert_eq!(Rate(4000, Duration::from_secs(2)).to_string(), "2000 bytes/s");
-        assert_eq!(Rate(10, Duration::ZERO).to_string(), "10.0 kB/s");
+        assert_eq!(rate(4000, Duration::from_secs(2)), "2000 bytes/s");
+        assert_eq!(rate(10, Duration::ZERO), "10.0 kB/s");
     }
 
     #[test]

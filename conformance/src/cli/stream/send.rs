@@ -9,7 +9,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, Sender};
 
-use super::progress::{ByteCount, Rate, StreamProgress};
+use super::progress::{StreamProgress, byte_count, rate};
 use crate::process::interrupt::Interrupt;
 use crate::session::{Session, ToolError};
 use crate::text::plural;
@@ -105,7 +105,7 @@ impl Sending<'_> {
         took: Duration,
     ) -> String {
         let sent = self.sender.sent();
-        let (packets, bytes, rate) = (sent.packets, ByteCount(sent.bytes), Rate(sent.bytes, took));
+        let (packets, bytes, rate) = (sent.packets, byte_count(sent.bytes), rate(sent.bytes, took));
         let channel = self.channel.number();
         let mut summary = match sent.lines {
             0 => format!("{name}: channel {channel} accepted nothing"),

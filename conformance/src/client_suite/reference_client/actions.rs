@@ -60,25 +60,17 @@ impl<'a> Arguments<'a> {
     }
 
     fn parameters(&mut self) -> Result<DynamicKind, ActionError> {
-        Ok(match self.text()? {
-            "P" => DynamicKind::P,
-            "V.L" => DynamicKind::VL,
-            "V.P" => DynamicKind::VP,
-            "V.S" => DynamicKind::VS,
-            _ => return Err("unknown kind".into()),
-        })
+        let text = self.text()?;
+        let known = DynamicKind::ALL.into_iter().find(|one| one.to_string() == text);
+        Ok(known.ok_or("unknown kind")?)
     }
 
+    /// Parses a class such as `path-preparation`.
     fn class(&mut self) -> Result<Class, ActionError> {
-        Ok(match self.text()? {
-            "position-controller" => Class::PositionController,
-            "interpolator" => Class::Interpolator,
-            "decoder" => Class::Decoder,
-            "hld" => Class::Hld,
-            "path-preparation" => Class::PathPreparation,
-            "spindle" => Class::Spindle,
-            _ => return Err("unknown class".into()),
-        })
+        let name = self.text()?.replace('-', " ");
+        let mut all = Class::ALL.into_iter();
+        let known = all.find(|one| one.to_string().to_lowercase() == name);
+        Ok(known.ok_or("unknown class")?)
     }
 }
 

@@ -6,6 +6,7 @@ use ads_cnc::operation::{AdsService, Call};
 
 use super::ClientFault;
 use super::error::ActionError;
+use crate::number::u32_at;
 
 /// A request before it is encoded.
 pub(super) struct OutgoingRequest {
@@ -212,23 +213,19 @@ pub(super) fn apply_to_frame(fault: ClientFault, bytes: &mut Vec<u8>) {
 /// Makes the client skip a check of a reply, by correcting the field of the reply that the check
 /// reads; or makes the client crash on a length that is too large.
 pub(super) fn skip_check(fault: ClientFault, received: &mut [u8]) -> Result<(), ActionError> {
-    let word = |received: &[u8], at: usize| {
-        let bytes = received.get(at..at.checked_add(4)?)?;
-        Some(u32::from_le_bytes(bytes.try_into().ok()?))
-    };
     let put = |received: &mut [u8], at: usize, number: u32| {
         if let Some(field) = received.get_mut(at..at.saturating_add(4)) {
             field.copy_from_slice(&number.to_le_bytes());
         }
     };
-    let Some(length) = word(received, 2) else { return Ok(()) };
+    let Some(length) = u32_at(received, 2) else { return Ok(()) };
     let command = received.get(22).copied().unwrap_or_default();
     let data = length.saturating_sub(40);
     match fault {
         ClientFault::AmsLengthLie => put(received, 26, length.saturating_sub(32)),
         ClientFault::DataLengthLie if command == 9 => put(received, 42, data),
         ClientFault::ReadLengthLie if command == 2 => put(received, 42, data),
-        ClientFault::Dies if command == 9 && word(received, 42) == Some(u32::MAX) => {
+        ClientFault::Dies if command == 9 && u32_at(received, 42) == Some(u32::MAX) => {
             return Err(ActionError::Dies);
         }
         _ => {}

@@ -18,9 +18,11 @@ fn named(offset: u32, name: &[u8], least: u32) -> ExpectedRequest {
 }
 
 /// A scenario that reads the value of a variable by its name.
-fn value(id: &str, title: &str, name: &str, wire: &[u8], ty: &str, size: u32) -> Scenario {
+fn value(id: &str, title: &str, name: &str, ty: &str, size: u32) -> Scenario {
+    // The characters of the names have the same codes in CP1252 as in Unicode.
+    let cp1252: Vec<u8> = name.chars().map(|one| u8::try_from(one).unwrap()).collect();
     Scenario::new(format!("client-read-{id}"), title, format!("read-by-name 1 {name} {ty}"))
-        .asks(named(0x48, wire, size))
+        .asks(named(0x48, &cp1252, size))
 }
 
 fn written(id: &str, title: &str, action: &str, name: &[u8], bytes: &[u8]) -> Scenario {
@@ -97,31 +99,16 @@ fn kinds() -> Vec<Scenario> {
 fn by_name() -> Vec<Scenario> {
     let long = format!("V.E.name_of_255_characters_{}", "x".repeat(228));
     vec![
-        value("array", "The client reads an array", "V.E.Testvar", b"V.E.Testvar", "SGN32[5]", 20)
+        value("array", "The client reads an array", "V.E.Testvar", "SGN32[5]", 20)
             .gives(json!([123, 234, 345, 456, 567])),
-        value(
-            "element",
-            "The client reads an element of an array",
-            "V.E.Testvar[3]",
-            b"V.E.Testvar[3]",
-            "SGN32",
-            4,
-        )
-        .gives(456),
-        value(
-            "signed",
-            "The client reads a negative number",
-            "V.E.matrix[1][2]",
-            b"V.E.matrix[1][2]",
-            "SGN16",
-            2,
-        )
-        .gives(23),
+        value("element", "The client reads an element of an array", "V.E.Testvar[3]", "SGN32", 4)
+            .gives(456),
+        value("signed", "The client reads a negative number", "V.E.matrix[1][2]", "SGN16", 2)
+            .gives(23),
         value(
             "negative",
             "The client reads an array of negative numbers",
             "V.E.array_sgn32",
-            b"V.E.array_sgn32",
             "SGN32[5]",
             20,
         )
@@ -130,91 +117,39 @@ fn by_name() -> Vec<Scenario> {
             "unsigned",
             "The client reads an array of unsigned numbers",
             "V.E.struct.array_uns32",
-            b"V.E.struct.array_uns32",
             "UNS32[3]",
             12,
         )
         .gives(json!([0, 1, u32::MAX])),
-        value(
-            "real",
-            "The client reads a REAL64",
-            "V.E.trajectory.vector.y",
-            b"V.E.trajectory.vector.y",
-            "REAL64",
-            8,
-        )
-        .by(GEN_1)
-        .gives(-2.25),
-        value(
-            "tiny",
-            "The client reads a REAL64 near 0",
-            "V.E.trajectory.vector.z",
-            b"V.E.trajectory.vector.z",
-            "REAL64",
-            8,
-        )
-        .by(GEN_1)
-        .gives(1e-300),
-        value("boolean", "The client reads a BOOLEAN", "V.E.boolean", b"V.E.boolean", "BOOLEAN", 1)
-            .gives(true),
-        value(
-            "cp1252",
-            "The client sends a name as CP1252",
-            "V.E.Länge",
-            b"V.E.L\xE4nge",
-            "REAL64",
-            8,
-        )
-        .by(GEN_3)
-        .gives(1234.5),
-        value(
-            "long-name",
-            "The client sends a name of 255 characters",
-            &long,
-            long.as_bytes(),
-            "UNS08",
-            1,
-        )
-        .by(VAR_9)
-        .gives(255),
-        value(
-            "text",
-            "The client reads a text up to its NUL",
-            "V.E.text",
-            b"V.E.text",
-            "STRING",
-            21,
-        )
-        .by(crate::judge::assumed(VAR_22))
-        .gives("Länge 5€"),
-        value(
-            "matrix",
-            "The client reads a matrix row by row",
-            "V.E.matrix",
-            b"V.E.matrix",
-            "SGN16[2,3]",
-            12,
-        )
-        .by(crate::judge::assumed(VAR_21))
-        .gives(json!([[11, 12, 13], [21, 22, 23]])),
+        value("real", "The client reads a REAL64", "V.E.trajectory.vector.y", "REAL64", 8)
+            .by(GEN_1)
+            .gives(-2.25),
+        value("tiny", "The client reads a REAL64 near 0", "V.E.trajectory.vector.z", "REAL64", 8)
+            .by(GEN_1)
+            .gives(1e-300),
+        value("boolean", "The client reads a BOOLEAN", "V.E.boolean", "BOOLEAN", 1).gives(true),
+        value("cp1252", "The client sends a name as CP1252", "V.E.Länge", "REAL64", 8)
+            .by(GEN_3)
+            .gives(1234.5),
+        value("long-name", "The client sends a name of 255 characters", &long, "UNS08", 1)
+            .by(VAR_9)
+            .gives(255),
+        value("text", "The client reads a text up to its NUL", "V.E.text", "STRING", 21)
+            .by(crate::judge::assumed(VAR_22))
+            .gives("Länge 5€"),
+        value("matrix", "The client reads a matrix row by row", "V.E.matrix", "SGN16[2,3]", 12)
+            .by(crate::judge::assumed(VAR_21))
+            .gives(json!([[11, 12, 13], [21, 22, 23]])),
         value(
             "structure",
             "The client reads an element of an array in a structure",
             "V.G.NP[0].V[1]",
-            b"V.G.NP[0].V[1]",
             "REAL64",
             8,
         )
         .gives(2.0),
-        value(
-            "cycle",
-            "The client reads a V.CYC variable by its name",
-            "V.CYC.count",
-            b"V.CYC.count",
-            "UNS32",
-            4,
-        )
-        .gives(42),
+        value("cycle", "The client reads a V.CYC variable by its name", "V.CYC.count", "UNS32", 4)
+            .gives(42),
         written(
             "element",
             "The client writes an element of an array",
@@ -340,18 +275,13 @@ fn of_axes() -> Vec<Scenario> {
 
 fn dynamic() -> Vec<Scenario> {
     let mut all = Vec::new();
-    for (kind, id, base, count, name, place, parameter) in [
-        ("P", "p", 0x1B, 1, "P1", 1_u8, 4711.0),
-        ("V.L", "vl", 0x1E, 1, "V.L.depth", 1, 2.5),
-        ("V.P", "vp", 0x21, 2, "V.P.offset", 2, -0.125),
-        ("V.S", "vs", 0x24, 1, "V.S.radius", 1, 6.25),
+    // For each kind, `number` is the index offset of the count, and `base` that of the names.
+    for (kind, id, number, base, count, name, place, parameter) in [
+        ("P", "p", 2, 0x1B, 1, "P1", 1_u8, 4711.0),
+        ("V.L", "vl", 3, 0x1E, 1, "V.L.depth", 1, 2.5),
+        ("V.P", "vp", 4, 0x21, 2, "V.P.offset", 2, -0.125),
+        ("V.S", "vs", 5, 0x24, 1, "V.S.radius", 1, 6.25),
     ] {
-        let number = match kind {
-            "P" => 2,
-            "V.L" => 3,
-            "V.P" => 4,
-            _ => 5,
-        };
         let index = [place, 0, 0, 0];
         let zeroed = [name.as_bytes(), b"\0"].concat();
         let mut padded = zeroed.clone();

@@ -5,7 +5,7 @@ use ads_cnc::operation::{AdsService, Call};
 use ads_cnc_vectors::ids::*;
 
 use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
-use super::{CncDefect, row, set_u32};
+use super::{CncDefect, changed, row, set_u32};
 
 const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
 
@@ -15,22 +15,16 @@ pub(super) const ROWS: &[CncDefect] = &[
         "the CNC pads the data of the reply to a Read with zeros to the read length",
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
-            cnc.answer(call).map(|mut bytes| {
-                if call.service == AdsService::Read {
-                    bytes.resize(bytes.len().max(len), 0);
-                }
-                bytes
+            changed(cnc, call, |bytes| if call.service == AdsService::Read {
+                bytes.resize(bytes.len().max(len), 0);
             })
         }),
     row("cnc.ads.read-write-padded", &[ADS_3],
         "the CNC pads the data of the reply to a ReadWrite with zeros to the read length",
         |cnc, call| {
             let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
-            cnc.answer(call).map(|mut bytes| {
-                if call.service == AdsService::ReadWrite {
-                    bytes.resize(bytes.len().max(len), 0);
-                }
-                bytes
+            changed(cnc, call, |bytes| if call.service == AdsService::ReadWrite {
+                bytes.resize(bytes.len().max(len), 0);
             })
         }),
     row("cnc.ads.errors-as-nothing", &[ADS_4, ADS_7],

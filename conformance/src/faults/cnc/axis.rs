@@ -3,7 +3,7 @@
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::{CncDefect, ReplyData, Upstream, function, group, of_decoder, offset, row};
+use super::{CncDefect, function, group, of_decoder, offset, row};
 
 /// The axis index that a call to the axis interface addresses, and the lower 16 bits of its index
 /// offset, which select the function or a reserved place; `None` for other calls.
@@ -11,14 +11,6 @@ fn of_axis(call: &Call<'_>) -> Option<(u32, u32)> {
     let offset = of_decoder(call)?;
     let (axis, function) = (offset >> 16, offset & 0xFFFF);
     (axis > 0 && (4..=9).contains(&function)).then_some((axis, function))
-}
-
-/// The reply to a call to the axis interface with another axis index.
-fn other_axis(cnc: &Upstream<'_>, call: &Call<'_>, other: impl FnOnce(u32) -> u32) -> ReplyData {
-    match of_axis(call) {
-        Some((axis, function)) => cnc.at(call, group(call), other(axis) << 16 | function),
-        None => cnc.answer(call),
-    }
 }
 
 #[rustfmt::skip]
@@ -33,14 +25,14 @@ pub(super) const ROWS: &[CncDefect] = &[
         "a read on the axis interface of channel 1 returns the axis that had the index before \
          axis exchange",
         |cnc, call| match (of_axis(call), function(call)) {
-            (Some((axis, _)), Some(Function::AxisReadByName)) if group(call) & 0xFF == 1 => {
+            (Some((axis, offset)), Some(Function::AxisReadByName)) if group(call) & 0xFF == 1 => {
                 let place = (1..=3).find(|place| {
                     let at = place << 16 | 3;
                     let number = cnc.read(ads_cnc::ads::AmsPort::COM, 0x12_0101, at);
                     number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)
                         == Some(axis)
                 });
-                other_axis(cnc, call, |axis| place.unwrap_or(axis))
+                cnc.at(call, group(call), place.unwrap_or(axis) << 16 | offset)
             }
             _ => cnc.answer(call),
         }),

@@ -3,18 +3,17 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
-use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
 use super::lookup::{indexed, instance, with_indices};
+use super::service::{RESPONSE, UUID, reads, writes};
 use super::{
-    CncDefect, DESCRIPTIONS, after_nul, dimensions, group, is, number, offset, on, records, reply,
-    row, text, u32_at, within_length,
+    CncDefect, DESCRIPTIONS, after_nul, changed, dimensions, group, is, number, offset, on,
+    records, reply, row, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
-const UUID: &str = ServiceVariable::UUID;
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
@@ -36,21 +35,17 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.com.many-12", &[COM_3],
         "a reply has at most 12 descriptors, as many as fit into 1024 bytes",
-        |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
-            bytes.truncate(84 * 12);
-            bytes
-        })),
+        |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| bytes.truncate(84 * 12))),
     on("cnc.com.many-to-last", &[COM_3],
         "a reply with several descriptors lacks that of the last object of the list",
         DESCRIPTORS, |cnc, call| {
             let count = u32_at(&cnc.read(call.port, group(call), 0)?, 0).unwrap_or_default();
-            cnc.answer(call).map(|mut bytes| {
-                let given = u32::try_from(records(&bytes).len()).unwrap_or_default();
+            changed(cnc, call, |bytes| {
+                let given = u32::try_from(records(bytes).len()).unwrap_or_default();
                 let end = offset(call).wrapping_add(given).wrapping_sub(1);
                 if given > 1 && end == count {
                     bytes.truncate(bytes.len().saturating_sub(84));
                 }
-                bytes
             })
         }),
     row("cnc.dyn.name-of-96", &[DYN_6],
@@ -95,13 +90,12 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.var.dimensions-2", &[VAR_4, VAR_8],
         "a description has only the first two dimensions of an array with more",
-        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
-            let (numbers, end) = dimensions(&bytes);
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |bytes| {
+            let (numbers, end) = dimensions(bytes);
             if numbers.len() > 2 {
                 bytes.drain(28..end);
-                super::set_u32(&mut bytes, 16, 2);
+                super::set_u32(bytes, 16, 2);
             }
-            bytes
         })),
     on("cnc.var.whole-first-row", &[VAR_14],
         "a read by name of a whole array of several dimensions returns only its first row",
@@ -109,12 +103,11 @@ pub(super) const ROWS: &[CncDefect] = &[
             let described = super::lookup::described(cnc, group(call), text(call.data));
             let numbers = dimensions(&described.unwrap_or_default()).0;
             let whole = indexed(text(call.data)).1.is_empty();
-            cnc.answer(call).map(|mut bytes| {
+            changed(cnc, call, |bytes| {
                 if let ([rows, _, ..], true) = (&numbers[..], whole) {
                     let rows = usize::try_from(*rows).unwrap_or(1);
                     bytes.truncate(bytes.len().checked_div(rows).unwrap_or_default());
                 }
-                bytes
             })
         }),
     on("cnc.stm.room-4093", &[STM_3],
@@ -153,23 +146,15 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.svc.response-127", &[SVC_1],
         "the CNC rejects a RESPONSE of 128 bytes including its NUL, the maximum",
         |cnc, call| {
-            let name = ServiceVariable::RESPONSE.as_bytes();
-            let is_response = is(call, &[Function::WriteByName]) && text(call.data) == name;
-            if is_response && after_nul(call.data).len() == 128 {
+            if writes(call, RESPONSE) && after_nul(call.data).len() == 128 {
                 Err(AdsError::INVALID_SIZE)
             } else {
                 cnc.answer(call)
             }
         }),
     row("cnc.svc.uuid-35", &[SVC_1, SVC_2], "a read of UUID returns only its first 35 characters",
-        |cnc, call| if is(call, &[Function::ReadByName]) && text(call.data) == UUID.as_bytes() {
-            within_length(
-                call,
-                cnc.answer(call).map(|mut bytes| {
-                    bytes.iter_mut().skip(35).for_each(|byte| *byte = 0);
-                    bytes
-                }),
-            )
+        |cnc, call| if reads(call, UUID) {
+            changed(cnc, call, |bytes| bytes.iter_mut().skip(35).for_each(|byte| *byte = 0))
         } else {
             cnc.answer(call)
         }),

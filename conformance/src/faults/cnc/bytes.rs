@@ -1,12 +1,7 @@
 //! Reads and changes the bytes of requests and replies.
 
 use super::{ReplyData, text};
-
-/// The UNS32 at an offset.
-pub(in crate::faults) fn u32_at(bytes: &[u8], offset: usize) -> Option<u32> {
-    let four = bytes.get(offset..)?.first_chunk::<4>()?;
-    Some(u32::from_le_bytes(*four))
-}
+pub(in crate::faults) use crate::number::u32_at;
 
 /// Writes an UNS32 at an offset, if it is within the bytes.
 pub(in crate::faults) fn set_u32(bytes: &mut [u8], offset: usize, number: u32) {

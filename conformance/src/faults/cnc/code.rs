@@ -27,20 +27,18 @@ pub(super) const ROWS: &[CncDefect] = &[
         DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 8, |_| 2)),
     row("cnc.var.elementary-array-of-1", &[VAR_7],
         "an elementary variable is described with one dimension of 1 element",
-        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
-            if u32_at(&bytes, 16) == Some(0) {
-                set_u32(&mut bytes, 16, 1);
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |bytes| {
+            if u32_at(bytes, 16) == Some(0) {
+                set_u32(bytes, 16, 1);
                 bytes.splice(20..20, [1, 0, 0, 0]);
             }
-            bytes
         })),
     row("cnc.var.elementary-array-of-0", &[VAR_7],
         "an elementary variable is described with one dimension of 0 elements",
-        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
-            if u32_at(&bytes, 16) == Some(0) {
-                set_u32(&mut bytes, 16, 1);
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |bytes| {
+            if u32_at(bytes, 16) == Some(0) {
+                set_u32(bytes, 16, 1);
                 bytes.splice(20..20, [0; 4]);
             }
-            bytes
         })),
 ];

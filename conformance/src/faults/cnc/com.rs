@@ -11,7 +11,11 @@ use super::{
 };
 
 /// Changes each descriptor in the reply.
-fn each(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut [u8; 84])) -> ReplyData {
+pub(in crate::faults) fn each(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    other: impl FnMut(&mut [u8; 84]),
+) -> ReplyData {
     let mut answer = cnc.answer(call)?;
     if is(call, &[Function::ReadDescriptors]) {
         records_mut(&mut answer).for_each(other);
@@ -30,9 +34,14 @@ fn list(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&mut Vec<[u8; 84]>)) -> R
     Ok(records.concat())
 }
 
-pub(super) fn set(record: &mut [u8; 84], place: usize, bytes: &[u8]) {
+pub(in crate::faults) fn set(record: &mut [u8; 84], place: usize, bytes: &[u8]) {
     let field = record.iter_mut().skip(place);
     field.zip(bytes).for_each(|(old, new)| *old = *new);
+}
+
+/// Whether the name in a descriptor starts with `start`.
+pub(super) fn is_named(record: &[u8; 84], start: &[u8]) -> bool {
+    record.iter().skip(20).zip(start).all(|(a, b)| a == b)
 }
 
 #[rustfmt::skip]

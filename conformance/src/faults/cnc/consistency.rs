@@ -5,47 +5,20 @@ use ads_cnc::address::Class;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
+use super::instance::with_instance;
 use super::{
-    CncDefect, Key, ReplyData, Upstream, class, group, is, number, offset, on, row, set_u32, text,
-    u32_at, within_length,
+    CncDefect, Key, ReplyData, Upstream, absent, class, group, is, number, offset, on, row, text,
+    within_length,
 };
 
-const FIND: &[Function] = &[Function::FindInstance];
 const WRITE: &[Function] = &[Function::WriteElement];
 const NAME: &[Function] = &[Function::DynamicNameByIndex];
 const BY_NAME: &[Function] = &[Function::DynamicValueByName];
 const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
 
-/// The reply to a `FindInstance` request whose number at the offset `place` is changed by `other`:
-/// the channel at 0 or the axis at 4.
-fn with_number(
-    cnc: &Upstream<'_>,
-    call: &Call<'_>,
-    place: usize,
-    other: fn(u32) -> u32,
-) -> ReplyData {
-    match (is(call, FIND), u32_at(call.data, place)) {
-        (true, Some(number)) => {
-            let mut data = call.data.to_vec();
-            set_u32(&mut data, place, other(number));
-            cnc.with(call, &data)
-        }
-        _ => cnc.answer(call),
-    }
-}
-
-/// Finds no instance of the class `of` for axes after `last`.
-fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> ReplyData {
-    if is(call, FIND) && group(call) & 0xF000 == of && u32_at(call.data, 4) > Some(last) {
-        cnc.answer(call).map(|_| vec![0; 8])
-    } else {
-        cnc.answer(call)
-    }
-}
-
 /// Answers a request for one of the functions `of` with the first successful reply to the same
 /// request.
-fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
+pub(super) fn cached(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> ReplyData {
     if !is(call, of) {
         return cnc.answer(call);
     }
@@ -73,23 +46,23 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> Repl
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.address-of-channel-1", &[SDA_1],
         "the object address for every channel above 1 is that for channel 1",
-        |cnc, call| with_number(cnc, call, 0, |channel| channel.min(1))),
+        |cnc, call| with_instance(cnc, call, |channel, axis| (channel.min(1), axis))),
     row("cnc.sda.address-of-channel", &[SDA_1],
         "object addresses of axes of interpolator, decoder and path preparation are those of the \
          channel",
         |cnc, call| match group(call) & 0xF000 {
-            0x1000 | 0x2000 | 0x4000 => with_number(cnc, call, 4, |_| 0),
+            0x1000 | 0x2000 | 0x4000 => with_instance(cnc, call, |channel, _| (channel, 0)),
             _ => cnc.answer(call),
         }),
     row("cnc.sda.interpolator-no-axes", &[SDA_5],
         "axes of the interpolator are not found, those of the decoder are",
-        |cnc, call| few_axes(cnc, call, 0x1000, 0)),
+        |cnc, call| absent(cnc, call, |class, _, axis| class == 0x1000 && axis > 0)),
     row("cnc.sda.decoder-one-axis", &[SDA_5],
         "the CNC finds only the first axis of each channel in the decoder",
-        |cnc, call| few_axes(cnc, call, 0x2000, 1)),
+        |cnc, call| absent(cnc, call, |class, _, axis| class == 0x2000 && axis > 1)),
     row("cnc.sda.axis-24-bit", &[SDA_5, SDA_2],
         "the CNC uses only the lowest 24 bits of the axis in a request for an object address",
-        |cnc, call| with_number(cnc, call, 4, |axis| axis & 0xFF_FFFF)),
+        |cnc, call| with_instance(cnc, call, |channel, axis| (channel, axis & 0xFF_FFFF))),
     row("cnc.sda.first-length", &[SDA_8], "the length of element 0 is that of element 1",
         |cnc, call| if is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
             cnc.at(call, group(call), offset(call) | 1)

@@ -6,9 +6,10 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Call, Function, GroupRule, OffsetRule};
 use ads_cnc_vectors::ids::*;
 
-use super::{CncDefect, at, class, function, functions, group, is, is_at, offset, row};
+use super::{
+    CncDefect, at, class, forgiven, function, functions, group, is, is_at, offset, on, row,
+};
 
-const WRITE: &[Function] = &[Function::WriteElement];
 const FUNCTIONS: &[Function] = functions!(|spec| matches!(
     (spec.group, spec.offset),
     (GroupRule::ChannelOf(Class::Decoder), OffsetRule::At(_) | OffsetRule::OfKind(_))
@@ -31,12 +32,10 @@ pub(in crate::faults) fn empty_place(call: &Call<'_>) -> bool {
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.sda.write-read-only", &[SDA_9],
+    on("cnc.sda.write-read-only", &[SDA_9],
         "a write to a read-only element succeeds and changes nothing",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
-            (_, answer) => answer,
-        }),
+        &[Function::WriteElement],
+        |cnc, call| forgiven(cnc.answer(call), AdsError::INVALID_ACCESS)),
     row("cnc.sda.feedhold-2", &[SDA_10],
         "the content of feedhold.enable, a BOOLEAN of the HLD of channel 1, is 2",
         |cnc, call| if feedhold(call, 0x300) && call.service == AdsService::Read {

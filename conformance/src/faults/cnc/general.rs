@@ -8,19 +8,21 @@ use ads_cnc::text::cp1252_to_char;
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncDefect, DESCRIPTIONS, NAMED, ReplyData, Upstream, VALUES, WRITES, after_nul, dimensions,
-    first, function, functions, number, on, records, row, set_u32, text, u32_at, within_length,
+    CncDefect, DESCRIPTIONS, NAMED, ReplyData, Upstream, VALUES, WRITES, after_nul, changed,
+    dimensions, first, function, functions, number, on, records, reply, row, set_u32, text, u32_at,
+    within_length,
 };
 
 /// Functions whose reply is a number of 4 bytes.
 const NUMBERS: &[Function] =
-    functions!(|spec| matches!(reply(spec), [FieldSpec { size: Size::Fixed(4), .. }]));
+    functions!(|spec| matches!(fields(spec), [FieldSpec { size: Size::Fixed(4), .. }]));
 
 /// Functions whose reply is a text.
 const TEXTS: &[Function] =
-    functions!(|spec| matches!(reply(spec), [FieldSpec { ty: Type::String, .. }]));
+    functions!(|spec| matches!(fields(spec), [FieldSpec { ty: Type::String, .. }]));
 
-const fn reply(spec: &FunctionSpec) -> &'static [FieldSpec] {
+/// The fields of the reply.
+const fn fields(spec: &FunctionSpec) -> &'static [FieldSpec] {
     match spec.reply {
         Some(stream) => stream.layout().fields,
         None => &[],
@@ -69,10 +71,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         "the REAL64 of a dynamic parameter has the most significant byte first in replies",
         |cnc, call| match function(call) {
             Some(Function::DynamicValueByName | Function::DynamicValueByIndex) => {
-                cnc.answer(call).map(|mut bytes| {
-                    bytes.reverse();
-                    bytes
-                })
+                changed(cnc, call, |bytes| bytes.reverse())
             }
             _ => cnc.answer(call),
         }),
@@ -100,18 +99,14 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    on("cnc.gen.description-aligned", &[GEN_2],
+    row("cnc.gen.description-aligned", &[GEN_2],
         "the name in a description by index starts at an offset that is a multiple of 8",
-        &[Function::DescribeByIndex], |cnc, call| within_length(
-            call,
-            cnc.whole(call).map(|mut bytes| {
-                let (_, name) = dimensions(&bytes);
-                if name % 8 != 0 && name <= bytes.len() {
-                    bytes.splice(name..name, [0; 4]);
-                }
-                bytes
-            }),
-        )),
+        |cnc, call| reply(cnc, call, &[Function::DescribeByIndex], |bytes| {
+            let (_, name) = dimensions(bytes);
+            if name % 8 != 0 && name <= bytes.len() {
+                bytes.splice(name..name, [0; 4]);
+            }
+        })),
     on("cnc.gen.descriptor-access-wide", &[GEN_2],
         "the write access in a descriptor takes 4 bytes, so the fields from offset 12 on move by \
          2 bytes",
@@ -166,12 +161,11 @@ pub(super) const ROWS: &[CncDefect] = &[
          bytes",
         |cnc, call| match function(call) {
             Some(function) if DESCRIPTIONS.contains(&function) => {
-                cnc.answer(call).map(|mut bytes| {
-                    if u32_at(&bytes, 4) == Some(1) {
-                        let size = u32_at(&bytes, 12).unwrap_or_default();
-                        set_u32(&mut bytes, 12, size.wrapping_mul(4));
+                changed(cnc, call, |bytes| {
+                    if u32_at(bytes, 4) == Some(1) {
+                        let size = u32_at(bytes, 12).unwrap_or_default();
+                        set_u32(bytes, 12, size.wrapping_mul(4));
                     }
-                    bytes
                 })
             }
             Some(Function::ReadByName | Function::ReadByHandle) => {

@@ -5,8 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncDefect, ReplyData, Upstream, after_nul, first, fours, function, group, number, on, row,
-    set_u32, text, u32_at,
+    CncDefect, after_nul, first, fours, function, group, number, on, row, set_u32, text, u32_at,
 };
 
 /// The parts of a request by handle: handle, indices, value.
@@ -33,21 +32,12 @@ pub(in crate::faults) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> V
     numbers.flat_map(u32::to_le_bytes).chain(value.iter().copied()).collect()
 }
 
-/// Changes the handle in replies to requests for a handle by name.
-fn with_handle(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> ReplyData {
-    match function(call) {
-        Some(Function::HandleByName | Function::AxisHandleByName) => {
-            number(cnc.answer(call), 0, other)
-        }
-        _ => cnc.answer(call),
-    }
-}
-
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.var.handle-not-understood", &[VAR_10],
+    on("cnc.var.handle-not-understood", &[VAR_10],
         "the handle that the CNC returns for a name is one that it does not accept",
-        |cnc, call| with_handle(cnc, call, |handle| handle ^ 0x5A00_0000)),
+        &[Function::HandleByName, Function::AxisHandleByName],
+        |cnc, call| number(cnc.answer(call), 0, |handle| handle ^ 0x5A00_0000)),
     row("cnc.var.handle-changes", &[VAR_10],
         "each request for a handle by name returns another handle; all of them are valid",
         |cnc, call| match (function(call), parts(call.data)) {

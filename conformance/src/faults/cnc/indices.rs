@@ -6,10 +6,9 @@ use ads_cnc_vectors::ids::*;
 
 use super::handle::{joined, parts};
 use super::variable::described;
-use super::{CncDefect, is, of_decoder, row, u32_at, within_length};
+use super::{CncDefect, forgiven, is, of_decoder, on, row, u32_at, within_length};
 
 const READ: &[Function] = &[Function::ReadByHandle];
-const WRITE: &[Function] = &[Function::WriteByHandle];
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
@@ -36,10 +35,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.var.write-indices-beyond", &[VAR_12],
+    on("cnc.var.write-indices-beyond", &[VAR_12],
         "a write with an unknown handle or an index out of bounds succeeds and changes nothing",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_DATA)) => Ok(Vec::new()),
-            (_, answer) => answer,
-        }),
+        &[Function::WriteByHandle],
+        |cnc, call| forgiven(cnc.answer(call), AdsError::INVALID_DATA)),
 ];

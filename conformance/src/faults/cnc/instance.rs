@@ -7,13 +7,14 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncDefect, LOGICAL, ReplyData, Upstream, class, group, is, offset, reply, row, set_u32, u32_at,
+    CncDefect, LOGICAL, ReplyData, Upstream, changed, class, group, is, offset, reply, row,
+    set_u32, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
 
 /// The reply to a `FindInstance` request with its channel and axis changed by `other`.
-fn with_instance(
+pub(super) fn with_instance(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
     other: fn(u32, u32) -> (u32, u32),
@@ -52,10 +53,7 @@ pub(in crate::faults) fn absent(
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.sda.address-swapped", &[SDA_1],
         "an object address has the index offset before the index group",
-        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
-            bytes.rotate_left(4);
-            bytes
-        })),
+        |cnc, call| reply(cnc, call, FIND, |bytes| bytes.rotate_left(4))),
     row("cnc.sda.query-with-channel", &[SDA_1],
         "the CNC accepts requests for object addresses only at groups with a channel: 0x123901",
         |cnc, call| match (class(call), group(call) & 0xF00) {
@@ -67,56 +65,47 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.sda.address-of-query", &[SDA_1],
         "the index group in an object address is 0x600 too high: 0x123901 instead of 0x123301",
-        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
-            match u32_at(&bytes, 0) {
-                Some(0) | None => {}
-                Some(group) => set_u32(&mut bytes, 0, group.wrapping_add(0x600)),
-            }
-            bytes
+        |cnc, call| reply(cnc, call, FIND, |bytes| match u32_at(bytes, 0) {
+            Some(0) | None => {}
+            Some(group) => set_u32(bytes, 0, group.wrapping_add(0x600)),
         })),
     row("cnc.sda.address-by-index", &[SDA_3],
         "the index group in an object address lacks the bit of logical addressing",
-        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
-            let group = u32_at(&bytes, 0).unwrap_or_default();
-            set_u32(&mut bytes, 0, group & !LOGICAL);
-            bytes
+        |cnc, call| reply(cnc, call, FIND, |bytes| {
+            let group = u32_at(bytes, 0).unwrap_or_default();
+            set_u32(bytes, 0, group & !LOGICAL);
         })),
     row("cnc.sda.address-16-bit", &[SDA_1],
         "the index group in an object address is cut to 16 bits: 0x3301 instead of 0x123301",
-        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
-            let group = u32_at(&bytes, 0).unwrap_or_default();
-            set_u32(&mut bytes, 0, group & 0xFFFF);
-            bytes
+        |cnc, call| reply(cnc, call, FIND, |bytes| {
+            let group = u32_at(bytes, 0).unwrap_or_default();
+            set_u32(bytes, 0, group & 0xFFFF);
         })),
     row("cnc.sda.absent-answered", &[SDA_2],
         "the CNC returns an object address even for an instance that does not exist",
-        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
-            if bytes.iter().all(|byte| *byte == 0) {
-                let channel = u32_at(call.data, 0).unwrap_or_default() & 0xFF;
-                set_u32(&mut bytes, 0, group(call).wrapping_sub(0x600) | channel);
-                set_u32(&mut bytes, 4, u32_at(call.data, 4).unwrap_or_default() << 16);
-            }
-            bytes
+        |cnc, call| reply(cnc, call, FIND, |bytes| if bytes.iter().all(|byte| *byte == 0) {
+            let channel = u32_at(call.data, 0).unwrap_or_default() & 0xFF;
+            set_u32(bytes, 0, group(call).wrapping_sub(0x600) | channel);
+            set_u32(bytes, 4, u32_at(call.data, 4).unwrap_or_default() << 16);
         })),
     row("cnc.sda.absent-ones", &[SDA_2],
         "the object address of an instance that does not exist has the bytes FF instead of 00",
-        |cnc, call| reply(cnc, call, FIND, |bytes| {
-            if bytes.iter().all(|byte| *byte == 0) { vec![0xFF; 8] } else { bytes }
+        |cnc, call| reply(cnc, call, FIND, |bytes| if bytes.iter().all(|byte| *byte == 0) {
+            *bytes = vec![0xFF; 8];
         })),
     row("cnc.sda.absent-nothing", &[SDA_2],
         "a request for the address of an instance that does not exist succeeds without data",
-        |cnc, call| reply(cnc, call, FIND, |bytes| {
-            if bytes.iter().all(|byte| *byte == 0) { Vec::new() } else { bytes }
+        |cnc, call| reply(cnc, call, FIND, |bytes| if bytes.iter().all(|byte| *byte == 0) {
+            bytes.clear();
         })),
     row("cnc.sda.hld-stride-10000", &[SDA_3],
         "platform axes of the HLD have the stride 0x10000 instead of 0x1000",
         |cnc, call| match (is(call, FIND), group(call) & 0xEF_F0FF) {
-            (true, 0x02_3000) => cnc.answer(call).map(|mut bytes| {
-                if u32_at(&bytes, 0) == Some(0x12_3300) {
-                    let offset = u32_at(&bytes, 4).unwrap_or_default();
-                    set_u32(&mut bytes, 4, offset << 4);
+            (true, 0x02_3000) => changed(cnc, call, |bytes| {
+                if u32_at(bytes, 0) == Some(0x12_3300) {
+                    let offset = u32_at(bytes, 4).unwrap_or_default();
+                    set_u32(bytes, 4, offset << 4);
                 }
-                bytes
             }),
             (false, 0x02_3000) if offset(call) >= 0x1_0000 => {
                 let (axis, element) = (offset(call) >> 16, offset(call) & 0xFFF);

@@ -69,15 +69,38 @@ pub(super) fn described(cnc: &Upstream<'_>, group: u32, name: &[u8]) -> Option<V
     cnc.ask(group, 0x4C, &[indexed(name).0, &[0]].concat()).ok()
 }
 
+/// The descriptions of the variables of a kind, in the order of their indices.
+pub(in crate::faults) fn descriptions(
+    cnc: &Upstream<'_>,
+    group: u32,
+    kind: &[u8],
+) -> impl Iterator<Item = Vec<u8>> {
+    (0_u32..).map_while(move |index| {
+        cnc.ask(group, 0x45, &[&index.to_le_bytes(), kind, &[0]].concat()).ok()
+    })
+}
+
+/// The name in a description by index.
+pub(in crate::faults) fn name_in(description: &[u8]) -> &[u8] {
+    text(description.get(dimensions(description).1..).unwrap_or_default())
+}
+
 /// The name of the variable of V.E or V.G with this handle.
 pub(super) fn name_of(cnc: &Upstream<'_>, group: u32, handle: u32) -> Option<Vec<u8>> {
-    [&b"V.E\0"[..], b"V.G\0"].into_iter().find_map(|kind| {
-        let all = (0_u32..)
-            .map_while(|index| cnc.ask(group, 0x45, &[&index.to_le_bytes(), kind].concat()).ok());
-        let mut same = all.filter(|bytes| u32_at(bytes, 0) == Some(handle));
-        let bytes = same.next()?;
-        Some(text(bytes.get(dimensions(&bytes).1..)?).to_vec())
+    [&b"V.E"[..], b"V.G"].into_iter().find_map(|kind| {
+        let found = with_handle(cnc, group, kind, handle)?;
+        Some(name_in(&found).to_vec())
     })
+}
+
+/// The description of the variable of a kind with this handle.
+pub(super) fn with_handle(
+    cnc: &Upstream<'_>,
+    group: u32,
+    kind: &[u8],
+    handle: u32,
+) -> Option<Vec<u8>> {
+    descriptions(cnc, group, kind).find(|found| u32_at(found, 0) == Some(handle))
 }
 
 /// The handle of the variable with this name.

@@ -39,11 +39,12 @@ mod write_sequence;
 pub(in crate::faults) use self::bytes::{
     after_nul, dimensions, fours, number, records, records_mut, set_u32, u32_at,
 };
+pub(in crate::faults) use self::com::{each, set};
 pub(in crate::faults) use self::content::empty_place;
 pub use self::faulty::Faulty;
 pub(in crate::faults) use self::handle::{joined, parts, value_at};
 pub(in crate::faults) use self::instance::absent;
-pub(in crate::faults) use self::lookup::{indexed, with_indices};
+pub(in crate::faults) use self::lookup::{descriptions, indexed, name_in, with_indices};
 pub(in crate::faults) use self::request::{
     DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
     first, function, functions, group, is, is_at, is_lookup, of_decoder, offset,
@@ -53,7 +54,7 @@ pub(in crate::faults) use self::row::{CncDefect, fault, on, program, row};
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;
 pub(in crate::faults) use self::upstream::{
-    Key, delay_write, later, or_short, reply, within_length,
+    Key, changed, delay_write, forgiven, later, or_short, reply, within_length,
 };
 pub(in crate::faults) use crate::simulator::ReplyData;
 pub(in crate::faults) use crate::values::until_nul as text;

@@ -4,12 +4,13 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 
-use super::variable::without_indices;
 use super::{
-    CncDefect, NAMED, after_nul, at, function, group, is, is_at, is_lookup, of_decoder, on, row,
-    text, u32_at,
+    CncDefect, NAMED, after_nul, at, changed, descriptions, dimensions, forgiven, function, group,
+    is, is_at, is_lookup, name_in, of_decoder, on, reply, row, text, u32_at,
 };
 use crate::edition::Edition;
+
+const BY_NAME: &[Function] = &[Function::ReadByName, Function::HandleByName];
 
 /// A row whose defect is detectable in the German edition only.
 const fn german(mut row: CncDefect) -> CncDefect {
@@ -49,37 +50,25 @@ pub(super) const ROWS: &[CncDefect] = &[
         } else {
             cnc.with(call, &[call.data, &[0]].concat())
         }),
-    row("cnc.var.name-one-character", &[VAR_9],
+    on("cnc.var.name-one-character", &[VAR_9],
         "an unknown name addresses the variable whose name lacks the last character",
-        |cnc, call| match (
-            is(call, &[Function::ReadByName, Function::HandleByName]),
-            cnc.answer(call),
-        ) {
-            (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
+        BY_NAME, |cnc, call| match cnc.answer(call) {
+            Err(AdsError::SYMBOL_NOT_FOUND) => {
                 let name = text(call.data);
                 let name = name.split_last().map_or(name, |(_, name)| name);
                 cnc.with(call, &[name, &[0]].concat())
             }
-            (_, answer) => answer,
+            answer => answer,
         }),
-    row("cnc.var.name-unknown", &[VAR_9, VAR_20],
+    on("cnc.var.name-unknown", &[VAR_9, VAR_20],
         "a request for the handle or the value of an unknown name returns four zero bytes",
-        |cnc, call| match (
-            is(call, &[Function::ReadByName, Function::HandleByName]),
-            cnc.answer(call),
-        ) {
-            (true, Err(AdsError::SYMBOL_NOT_FOUND)) => Ok(vec![0; 4]),
-            (_, answer) => answer,
+        BY_NAME, |cnc, call| match cnc.answer(call) {
+            Err(AdsError::SYMBOL_NOT_FOUND) => Ok(vec![0; 4]),
+            answer => answer,
         }),
-    row("cnc.var.name-unknown-nothing", &[VAR_9, VAR_20],
+    on("cnc.var.name-unknown-nothing", &[VAR_9, VAR_20],
         "a request for the handle or the value of an unknown name succeeds without data",
-        |cnc, call| match (
-            is(call, &[Function::ReadByName, Function::HandleByName]),
-            cnc.answer(call),
-        ) {
-            (true, Err(AdsError::SYMBOL_NOT_FOUND)) => Ok(Vec::new()),
-            (_, answer) => answer,
-        }),
+        BY_NAME, |cnc, call| forgiven(cnc.answer(call), AdsError::SYMBOL_NOT_FOUND)),
     row("cnc.var.cycle-has-handle", &[VAR_18],
         "the CNC returns handles for V.CYC variables and reads the variables by them",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
@@ -121,38 +110,28 @@ pub(super) const ROWS: &[CncDefect] = &[
         "a read of V.P, V.L or V.S on the channel interface returns 4 bytes instead of 8",
         |cnc, call| match (of_decoder(call), call.data) {
             (Some(0x48), [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => {
-                cnc.answer(call).map(|mut bytes| {
-                    bytes.truncate(4);
-                    bytes
-                })
+                changed(cnc, call, |bytes| bytes.truncate(4))
             }
             _ => cnc.answer(call),
         })),
-    row("cnc.var.structure-answered", &[VAR_20],
+    on("cnc.var.structure-answered", &[VAR_20],
         "the name of a structure addresses the first V.E variable in the structure",
-        |cnc, call| match (
-            is(call, &[Function::ReadByName, Function::HandleByName]),
-            cnc.answer(call),
-        ) {
-            (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
+        BY_NAME, |cnc, call| match cnc.answer(call) {
+            Err(AdsError::SYMBOL_NOT_FOUND) => {
                 let structure = [text(call.data), b"."].concat();
-                let count = super::number::count(cnc, call, b"V.E");
-                let leaf = (0..count).find_map(|index| {
-                    let data = [&index.to_le_bytes(), b"V.E\0".as_slice()].concat();
-                    let found = cnc.ask(group(call), 0x45, &data).ok()?;
-                    let name = text(found.get(super::dimensions(&found).1..)?).to_vec();
-                    name.starts_with(&structure).then_some(name)
-                });
-                cnc.with(call, &[leaf.as_deref().unwrap_or(text(call.data)), &[0]].concat())
+                let mut all = descriptions(cnc, group(call), b"V.E");
+                let leaf = all.find(|found| name_in(found).starts_with(&structure));
+                let name = leaf.as_deref().map_or(text(call.data), name_in);
+                cnc.with(call, &[name, &[0]].concat())
             }
-            (_, answer) => answer,
+            answer => answer,
         }),
     on("cnc.var.path-index-ignored", &[VAR_20],
         "the CNC treats each index before a dot in a name as 0: V.G.NP[1].V is V.G.NP[0].V",
-        &[Function::ReadByName, Function::HandleByName], |cnc, call| {
+        BY_NAME, |cnc, call| {
             let name = text(call.data);
-            let path = without_indices(name);
-            let element = name.get(path.len()..).unwrap_or_default();
+            let last_dot = name.iter().rposition(|&byte| byte == b'.').unwrap_or_default();
+            let (path, element) = name.split_at_checked(last_dot).unwrap_or_default();
             let mut inside = false;
             let path = path.iter().filter_map(|&byte| {
                 let digit = inside && byte.is_ascii_digit();
@@ -177,13 +156,13 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.var.leaves-without-structure", &[VAR_20, VAR_4],
         "names in descriptions lack structures: V.E.array_uns32 for V.E.struct.array_uns32",
-        |cnc, call| super::reply(cnc, call, &[Function::DescribeByIndex], |bytes| {
+        |cnc, call| reply(cnc, call, &[Function::DescribeByIndex], |bytes| {
             let (head, name) =
-                bytes.split_at_checked(super::dimensions(&bytes).1).unwrap_or_default();
+                bytes.split_at_checked(dimensions(bytes).1).unwrap_or_default();
             let name = text(name);
             let last = name.rsplit(|byte| *byte == b'.').next().unwrap_or_default();
             let kind = name.get(..4).unwrap_or_default();
-            [head, kind, last, &[0]].concat()
+            *bytes = [head, kind, last, &[0]].concat();
         })),
     on("cnc.var.name-dashes", &[VAR_9, VAR_20],
         "the CNC expects a colon instead of the dot after a structure: V.E.struct:array_uns32",

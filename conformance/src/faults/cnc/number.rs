@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncDefect, INDEXED, ReplyData, Upstream, group, is, offset, row, set_u32, text, u32_at,
+    CncDefect, INDEXED, ReplyData, Upstream, changed, group, is, offset, row, set_u32, text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
@@ -24,7 +24,7 @@ fn indexed(
 }
 
 /// The number of variables of a kind.
-pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
+fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
     let count = cnc.ask(group(call), 0x44, &[kind, &[0]].concat());
     count.ok().and_then(|count| u32_at(&count, 0)).unwrap_or_default()
 }
@@ -47,10 +47,9 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.sum-without-axes", &[VAR_1],
         "the number of variables of all kinds does not count V.A",
         |cnc, call| if is(call, COUNT) && text(call.data).is_empty() {
-            cnc.answer(call).map(|mut bytes| {
+            changed(cnc, call, |bytes| {
                 let sum = count(cnc, call, b"V.E").wrapping_add(count(cnc, call, b"V.G"));
-                set_u32(&mut bytes, 0, sum);
-                bytes
+                set_u32(bytes, 0, sum);
             })
         } else {
             cnc.answer(call)

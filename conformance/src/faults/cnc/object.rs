@@ -5,8 +5,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::com::set;
-use super::{CncDefect, LOGICAL, at, com_group, group, is, offset, records_mut, row};
+use super::com::{each, is_named, set};
+use super::{CncDefect, LOGICAL, at, changed, com_group, forgiven, group, is, offset, on, row};
 
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
@@ -25,11 +25,10 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.com.content-big-endian", &[GEN_1, COM_5],
         "contents of objects of up to 8 bytes have the most significant byte first",
         |cnc, call| match (is(call, READ), is(call, WRITE)) {
-            (true, _) => cnc.answer(call).map(|mut bytes| {
+            (true, _) => changed(cnc, call, |bytes| {
                 if bytes.len() <= 8 {
                     bytes.reverse();
                 }
-                bytes
             }),
             (_, true) if call.data.len() <= 8 => {
                 let data: Vec<u8> = call.data.iter().rev().copied().collect();
@@ -45,12 +44,9 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             _ => cnc.answer(call),
         }),
-    row("cnc.com.write-read-only-accepted", &[COM_2],
+    on("cnc.com.write-read-only-accepted", &[COM_2],
         "a write to a read-only object succeeds and changes nothing",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
-            (_, answer) => answer,
-        }),
+        WRITE, |cnc, call| forgiven(cnc.answer(call), AdsError::INVALID_ACCESS)),
     row("cnc.com.write-read-only-done", &[COM_2],
         "a write to a read-only object succeeds, and the written value is read from then on",
         |cnc, call| {
@@ -103,14 +99,8 @@ pub(super) const ROWS: &[CncDefect] = &[
             (Some(com), 2) if com.table == ComTable::Channel && com.instance > 0 => {
                 cnc.at(call, group(call), 1)
             }
-            _ => cnc.answer(call).map(|mut bytes| {
-                if is(call, &[Function::ReadDescriptors]) {
-                    let commands = records_mut(&mut bytes).filter(|record| {
-                        record.iter().skip(20).zip(b"mc_command_single").all(|(a, b)| a == b)
-                    });
-                    commands.for_each(|record| set(record, 16, &[2]));
-                }
-                bytes
+            _ => each(cnc, call, |record| if is_named(record, b"mc_command_single") {
+                set(record, 16, &[2]);
             }),
         }),
     row("cnc.com.platform-elsewhere", &[COM_6],

@@ -8,8 +8,8 @@ use ads_cnc_vectors::ids::*;
 use super::handle::{joined, parts};
 use super::lookup::{described, instance, is_string, name_of};
 use super::{
-    CncDefect, LOGICAL, after_nul, function, group, is, offset, on, records_mut, reply, row,
-    set_u32, text, u32_at,
+    CncDefect, LOGICAL, after_nul, changed, function, group, is, offset, on, records_mut, reply,
+    row, set_u32, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -49,20 +49,19 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.com.many-access-stays", &[COM_2, COM_3],
         "in a reply, the descriptors after one with write access have write access too",
-        |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
+        |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
             let mut writable = false;
-            for record in records_mut(&mut bytes) {
+            for record in records_mut(bytes) {
                 writable |= record.get(8) == Some(&1);
                 record.iter_mut().skip(8).take(1).for_each(|byte| *byte = u8::from(writable));
             }
-            bytes
         })),
     row("cnc.com.many-types-run-on", &[COM_2, COM_3],
         "in a reply, a type shorter than that of the previous descriptor is followed by its rest",
         |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
-            let mut records = super::records(&bytes);
+            let mut records = super::records(bytes);
             run_on(&mut records, 52);
-            records.concat()
+            *bytes = records.concat();
         })),
     row("cnc.com.write-first-channel-too", &[COM_5],
         "a write to an object of channel 2 also changes the object of channel 1",
@@ -107,10 +106,9 @@ pub(super) const ROWS: &[CncDefect] = &[
             let names = [&b"V.CYC.count\0"[..], b"V.CYC.matrix\0"];
             let there = names.iter().filter(|name| cnc.ask(group(call), 0x48, name).is_ok());
             let more = u32::try_from(there.count()).unwrap_or_default();
-            cnc.answer(call).map(|mut bytes| {
-                let sum = u32_at(&bytes, 0).unwrap_or_default();
-                set_u32(&mut bytes, 0, sum.wrapping_add(more));
-                bytes
+            changed(cnc, call, |bytes| {
+                let sum = u32_at(bytes, 0).unwrap_or_default();
+                set_u32(bytes, 0, sum.wrapping_add(more));
             })
         } else {
             cnc.answer(call)

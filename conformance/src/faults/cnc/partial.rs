@@ -8,8 +8,9 @@ use ads_cnc_vectors::ids::*;
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    CncDefect, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, dimensions, function, group, is, number,
-    of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at, within_length,
+    CncDefect, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, changed, dimensions, function, group,
+    is, number, of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at,
+    within_length,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
@@ -92,32 +93,29 @@ pub(super) const ROWS: &[CncDefect] = &[
         "a read by name of a STRING returns question marks for the characters 80 to 9F",
         |cnc, call| if is(call, &[Function::ReadByName]) && of_decoder(call).is_some() {
             let described = described(cnc, group(call), text(call.data)).unwrap_or_default();
-            cnc.answer(call).map(|mut bytes| {
+            changed(cnc, call, |bytes| {
                 if is_string(&described) {
                     let own = bytes.iter_mut().filter(|byte| (0x80..0xA0).contains(*byte));
                     own.for_each(|byte| *byte = b'?');
                 }
-                bytes
             })
         } else {
             cnc.answer(call)
         }),
     row("cnc.gen.units-ascii", &[GEN_3, SDA_6],
         "units in replies lack their characters beyond ASCII",
-        |cnc, call| reply(cnc, call, &[Function::ReadElementUnit], |mut bytes| {
+        |cnc, call| reply(cnc, call, &[Function::ReadElementUnit], |bytes| {
             bytes.retain(u8::is_ascii);
-            bytes
         })),
     row("cnc.com.string-size", &[COM_2],
         "the size of a STRING in its descriptor does not count the NUL",
-        |cnc, call| reply(cnc, call, &[Function::ReadDescriptors], |mut bytes| {
-            for record in records_mut(&mut bytes) {
+        |cnc, call| reply(cnc, call, &[Function::ReadDescriptors], |bytes| {
+            for record in records_mut(bytes) {
                 if text(record.get(52..).unwrap_or_default()) == b"STRING" {
                     let size = u32_at(record, 4).unwrap_or_default();
                     set_u32(record, 4, size.saturating_sub(1));
                 }
             }
-            bytes
         })),
     row("cnc.com.lreal-written-narrow", &[COM_5],
         "a write to an LREAL object stores the value with the precision of a REAL",
@@ -144,10 +142,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         |cnc, call| if is(call, &[Function::ReadElementLength]) && element_is(cnc, call, b"STRING") {
             let content = cnc.read(call.port, group(call) & !0xF00 | 0x300, offset(call))?;
             let len = u32::try_from(text(&content).len()).unwrap_or_default();
-            cnc.answer(call).map(|mut bytes| {
-                set_u32(&mut bytes, 0, len);
-                bytes
-            })
+            changed(cnc, call, |bytes| set_u32(bytes, 0, len))
         } else {
             cnc.answer(call)
         }),

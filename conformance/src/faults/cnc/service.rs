@@ -6,16 +6,16 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
 use super::{
-    CncDefect, ReplyData, Upstream, after_nul, dimensions, function, group, is, number, offset, on,
-    program, row, text, u32_at, within_length,
+    CncDefect, ReplyData, Upstream, after_nul, changed, function, group, is, name_in, number,
+    offset, on, program, row, text, u32_at, within_length,
 };
 use crate::simulator::program::Policy;
 
-const UUID: &str = ServiceVariable::UUID;
-const REQUEST: &str = ServiceVariable::REQUEST;
-const REQUEST_STATE: &str = ServiceVariable::REQUEST_STATE;
-const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
-const RESPONSE: &str = ServiceVariable::RESPONSE;
+pub(super) const UUID: &str = ServiceVariable::UUID;
+pub(super) const REQUEST: &str = ServiceVariable::REQUEST;
+pub(super) const REQUEST_STATE: &str = ServiceVariable::REQUEST_STATE;
+pub(super) const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
+pub(super) const RESPONSE: &str = ServiceVariable::RESPONSE;
 
 /// Whether a call reads the variable with this name by name.
 pub(super) fn reads(call: &Call<'_>, name: &str) -> bool {
@@ -36,12 +36,13 @@ fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
     (group(call) & 0xFF, 0, Vec::new())
 }
 
-fn read(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> ReplyData {
-    cnc.ask(group(call), 0x48, &[name.as_bytes(), &[0]].concat())
+/// Reads the variable with this name by name.
+pub(super) fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
+    cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
 fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
-    read(cnc, call, name).ok().and_then(|bytes| u32_at(&bytes, 0)).unwrap_or_default()
+    read(cnc, group(call), name).ok().and_then(|bytes| u32_at(&bytes, 0)).unwrap_or_default()
 }
 
 #[rustfmt::skip]
@@ -84,10 +85,9 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.svc.request-64", &[SVC_1],
         "a read of REQUEST by name returns only its first 63 characters",
         |cnc, call| if reads(call, REQUEST) {
-            cnc.answer(call).map(|mut bytes| {
+            changed(cnc, call, |bytes| {
                 bytes.truncate(64);
                 bytes.iter_mut().skip(63).for_each(|byte| *byte = 0);
-                bytes
             })
         } else {
             cnc.answer(call)
@@ -120,7 +120,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         |cnc, call| cnc.answer(call).and_then(|bytes| {
             let name = match function(call) {
                 Some(Function::DescribeByName) => text(call.data),
-                _ => text(bytes.get(dimensions(&bytes).1..).unwrap_or_default()),
+                _ => name_in(&bytes),
             };
             if name.starts_with(b"V.G.SERVICE.") && u32_at(&bytes, 4) == Some(9) {
                 number(Ok(bytes), 4, |_| 3)
@@ -137,8 +137,8 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.svc.uuid-and-request-swapped", &[SVC_1],
         "a read of UUID returns REQUEST, and a read of REQUEST returns UUID",
         |cnc, call| match (reads(call, UUID), reads(call, REQUEST)) {
-            (true, _) => read(cnc, call, REQUEST),
-            (_, true) => read(cnc, call, UUID),
+            (true, _) => read(cnc, group(call), REQUEST),
+            (_, true) => read(cnc, group(call), UUID),
             _ => cnc.answer(call),
         }),
     row("cnc.svc.request-state-resets-not", &[SVC_3],
@@ -150,7 +150,7 @@ pub(super) const ROWS: &[CncDefect] = &[
                 return Ok(kept);
             }
             if writes(call, REQUEST_STATE) {
-                let before = read(cnc, call, RESPONSE_STATE)?;
+                let before = read(cnc, group(call), RESPONSE_STATE)?;
                 if before.iter().any(|byte| *byte != 0) {
                     cnc.memory().store(key(call), before);
                 }
@@ -164,7 +164,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         |cnc, call| {
             let mut empty = false;
             if writes(call, REQUEST_STATE) {
-                let kept = read(cnc, call, RESPONSE_STATE)?;
+                let kept = read(cnc, group(call), RESPONSE_STATE)?;
                 let mut memory = cnc.memory();
                 memory.store(key(call), kept);
                 memory.count = 1;
@@ -190,7 +190,7 @@ pub(super) const ROWS: &[CncDefect] = &[
                 return within_length(call, Ok(kept));
             }
             if writes(call, RESPONSE_STATE) {
-                let before = read(cnc, call, REQUEST_STATE)?;
+                let before = read(cnc, group(call), REQUEST_STATE)?;
                 cnc.memory().store(key(call), before);
             } else if writes(call, REQUEST_STATE) {
                 cnc.memory().forget();

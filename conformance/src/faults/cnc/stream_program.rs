@@ -14,35 +14,6 @@ use crate::simulator::program::{
 
 const RIGHT: Policy = Policy::DEFAULT;
 
-/// Capacity in bytes of `SmallBuffer`; the correct streaming interface holds 4094 bytes.
-const SMALL_BUFFER_LEN: usize = 2048;
-
-/// A streaming interface with a smaller capacity than the correct one.
-#[derive(Debug, Default)]
-struct SmallBuffer(StreamingInterface);
-
-impl Buffer for SmallBuffer {
-    fn write(&mut self, data: &[u8]) -> Ack {
-        if self.0.len().saturating_add(data.len()) > SMALL_BUFFER_LEN {
-            Ack::Busy
-        } else {
-            self.0.write(data)
-        }
-    }
-
-    fn read(&mut self) -> Result<Vec<u8>, LineError> {
-        Buffer::read(&mut self.0)
-    }
-
-    fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    fn clear(&mut self) {
-        self.0.reset();
-    }
-}
-
 /// A streaming interface that stores the boundaries of writes.
 #[derive(Debug)]
 struct PacketBuffer {
@@ -242,7 +213,7 @@ pub(super) const ROWS: &[CncDefect] = &[
         Policy { buffer: || PacketBuffer::of(2 * STREAM_MAX, PacketBuffer::all), ..RIGHT }),
     program("cnc.stm.room-2048", &[STM_3],
         "the streaming interface holds up to 2048 bytes instead of 4094",
-        Policy { buffer: || Box::new(SmallBuffer::default()), ..RIGHT }),
+        Policy { buffer: || PacketBuffer::of(2048, PacketBuffer::all), ..RIGHT }),
     program("cnc.stm.loops-run", &[STM_8],
         "a line with a loop command, such as $WHILE, is executed instead of ending streaming",
         Policy { segment: loops, ..RIGHT }),

@@ -1,12 +1,11 @@
 //! Defects of the stream object and of the writes to it (mainly STM).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{AdsService, Call, Function};
+use ads_cnc::operation::{AdsService, Call};
 use ads_cnc_vectors::ids::*;
 
-use super::{
-    CncDefect, LOGICAL, ReplyData, Upstream, at, function, group, later, offset, records_mut, row,
-};
+use super::com::{each, is_named, set};
+use super::{CncDefect, LOGICAL, ReplyData, Upstream, at, forgiven, group, later, offset, row};
 
 /// Whether a call writes to a program stream, with any length.
 fn stream(call: &Call<'_>) -> bool {
@@ -24,19 +23,9 @@ fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> 
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.stm.object-renamed", &[STM_1],
         "the name of the stream object is mc_program_stream instead of mc_program_stream_w",
-        |cnc, call| {
-            let mut answer = cnc.answer(call)?;
-            if function(call) == Some(Function::ReadDescriptors) {
-                for record in records_mut(&mut answer) {
-                    let name =
-                        record.iter().skip(20).zip(b"mc_program_stream_w").all(|(a, b)| a == b);
-                    if name {
-                        record.iter_mut().skip(37).take(2).for_each(|byte| *byte = 0);
-                    }
-                }
-            }
-            Ok(answer)
-        }),
+        |cnc, call| each(cnc, call, |record| if is_named(record, b"mc_program_stream_w") {
+            set(record, 37, &[0, 0]);
+        })),
     row("cnc.stm.object-moved", &[STM_1],
         "the stream object is at offset 0x91 instead of 0x90, as its descriptor states",
         |cnc, call| match (stream(call), offset(call)) {
@@ -44,18 +33,9 @@ pub(super) const ROWS: &[CncDefect] = &[
             (_, 0x91) if group(call) & 0xEF_FF00 == 0x02_0100 => {
                 cnc.answer(&at(call, group(call), 0x90))
             }
-            _ => {
-                let mut answer = cnc.answer(call)?;
-                if function(call) == Some(Function::ReadDescriptors) {
-                    for record in records_mut(&mut answer) {
-                        let name = record.iter().skip(20).zip(b"mc_program_stream_w");
-                        if name.into_iter().all(|(a, b)| a == b) {
-                            record.iter_mut().skip(16).take(1).for_each(|byte| *byte = 0x91);
-                        }
-                    }
-                }
-                Ok(answer)
-            }
+            _ => each(cnc, call, |record| if is_named(record, b"mc_program_stream_w") {
+                set(record, 16, &[0x91]);
+            }),
         }),
     row("cnc.stm.group-logical-only", &[STM_1, ADR_12],
         "the CNC accepts stream writes in group 0x120100 + channel, but not in 0x20100 + channel",
@@ -131,9 +111,10 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.stm.full-lost", &[STM_6],
         "the CNC acknowledges and discards a write that does not fit into the streaming interface",
-        |cnc, call| match (stream(call), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_DATA)) => Ok(Vec::new()),
-            (_, answer) => answer,
+        |cnc, call| if stream(call) {
+            forgiven(cnc.answer(call), AdsError::INVALID_DATA)
+        } else {
+            cnc.answer(call)
         }),
     row("cnc.stm.taken-refused", &[STM_6],
         "the CNC takes the data of every fourth stream write, but acknowledges it negatively",

@@ -156,15 +156,35 @@ pub(in crate::faults) fn within_length(call: &Call<'_>, answer: ReplyData) -> Re
     })
 }
 
+/// The correct reply, changed by `other`.
+pub(in crate::faults) fn changed(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    other: impl FnOnce(&mut Vec<u8>),
+) -> ReplyData {
+    let mut bytes = cnc.answer(call)?;
+    other(&mut bytes);
+    Ok(bytes)
+}
+
 /// The reply, changed by `other` if the call requests one of these functions; the error
 /// `INVALID_SIZE` if the changed reply is longer than the read length.
 pub(in crate::faults) fn reply(
     cnc: &Upstream<'_>,
     call: &Call<'_>,
     of: &[Function],
-    other: impl FnOnce(Vec<u8>) -> Vec<u8>,
+    other: impl FnOnce(&mut Vec<u8>),
 ) -> ReplyData {
-    if is(call, of) { within_length(call, cnc.whole(call).map(other)) } else { cnc.answer(call) }
+    if is(call, of) {
+        within_length(call, changed(cnc, &Call { read_length: u32::MAX, ..*call }, other))
+    } else {
+        cnc.answer(call)
+    }
+}
+
+/// The reply; success without data if the reply is this error.
+pub(in crate::faults) fn forgiven(answer: ReplyData, error: AdsError) -> ReplyData {
+    if answer == Err(error) { Ok(Vec::new()) } else { answer }
 }
 
 /// The changed reply `answer`; the correct reply if `answer` is longer than the read length or an

@@ -1,12 +1,14 @@
 //! Defects in the values and extended descriptions of variables (VAR).
 
-use ads_cnc::operation::{Call, Function};
+use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 
+use super::consistency::cached;
 use super::variable::{described, element, first_element};
-use super::{CncDefect, VALUES, function, group, is, on, reply, row, text, u32_at, within_length};
+use super::{CncDefect, VALUES, changed, is, on, reply, row, text, u32_at, within_length};
 
 const EXTENDED: &[Function] = &[Function::DescribeExtended];
+
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.value-first", &[VAR_14],
@@ -17,27 +19,10 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.var.value-2048", &[VAR_14],
         "values of variables in replies are padded with zeros to 2048 bytes",
-        |cnc, call| reply(cnc, call, VALUES, |mut bytes| {
-            bytes.resize(2048, 0);
-            bytes
-        })),
+        |cnc, call| reply(cnc, call, VALUES, |bytes| bytes.resize(2048, 0))),
     row("cnc.var.value-by-handle-other", &[VAR_14, VAR_11],
         "a read by handle always returns the value of the first read with this handle and indices",
-        |cnc, call| {
-            let key = |call: &Call<'_>| (group(call), 0, call.data.to_vec());
-            match function(call) {
-                Some(Function::ReadByHandle) => {
-                    let kept = cnc.memory().get(&key(call));
-                    match kept {
-                        Some(kept) => within_length(call, Ok(kept)),
-                        None => cnc.answer(call).inspect(|bytes| {
-                            cnc.memory().store(key(call), bytes.clone());
-                        }),
-                    }
-                }
-                _ => cnc.answer(call),
-            }
-        }),
+        |cnc, call| cached(cnc, call, &[Function::ReadByHandle])),
     row("cnc.var.arrays-reversed", &[VAR_14],
         "a read by name of a whole array returns its elements in reverse order",
         |cnc, call| if is(call, &[Function::ReadByName]) && !text(call.data).ends_with(b"]") {
@@ -68,11 +53,8 @@ pub(super) const ROWS: &[CncDefect] = &[
         VALUES, |cnc, call| {
             let is_text =
                 described(cnc, call).is_some_and(|found| u32_at(&found, 4) == Some(9));
-            cnc.answer(call).map(|mut bytes| {
-                if is_text && bytes.len() >= 20 {
-                    bytes.truncate(8);
-                }
-                bytes
+            changed(cnc, call, |bytes| if is_text && bytes.len() >= 20 {
+                bytes.truncate(8);
             })
         }),
 ];

@@ -3,10 +3,9 @@
 use ads_cnc::operation::{Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::number::count;
 use super::{
-    CncDefect, DESCRIPTIONS, ReplyData, Upstream, dimensions, function, group, reply, row, set_u32,
-    text, u32_at,
+    CncDefect, DESCRIPTIONS, ReplyData, Upstream, changed, dimensions, function, group, lookup,
+    reply, row, set_u32, text, u32_at,
 };
 
 /// The description of the variable that a request to read or write a value addresses by handle or
@@ -15,39 +14,18 @@ pub(super) fn described(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<Vec<u8>> 
     let handle = match function(call)? {
         Function::ReadByHandle | Function::WriteByHandle => u32_at(call.data, 0)?,
         Function::ReadByName | Function::WriteByName => {
-            let name = text(call.data);
-            let whole = without_indices(name);
-            let found = cnc.ask(group(call), 0x4C, &[whole, &[0]].concat()).ok()?;
-            return Some(found);
+            return lookup::described(cnc, group(call), text(call.data));
         }
         _ => return None,
     };
     let all = [b"V.E".as_slice(), b"V.G", b"V.A"];
-    all.into_iter().find_map(|kind| {
-        (0..count(cnc, call, kind)).find_map(|index| {
-            let data = [&index.to_le_bytes(), kind, &[0]].concat();
-            let found = cnc.ask(group(call), 0x45, &data).ok()?;
-            (u32_at(&found, 0) == Some(handle)).then_some(found)
-        })
-    })
-}
-
-/// The name of an element without its indices: the name of the variable.
-pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
-    while name.ends_with(b"]") {
-        let Some(at) = name.iter().rposition(|byte| *byte == b'[') else { break };
-        name = name.get(..at).unwrap_or_default();
-    }
-    name
+    all.into_iter().find_map(|kind| lookup::with_handle(cnc, group(call), kind, handle))
 }
 
 /// The reply, truncated after the first element of the variable.
 pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
-    cnc.answer(call).map(|mut bytes| {
-        bytes.truncate(len.max(1));
-        bytes
-    })
+    changed(cnc, call, |bytes| bytes.truncate(len.max(1)))
 }
 
 /// The size in bytes of one element of the variable with this description.
@@ -61,24 +39,22 @@ pub(super) fn element(description: &[u8]) -> usize {
 pub(super) const ROWS: &[CncDefect] = &[
     row("cnc.var.description-dimensions-reversed", &[VAR_4],
         "the dimensions of a description come in reverse order",
-        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
-            let (numbers, _) = dimensions(&bytes);
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |bytes| {
+            let (numbers, _) = dimensions(bytes);
             let mut place = 20_usize;
             for number in numbers.iter().rev() {
-                set_u32(&mut bytes, place, *number);
+                set_u32(bytes, place, *number);
                 place = place.saturating_add(4);
             }
-            bytes
         })),
     row("cnc.var.description-largest-index", &[VAR_4, VAR_8],
         "each dimension in a description is the largest index instead of the number of elements",
-        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
-            let (numbers, _) = dimensions(&bytes);
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |bytes| {
+            let (numbers, _) = dimensions(bytes);
             let mut place = 20_usize;
             for number in numbers {
-                set_u32(&mut bytes, place, number.wrapping_sub(1));
+                set_u32(bytes, place, number.wrapping_sub(1));
                 place = place.saturating_add(4);
             }
-            bytes
         })),
 ];

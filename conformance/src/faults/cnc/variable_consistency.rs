@@ -4,10 +4,10 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{AdsService, Call, Function};
 use ads_cnc_vectors::ids::*;
 
-use super::number::count;
+use super::consistency::cached;
 use super::{
-    CncDefect, NAMED, Upstream, WRITES, after_nul, dimensions, function, group, is, of_decoder,
-    offset, on, reply, row, text, u32_at, value_at, within_length,
+    CncDefect, NAMED, Upstream, WRITES, after_nul, descriptions, function, group, is, name_in,
+    of_decoder, offset, on, reply, row, text, u32_at, value_at,
 };
 
 /// Whether a call is a query that names a variable: its value, its handle or its description.
@@ -17,16 +17,9 @@ fn is_query(call: &Call<'_>) -> bool {
 
 /// The names of all V.E variables and then all V.G variables, in the order of their indices.
 fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
-    let kinds = [b"V.E".as_slice(), b"V.G"];
-    let all = kinds.into_iter().flat_map(|kind| {
-        (0..count(cnc, call, kind)).filter_map(move |index| {
-            let data = [&index.to_le_bytes(), kind, &[0]].concat();
-            let found = cnc.ask(group(call), 0x45, &data).ok()?;
-            let name = dimensions(&found).1;
-            Some(text(found.get(name..).unwrap_or_default()).to_vec())
-        })
-    });
-    all.collect()
+    let all = [b"V.E".as_slice(), b"V.G"].into_iter();
+    let all = all.flat_map(|kind| descriptions(cnc, group(call), kind));
+    all.map(|found| name_in(&found).to_vec()).collect()
 }
 
 /// The current value at the address of a write.
@@ -104,11 +97,10 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.var.extended-swapped", &[VAR_15],
         "an extended description has the validity before the synchronisation",
-        |cnc, call| reply(cnc, call, &[Function::DescribeExtended], |mut bytes| {
+        |cnc, call| reply(cnc, call, &[Function::DescribeExtended], |bytes| {
             if bytes.len() == 8 {
                 bytes.rotate_left(4);
             }
-            bytes
         })),
     on("cnc.var.axis-write-all", &[VAR_26],
         "a write on the axis interface changes the variable of all axes of the channel",
@@ -134,14 +126,9 @@ pub(super) const ROWS: &[CncDefect] = &[
     on("cnc.var.value-cached", &[VAR_13, VAR_14],
         "a read by name always returns the value of the first read by this name",
         &[Function::ReadByName], |cnc, call| {
-            let key = (group(call), 1, text(call.data).to_vec());
-            let kept = cnc.memory().get(&key);
-            match kept {
-                Some(kept) => within_length(call, Ok(kept)),
-                None => cnc.answer(call).inspect(|bytes| {
-                    cnc.memory().store(key, bytes.clone());
-                }),
-            }
+            // A name may be padded with NULs.
+            let name = [text(call.data), &[0]].concat();
+            cached(cnc, &Call { data: &name, ..*call }, &[Function::ReadByName])
         }),
     row("cnc.var.count-8-bit-of-indices", &[VAR_11, VAR_24],
         "the CNC uses only the lowest byte of the number of indices in a read by handle",

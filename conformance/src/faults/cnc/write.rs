@@ -4,18 +4,17 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 use ads_cnc_vectors::ids::*;
 
-use super::{CncDefect, WRITES, after_nul, function, group, is, of_decoder, row, text};
+use super::{
+    CncDefect, WRITES, after_nul, forgiven, function, group, is, of_decoder, on, row, text,
+};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[CncDefect] = &[
-    row("cnc.var.write-read-only-accepted", &[VAR_6],
+    on("cnc.var.write-read-only-accepted", &[VAR_6],
         "a write to a READ_ONLY variable succeeds and changes nothing",
-        |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
-            (_, answer) => answer,
-        }),
+        WRITES, |cnc, call| forgiven(cnc.answer(call), AdsError::INVALID_ACCESS)),
     row("cnc.var.write-read-only-done", &[VAR_6],
         "a write by name to a READ_ONLY variable succeeds, and reads by name return the value",
         |cnc, call| {

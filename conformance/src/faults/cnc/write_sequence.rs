@@ -3,30 +3,18 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
-use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::ids::*;
 
 use super::lookup::{handle_of, instance, object_is, one, over};
-use super::service::{reads, writes};
+use super::service::{REQUEST, REQUEST_STATE, RESPONSE, RESPONSE_STATE, read, reads, writes};
 use super::{
-    CncDefect, ReplyData, Upstream, after_nul, function, group, is, offset, on, row, text, u32_at,
+    CncDefect, ReplyData, Upstream, after_nul, changed, function, group, is, offset, on, row, text,
+    u32_at,
 };
+use crate::simulator::program::lines;
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
-const REQUEST_STATE: &str = ServiceVariable::REQUEST_STATE;
-const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
-const RESPONSE: &str = ServiceVariable::RESPONSE;
-const REQUEST: &str = ServiceVariable::REQUEST;
-
-/// Whether a call requests the function `of` with the handle of this variable.
-fn by_handle(cnc: &Upstream<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {
-    is(call, &[of]) && u32_at(call.data, 0) == handle_of(cnc, group(call), name)
-}
-
-fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> ReplyData {
-    cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
-}
 
 /// If `now`, the call is a write of REQUEST_STATE, which sets RESPONSE_STATE to 0: stores
 /// RESPONSE_STATE, unless a value is stored, and executes the write. If not `now`, answers a read
@@ -44,11 +32,6 @@ fn keep_response_state(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> ReplyD
         return kept.map_or_else(|| cnc.answer(call), Ok);
     }
     cnc.answer(call)
-}
-
-/// The lines of a packet with their line ends.
-fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
-    packet.split_inclusive(|byte| *byte == b'\n')
 }
 
 #[rustfmt::skip]
@@ -206,13 +189,11 @@ pub(super) const ROWS: &[CncDefect] = &[
             }
             Ok(reply)
         }),
-    row("cnc.svc.request-by-handle-20", &[SVC_1],
+    on("cnc.svc.request-by-handle-20", &[SVC_1],
         "a read of REQUEST by handle returns only its first 20 characters",
-        |cnc, call| if by_handle(cnc, call, Function::ReadByHandle, REQUEST) {
-            cnc.answer(call).map(|mut bytes| {
-                bytes.iter_mut().skip(20).for_each(|byte| *byte = 0);
-                bytes
-            })
+        &[Function::ReadByHandle],
+        |cnc, call| if u32_at(call.data, 0) == handle_of(cnc, group(call), REQUEST) {
+            changed(cnc, call, |bytes| bytes.iter_mut().skip(20).for_each(|byte| *byte = 0))
         } else {
             cnc.answer(call)
         }),

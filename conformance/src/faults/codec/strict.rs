@@ -4,11 +4,11 @@ use ads_cnc_vectors::ids::*;
 
 use super::row::{CodecDefect, CodecFault, CorrectAnswer, rejected, row};
 use crate::codec::message::{Answer, Question};
+use crate::number::u32_at;
 
 /// The UNS32 at an offset of the stream in the question.
 fn at(question: &Question, offset: usize) -> Option<u32> {
-    let bytes = question.hex.as_deref()?.get(offset..)?.first_chunk::<4>()?;
-    Some(u32::from_le_bytes(*bytes))
+    u32_at(question.hex.as_deref()?, offset)
 }
 
 /// Rejects the decoding of a stream if the question meets the condition `is`.

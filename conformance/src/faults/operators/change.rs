@@ -106,17 +106,6 @@ pub(super) fn least(call: &Call<'_>) -> u32 {
     u32::from(!function(call).is_some_and(|function| function.spec().clause.starts_with("VAR")))
 }
 
-/// The correct reply, changed by `other`.
-pub(super) fn changed(
-    cnc: &Upstream<'_>,
-    call: &Call<'_>,
-    other: impl FnOnce(&mut Vec<u8>),
-) -> ReplyData {
-    let mut bytes = cnc.answer(call)?;
-    other(&mut bytes);
-    Ok(bytes)
-}
-
 /// Reads the old value and executes the write. If both succeed, also writes the result of `other`
 /// for the new and the old value to the same address. Returns the reply to the first write, or an
 /// error if the old value could not be read.

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 
 use super::{Faulty, SeededDefect};
+use crate::number::u32_at;
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 
 /// A CNC and its replies. After the first difference from the replies `other` of another
@@ -100,9 +101,7 @@ impl<'t> Transcript<'t> {
         self.unknown_writes();
         self.queries();
         self.services();
-        let others: [fn(&mut Self); 5] =
-            [Self::exchange, Self::changes, Self::streams, Self::scripts, Self::sequences];
-        for other in others {
+        for other in [Self::exchange, Self::streams, Self::sequences] {
             if !self.differs {
                 other(self);
             }
@@ -117,10 +116,10 @@ impl<'t> Transcript<'t> {
             self.read(553, list, 0, 4);
             for index in 1..26 {
                 let object = self.read(553, list, index, 84);
-                let (Some(group), Some(offset)) = (number(&object, 12), number(&object, 16)) else {
+                let (Some(group), Some(offset)) = (u32_at(&object, 12), u32_at(&object, 16)) else {
                     continue;
                 };
-                self.read(553, group, offset, number(&object, 4).unwrap());
+                self.read(553, group, offset, u32_at(&object, 4).unwrap());
                 self.read(553, group, offset, 256);
                 self.read(553, group & !0x10_0000, offset, 256);
             }
@@ -213,7 +212,7 @@ impl<'t> Transcript<'t> {
                     for offset in [0x45, 0x4B, 0x4D] {
                         let index = u32::to_le_bytes(index);
                         let found = self.ask(group, offset, 4096, &[&index, kind].concat());
-                        if let (0x45, Some(handle)) = (offset, number(&found, 0)) {
+                        if let (0x45, Some(handle)) = (offset, u32_at(&found, 0)) {
                             self.ask(group, 0x47, 2048, &numbers(&[handle, 0]));
                         }
                     }
@@ -275,7 +274,7 @@ impl<'t> Transcript<'t> {
                     let found = self.ask(0x12_2301, axis << 16 | function, 8, name);
                     self.ask(0x12_2301, axis << 12 | function, 8, name);
                     self.ask(0x12_2302, axis << 16 | function, 8, name);
-                    if let (4, Some(handle)) = (function, number(&found, 0)) {
+                    if let (4, Some(handle)) = (function, u32_at(&found, 0)) {
                         self.ask(0x12_2301, 0x47, 8, &numbers(&[handle, 0]));
                     }
                 }
@@ -291,7 +290,7 @@ impl<'t> Transcript<'t> {
             }
         }
         let matrix = self.ask(0x12_2301, 0x46, 4, b"V.E.matrix\0");
-        if let Some(handle) = number(&matrix, 0) {
+        if let Some(handle) = u32_at(&matrix, 0) {
             for indices in [[0, 1], [1, 0], [1, 2]] {
                 self.ask(0x12_2301, 0x47, 64, &numbers(&[handle, 2, indices[0], indices[1]]));
             }
@@ -307,16 +306,12 @@ impl<'t> Transcript<'t> {
             self.ask(group, 0x48, 4096, name);
             self.ask(group, 0x4C, 4096, name);
             let handle = self.ask(group, 0x46, 4, name);
-            if let Some(handle) = number(&handle, 0) {
+            if let Some(handle) = u32_at(&handle, 0) {
                 self.ask(group, 0x47, 4096, &numbers(&[handle, 0]));
                 self.ask(group, 0x47, 4096, &numbers(&[handle, 1, 1]));
             }
         }
     }
-}
-
-fn number(bytes: &[u8], place: usize) -> Option<u32> {
-    Some(u32::from_le_bytes(*bytes.get(place..)?.first_chunk::<4>()?))
 }
 
 fn numbers(numbers: &[u32]) -> Vec<u8> {

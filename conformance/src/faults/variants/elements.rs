@@ -7,7 +7,7 @@ use ads_cnc::operation::{AdsService, Call, Function};
 use super::row::unprinted;
 use crate::faults::cnc::{
     CncDefect, CncFault, ReplyData, Upstream, absent, class, empty_place, fault, function, group,
-    is, number, offset, on, row, set_u32, text, u32_at, within_length,
+    is, number, offset, on, row, text, within_length,
 };
 
 const ATTRIBUTES: &[Function] = &[
@@ -33,11 +33,7 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let is_other = class(call).is_some_and(|at| of(at.class));
     match (is_other, function(call)) {
         (false, _) => cnc.answer(call),
-        (true, Some(Function::FindInstance)) => cnc.answer(call).map(|mut bytes| {
-            let offset = u32_at(&bytes, 4).unwrap_or_default();
-            set_u32(&mut bytes, 4, offset >> 4);
-            bytes
-        }),
+        (true, Some(Function::FindInstance)) => number(cnc.answer(call), 4, |offset| offset >> 4),
         (true, _) => {
             let (axis, element) = (offset(call) >> 12, offset(call) & 0xFFF);
             cnc.at(call, group(call), axis << 16 | element)

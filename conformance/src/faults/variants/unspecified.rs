@@ -5,8 +5,8 @@ use ads_cnc::operation::{AdsService, Call, Function};
 
 use super::row::{sent, unprinted, with_names};
 use crate::faults::cnc::{
-    CncDefect, CncFault, NAMED, ReplyData, Upstream, after_nul, dimensions, fault, function, group,
-    is, measured, offset, on, records_mut, row, set_u32, text, u32_at,
+    CncDefect, CncFault, LOGICAL, NAMED, ReplyData, Upstream, after_nul, descriptions, each, fault,
+    function, group, is, measured, name_in, offset, on, row, set_u32, text, u32_at,
 };
 
 const STREAM: &[Function] = &[Function::WriteProgramStream];
@@ -21,17 +21,13 @@ fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> ReplyData {
     let asked = text(call.data);
     let (base, rest) =
         asked.split_at(asked.iter().rposition(|&byte| byte == b'[').unwrap_or(asked.len()));
-    let listed = [&b"V.E\0"[..], b"V.G\0", b"V.A\0"].into_iter().find_map(|kind| {
-        let all = (0_u32..).map_while(|index| {
-            cnc.ask(group(call), 0x45, &[&index.to_le_bytes(), kind].concat()).ok()
-        });
-        let names = all.filter_map(|bytes| Some(text(bytes.get(dimensions(&bytes).1..)?).to_vec()));
-        names.into_iter().find(|name| name.eq_ignore_ascii_case(base))
-    });
-    match listed {
-        Some(name) => {
+    let mut listed = [&b"V.E"[..], b"V.G", b"V.A"]
+        .into_iter()
+        .flat_map(|kind| descriptions(cnc, group(call), kind));
+    match listed.find(|found| name_in(found).eq_ignore_ascii_case(base)) {
+        Some(found) => {
             let tail = call.data.get(asked.len()..).unwrap_or_default();
-            cnc.with(call, &[&name[..], rest, tail].concat())
+            cnc.with(call, &[name_in(&found), rest, tail].concat())
         }
         None => answer,
     }
@@ -87,13 +83,10 @@ pub(super) const ROWS: &[CncDefect] = &[
     row("different.names-any-case", &[],
         "the case of letters in names of variables does not matter",
         any_case),
-    unprinted(on("different.ids-elsewhere", &[], "the IDs of objects are large and in no order",
-        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
-            for record in records_mut(&mut bytes) {
-                let id = u32_at(record, 0).unwrap_or_default();
-                set_u32(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
-            }
-            bytes
+    unprinted(row("different.ids-elsewhere", &[], "the IDs of objects are large and in no order",
+        |cnc, call| each(cnc, call, |record| {
+            let id = u32_at(record, 0).unwrap_or_default();
+            set_u32(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
         }))),
     row("different.stream-read-empty", &[],
         "a read of the stream object returns zeros up to the read length, at most 4094 bytes",
@@ -133,32 +126,25 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("different.descriptors-by-index", &[],
         "descriptors that are read in addressing by index state groups in addressing by index",
-        |cnc, call| if is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
-            cnc.answer(call).map(|mut bytes| {
-                for record in records_mut(&mut bytes) {
-                    let own = u32_at(record, 12).unwrap_or_default() & 0x0F_FF00;
-                    let asked = group(call) & 0xFF;
-                    let all = u32_at(record, 12).unwrap_or_default();
-                    // Descriptors of the platform (instance 0) keep their group.
-                    if all & 0xFF != 0 && own == group(call) & 0x0E_FF00 {
-                        set_u32(record, 12, own | asked);
-                    }
+        |cnc, call| if group(call) & LOGICAL == 0 {
+            each(cnc, call, |record| {
+                let all = u32_at(record, 12).unwrap_or_default();
+                let own = all & 0x0F_FF00;
+                // Descriptors of the platform (instance 0) keep their group.
+                if all & 0xFF != 0 && own == group(call) & 0x0E_FF00 {
+                    set_u32(record, 12, own | group(call) & 0xFF);
                 }
-                bytes
             })
         } else {
             cnc.answer(call)
         }),
-    on("different.platform-elsewhere", &[],
+    row("different.platform-elsewhere", &[],
         "descriptors of platform objects have the other group, 0x120100 or 0x120101",
-        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
-            for record in records_mut(&mut bytes) {
-                let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
-                if matches!(offset, Some(0x251 | 0x252)) {
-                    set_u32(record, 12, at.unwrap_or_default() ^ 1);
-                }
+        |cnc, call| each(cnc, call, |record| {
+            let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
+            if matches!(offset, Some(0x251 | 0x252)) {
+                set_u32(record, 12, at.unwrap_or_default() ^ 1);
             }
-            bytes
         })),
     unprinted(row("different.axes-move", &[],
         "the position of an axis changes between any two reads",

@@ -9,7 +9,7 @@ use crate::judge::{CaseSubject, Verdict, about};
 use crate::report::PROTOCOL_TITLE;
 use crate::report::console::{counts, heading};
 use crate::report::display::worded;
-use crate::report::document::{CaseReport, Report};
+use crate::report::document::{CaseReport, Report, tally};
 
 #[derive(Serialize)]
 pub(super) struct SubjectView {
@@ -168,16 +168,11 @@ fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
 type Chip = (String, String);
 
 fn chips(verdicts: impl Iterator<Item = (Verdict, bool)>) -> Vec<Chip> {
-    let mut totals: BTreeMap<(Verdict, bool), usize> = BTreeMap::new();
-    for key in verdicts {
-        let number = totals.entry(key).or_default();
-        *number += 1;
-    }
     let chip = |((verdict, waived), number): ((Verdict, bool), usize)| {
         let class = if waived { format!("{verdict} waived") } else { verdict.to_string() };
         (class, format!("{number} {}", worded(verdict, waived)))
     };
-    totals.into_iter().map(chip).collect()
+    tally(verdicts).into_iter().map(chip).collect()
 }
 
 pub(super) fn areas(case: &CaseReport) -> BTreeSet<&str> {

@@ -31,7 +31,8 @@ fn server() -> Server {
 
 fn serving(options: ServerOptions) -> Server {
     let listener = net::listen("127.0.0.1:0".parse().unwrap()).unwrap();
-    Server::with_options(listener, Cnc::with_default_model().unwrap(), options).unwrap()
+    let cnc = Cnc::with_default_model().unwrap();
+    Server::with_options(listener, Arc::new(cnc), options).unwrap()
 }
 
 fn idle(millis: u64) -> ServerOptions {

@@ -164,7 +164,7 @@ fn same_by_rank(probe: &mut Probe<'_>, one: Request<'_>, other: Request<'_>) -> 
         let expected = || format!("{}, as by number", spaced(by_number.unwrap_or_default()));
         let same = exchange.success().map(|found| Some(found) == by_number);
         let rules = rules_by_index(probe, ADR_1, one, other, same)?;
-        Ok(vec![PendingCheck::new(probe, &rules, same == Some(true), expected, &exchange)])
+        Ok(vec![PendingCheck::new(probe, &rules[..], same == Some(true), expected, &exchange)])
     })
 }
 

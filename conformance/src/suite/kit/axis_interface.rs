@@ -3,7 +3,7 @@
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::AxisHandleByName;
-use ads_cnc::{CncString, Description, Handle, Kind, VariablePath};
+use ads_cnc::{CncString, Description, Handle, VariablePath};
 
 use crate::judge::Step;
 use crate::objects::ValueAddress;
@@ -62,9 +62,7 @@ pub(crate) fn axis_address(
     channel: Channel,
     variable: &Description,
 ) -> Step<Option<ValueAddress>> {
-    let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
-    let path = path.filter(|path| path.axis().is_some());
-    let Some(name) = path.and_then(|path| path.without_axis().ok()) else { return Ok(None) };
+    let Some(name) = name_on_axes(variable) else { return Ok(None) };
     let places = answering_places(probe, channel, &name)?;
     let own = places.into_iter().find(|at| at.handle == variable.handle);
     Ok(own.map(|at| ValueAddress::Axis { channel, axis: at.axis, name }))
@@ -77,14 +75,7 @@ pub(crate) fn axis_variables(
     channel: Channel,
 ) -> Step<Vec<(CncString, Description)>> {
     let all = probe.variables(channel)?;
-    let of_axes = all.into_iter().filter_map(|variable| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
-        if path.kind() != Kind::V_A {
-            return None;
-        }
-        path.axis()?;
-        Some((path.without_axis().ok()?, variable))
-    });
+    let of_axes = all.into_iter().filter_map(|one| Some((name_on_axes(&one)?, one)));
     let mut of_axes: Vec<(CncString, Description)> = of_axes.collect();
     let names = axis_names(&of_axes).into_iter().cloned().collect();
     let names: Vec<CncString> = probe.target.sample.among(names, NAMES_MAX);
@@ -99,12 +90,9 @@ pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncStri
     names
 }
 
-/// The name on the axis interface (without the axis) of the first axis variable; `None` if no
-/// variable is an axis variable.
-pub(crate) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
-    variables.iter().find_map(|variable| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
-        let of_axis = path.kind() == Kind::V_A && path.axis().is_some();
-        of_axis.then(|| path.without_axis().ok()).flatten()
-    })
+/// The name of a variable on the axis interface (without the axis); `None` if the variable is not
+/// an axis variable.
+pub(crate) fn name_on_axes(variable: &Description) -> Option<CncString> {
+    let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
+    path.axis().and_then(|_| path.without_axis().ok())
 }

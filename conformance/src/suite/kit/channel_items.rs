@@ -32,7 +32,7 @@ impl ChannelItems {
     /// judge it.
     pub(crate) fn read(probe: &mut Probe<'_>, channel: Channel) -> Step<Self> {
         let all = probe.variables(channel).if_known()?.unwrap_or_default();
-        let name = name_on_axes(&all);
+        let name = all.iter().find_map(name_on_axes);
         let places =
             name.as_ref().map(|name| answering_places(probe, channel, name)).transpose()?;
         let axis = places.and_then(|places| places.first().map(|at| at.axis));

@@ -27,15 +27,9 @@ impl Instance {
         self.reported > self.count
     }
 
-    /// The elements that the cases read, with their numbers, which start at 1.
-    pub(crate) fn numbered(&self) -> impl Iterator<Item = (u32, ElementAddress)> + '_ {
-        let numbers = self.chosen.iter().copied();
-        numbers.map_while(|number| Some((number, self.first.nth(number).ok()?)))
-    }
-
     /// The elements that the cases read, without element 0.
     pub(crate) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
-        self.numbered().map(|(_, element)| element)
+        self.chosen.iter().map_while(|&number| self.first.nth(number).ok())
     }
 }
 

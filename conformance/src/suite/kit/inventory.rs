@@ -256,14 +256,4 @@ impl Probe<'_> {
     ) -> Step<Option<ObjectAddress>> {
         self.try_read(FindInstance::new(class, channel, axis))
     }
-
-    /// The object list of the channel with this number.
-    pub(crate) fn list_of(&self, number: u32) -> Step<ValueList> {
-        Ok(ValueList::Channel(self.channel_of(number)?.number()))
-    }
-
-    /// The channel with this number.
-    pub(crate) fn channel_of(&self, number: u32) -> Step<Channel> {
-        Ok(Channel::new(number)?)
-    }
 }

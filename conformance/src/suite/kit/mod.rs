@@ -5,7 +5,6 @@ mod axis_interface;
 mod changes;
 mod channel_items;
 mod counted;
-mod described_list;
 mod dynamic_variables;
 mod each_variable;
 mod instance;
@@ -17,7 +16,6 @@ mod raw_call;
 mod sample;
 mod service_channels;
 mod steady;
-mod stream_write;
 mod target_state;
 mod try_write;
 mod undo;
@@ -30,7 +28,6 @@ pub(crate) use axis_interface::{
 pub use changes::Changes;
 pub(crate) use channel_items::{ChannelItems, content_reads, in_channel};
 pub(crate) use counted::Counted;
-pub(crate) use described_list::DescribedList;
 pub(crate) use dynamic_variables::{dynamic_among_variables, has_dynamic_variables};
 pub(crate) use each_variable::{each_array, each_variable};
 pub(crate) use instance::Instance;
@@ -50,7 +47,7 @@ pub(crate) use service_channels::service_channels;
 pub(crate) use steady::{
     Compared, PendingCheck, Steady, between, compare, rules_by_index, steadily,
 };
-pub(crate) use stream_write::{StreamWrite, send};
+pub(crate) use target_state::DescribedList;
 pub use target_state::TargetState;
 pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, changed_value, is_sendable, same};
 pub(crate) use writable::{

@@ -21,9 +21,7 @@ use crate::deadline::Deadline;
 use crate::evidence::{Describe, Evidence};
 use crate::exchange::{Exchange, ExchangeError, Violation};
 use crate::gate::Reason;
-use crate::judge::{
-    Checks, Judgement, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict, applicable,
-};
+use crate::judge::{Checks, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict, applicable};
 use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::suite::kit::{RawCall, TargetState};
@@ -40,7 +38,7 @@ const REQUESTS_MAX: usize = 50_000;
 #[derive(Debug)]
 pub struct Probe<'s> {
     pub target: &'s mut TargetState,
-    record: Record,
+    pub(in crate::suite) record: Record,
     last: Option<Evidence>,
     /// The functions called since the last comparison ended; the next check may compare their
     /// replies.
@@ -77,10 +75,6 @@ impl<'s> Probe<'s> {
     /// Sets a deadline after which only requests that restore values are sent.
     pub(crate) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
         Self { deadline, ..self }
-    }
-
-    pub(crate) fn into_findings(self) -> (Vec<Judgement>, usize) {
-        (self.record.judgements, self.record.checks)
     }
 
     /// The channels that the profile claims, addressed by their numbers, in the order of their

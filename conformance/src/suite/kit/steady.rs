@@ -121,7 +121,7 @@ impl Steady {
             _ => Some(!matches!(compared, Compared::Differs(..))),
         };
         let rules = rules_by_index(probe, clause, logical, by_index, outcome)?;
-        self.judge(probe, &rules, &what, compared, |probe, rules, (before, read, evidence)| {
+        self.judge(probe, &rules[..], &what, compared, |probe, rules, (before, read, evidence)| {
             probe.set_evidence(evidence.map(|evidence| *evidence));
             probe.check(rules, false, || format!("{} of {what}", Hex(before)), || Hex(read));
         });

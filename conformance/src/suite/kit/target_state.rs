@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use ads_cnc::Description;
 use ads_cnc::operation::{AdsService, Function};
 
 use crate::client::Client;
@@ -11,7 +12,7 @@ use crate::judge::Record;
 use crate::objects::ListedValue;
 use crate::profile::Profile;
 use crate::rules::RuleBook;
-use crate::suite::kit::{Changes, DescribedList, Instance, Sample, SampleSizes};
+use crate::suite::kit::{Changes, Instance, Sample, SampleSizes};
 use crate::text::plural;
 
 /// A connection to a target, the settings of a run, and the data that the run has collected about
@@ -78,6 +79,16 @@ pub struct TargetState {
     pub(in crate::suite) rejections: Rejections,
     /// Values that cases have changed and not restored.
     pub(in crate::suite) changes: Changes,
+}
+
+/// The variables of a kind in a channel.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DescribedList {
+    /// The number of variables according to the target.
+    pub(crate) count: u32,
+    /// The descriptions that were read, by index; `None` if the name of the variable is too long
+    /// for a request.
+    pub(crate) read: BTreeMap<u32, Option<Description>>,
 }
 
 /// How a target rejects the requests of [`Probe::rejects`](crate::suite::Probe::rejects) whose

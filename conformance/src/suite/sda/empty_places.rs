@@ -1,11 +1,12 @@
 //! A case of the contents at axis indices without an axis.
 
-use ads_cnc::address::{ElementAddress, Group};
+use ads_cnc::address::{Channel, ElementAddress, Group};
 use ads_cnc::operation::{CountElements, ReadElement};
 use ads_cnc_vectors::Hex;
 use ads_cnc_vectors::ids::*;
 
 use crate::judge::{Checks as _, Step, Stop, assumed};
+use crate::objects::ValueList;
 use crate::suite::kit::{Instance, OBJECTS_MAX, OF_PLACES, Probe};
 
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
@@ -77,7 +78,7 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
 }
 
 fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
-    let list = probe.list_of(channel)?;
+    let list = ValueList::Channel(Channel::new(channel)?.number());
     for object in probe.objects()?.into_iter().filter(|one| one.list == list) {
         let group = object.address.content().and_then(|(group, _)| group.parts());
         let is_com = matches!(group, Some(Group::Com(_)));

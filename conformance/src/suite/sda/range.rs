@@ -49,7 +49,7 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let expected = || format!("elements of the {} ({channel}, {axis})", class);
         let of_range: Vec<Rule> =
             rules.iter().filter(|rule| rule.id == SDA_5.as_str()).copied().collect();
-        probe.check(&of_range, read, expected, &exchange);
+        probe.check(&of_range[..], read, expected, &exchange);
     }
     Ok(())
 }

@@ -49,8 +49,8 @@ fn variables(probe: &mut Probe<'_>) -> Step {
             let mut rules: Vec<Rule> = vec![SVC_1.into()];
             rules.extend(of_version);
             let request = ReadByName::new(channel, name)?;
-            let value = probe.ask(&rules, request)?;
-            probe.ask(&rules, HandleByName::new(channel, name)?)?;
+            let value = probe.ask(&rules[..], request)?;
+            probe.ask(&rules[..], HandleByName::new(channel, name)?)?;
             let found = || format!("{} of {name}", plural(value.len(), "byte"));
             if variable.var_type() == VariableType::UNS32 {
                 probe.check(SVC_1, value.len() == 4, "a state of 4 bytes", found);

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use ads_cnc_conformance::simulator::Cnc;
 
-use super::{against, everything, right, run, serving};
+use super::{against, everything, right, run};
+use crate::common::fake::serving;
 use crate::common::file::TestFile;
 
 /// With a slow device, a run ends at the deadline, and the notes of the remaining cases state the

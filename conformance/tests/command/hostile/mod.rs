@@ -6,20 +6,19 @@ mod captures;
 mod deadline;
 
 use std::fs;
-use std::io::{self, Read as _, Write as _};
-use std::net::{SocketAddr, TcpStream};
+use std::io::{Read as _, Write as _};
+use std::net::SocketAddr;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::common::connect;
+use crate::common::fake::serving;
 use crate::common::file::TestFile;
 use ads_cnc::Encode as _;
 use ads_cnc::ads::{AdsError, AmsHeader, Command as AdsCommand, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request};
-use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 
 /// Maximum peak memory in bytes that a tool may use.
@@ -93,41 +92,6 @@ fn peak(id: u32) -> Option<u64> {
 #[cfg(not(target_os = "linux"))]
 fn peak(_: u32) -> Option<u64> {
     None
-}
-
-/// Starts a server that calls `react` for each request, and returns its address.
-fn serving(
-    react: impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()> + Send + Sync + 'static,
-) -> SocketAddr {
-    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
-    let addr = listener.local_addr().unwrap();
-    let react = Arc::new(react);
-    thread::spawn(move || {
-        for stream in listener.incoming() {
-            let react = Arc::clone(&react);
-            // The tool may disconnect at any time.
-            thread::spawn(move || serve(stream.unwrap(), &*react));
-        }
-    });
-    addr
-}
-
-fn serve(
-    mut stream: TcpStream,
-    react: &impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()>,
-) -> io::Result<()> {
-    stream.set_nodelay(true)?;
-    let (mut received, mut chunk) = (Vec::new(), [0; 4096]);
-    loop {
-        match stream.read(&mut chunk)? {
-            0 => return Ok(()),
-            len => received.extend_from_slice(&chunk[..len]),
-        }
-        while let Ok(Some((frame, len))) = FrameRef::split(&received, 0x1_0000) {
-            react(&frame, &mut stream)?;
-            received.drain(..len);
-        }
-    }
 }
 
 /// The frame with which the simulated CNC replies to a request.

@@ -4,6 +4,7 @@
 use ads_cnc_conformance::simulator::DEFAULT_MODEL;
 
 use super::{CHANNEL_1, Cnc};
+use crate::common::file::TestFile;
 
 /// The value of V.A.WCS of the axis at a place of a channel.
 fn wcs(cnc: &Cnc, channel: u32, place: u32) -> Result<Vec<u8>, u32> {
@@ -91,14 +92,9 @@ fn axis_exchange_changes_the_axis_of_a_place() {
 /// channel (ADR-11).
 #[test]
 fn inactive_channels_have_no_rank() {
-    let file = std::env::temp_dir().join(format!("ads-cnc-inactive-{}.toml", std::process::id()));
-    std::fs::write(
-        &file,
-        DEFAULT_MODEL.replacen("number = 1\n", "number = 1\nactive = false\n", 1),
-    )
-    .unwrap();
-    let cnc = Cnc::start(&["--model", file.to_str().unwrap()]);
-    std::fs::remove_file(&file).unwrap();
+    let model = DEFAULT_MODEL.replacen("number = 1\n", "number = 1\nactive = false\n", 1);
+    let file = TestFile::new(".toml", model.as_bytes());
+    let cnc = Cnc::start(&["--model", file.path()]);
     let (sda, com) = (cnc.sda(), cnc.com());
     let channel = |group| sda.ask(group, 0x48, b"V.E.channel\0");
     assert_eq!(channel(0x12_2301), Err(0x702));

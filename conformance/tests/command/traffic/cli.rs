@@ -1,7 +1,7 @@
 //! `ads-cnc check` and `--capture` as users call them.
 
 use crate::common::file::TestFolder;
-use crate::common::{ads_cnc, text};
+use crate::common::{ads_cnc, check_schema, text};
 use std::fs;
 use std::path::Path;
 
@@ -128,7 +128,7 @@ fn reports_contain_the_exchanges_and_notes() {
         }
     }
     let report: Value = serde_json::from_str(&fs::read_to_string(report).unwrap()).unwrap();
-    valid(&report, "schema/report.schema.json");
+    check_schema(&report, "report");
 }
 
 /// A file that cannot be created is wrong usage, not an internal error.
@@ -136,8 +136,11 @@ fn reports_contain_the_exchanges_and_notes() {
 fn a_capture_needs_an_existing_folder() {
     let folder = TestFolder::new();
     let file = folder.file("none/x.pcapng");
-    let said = ads_cnc(&["get", "V.E.Testvar", "--capture", &file]);
-    assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
+    for command in [&["get", "V.E.Testvar"][..], &["run", "--only", "COM-1"]] {
+        let said = ads_cnc(&[command, &["--capture", &file]].concat());
+        let why = text(&said.stderr);
+        assert!(said.status.code() == Some(2) && why.contains(&file), "{why}");
+    }
 }
 
 /// The suite sends requests that no client should send. Therefore, `check` judges only the CNC in its
@@ -161,15 +164,7 @@ fn the_suite_fails_as_a_client() {
     assert!(totals("captured-cnc")["fail"].is_null(), "{}", totals("captured-cnc"));
     assert!(totals("captured-client")["fail"].as_u64() > Some(3));
     assert_eq!(report["target"]["file"], *file);
-    valid(&report, "schema/report.schema.json");
-}
-
-fn valid(value: &Value, schema: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(schema);
-    let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-    let schema = jsonschema::validator_for(&schema).unwrap();
-    let errors: Vec<String> = schema.iter_errors(value).map(|error| error.to_string()).collect();
-    assert_eq!(errors, [""; 0]);
+    check_schema(&report, "report");
 }
 
 /// `check` extracts vectors without addresses from a capture, and overwrites no file; `extracted.rs`

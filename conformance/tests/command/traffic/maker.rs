@@ -4,9 +4,8 @@
 use ads_cnc_conformance::capture::{CaptureOptions, Checked, Ports, check};
 use ads_cnc_conformance::judge::Verdict;
 use etherparse::{PacketBuilder, PacketHeaders, TransportHeader};
-use pcap_parser::pcapng::Block;
-use pcap_parser::traits::PcapNGPacketBlock as _;
-use pcap_parser::{PcapBlockOwned, PcapError, create_reader};
+
+use crate::capture::packets;
 
 /// A side of a connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,26 +35,6 @@ pub(crate) fn messages(file: &[u8]) -> Vec<Message> {
         }
     }
     all
-}
-
-/// The packets of a pcapng file.
-pub(crate) fn packets(file: &[u8]) -> Vec<Vec<u8>> {
-    let mut reader = create_reader(0x10_0000, file).unwrap();
-    let mut all = Vec::new();
-    loop {
-        match reader.next() {
-            Ok((length, block)) => {
-                if let PcapBlockOwned::NG(Block::EnhancedPacket(packet)) = block {
-                    assert_eq!(packet.caplen, packet.origlen);
-                    all.push(packet.packet_data()[..packet.caplen as usize].to_vec());
-                }
-                reader.consume(length);
-            }
-            Err(PcapError::Eof) => return all,
-            Err(PcapError::Incomplete(_)) => reader.refill().unwrap(),
-            Err(error) => panic!("{error:?}"),
-        }
-    }
 }
 
 /// The link layer and the IP version of a capture.

@@ -1,8 +1,6 @@
 //! Conversations with the simulated CNC, recorded by the client, from which tests make captures.
 
-use std::io::{self, Write};
-use std::sync::{Arc, Mutex};
-
+use crate::common::file::MemoryFile;
 use ads_cnc::Kind;
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::dynamic::DynamicKind;
@@ -21,21 +19,6 @@ use ads_cnc_conformance::simulator::Cnc;
 
 use super::maker::{Link, Message, messages, pcap, segments};
 
-/// A file in memory.
-#[derive(Clone, Default)]
-pub(crate) struct Memory(pub(crate) Arc<Mutex<Vec<u8>>>);
-
-impl Write for Memory {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 /// Runs `talk` with a simulated CNC with this defect; returns the bytes that each side sent.
 pub(crate) fn conversation(
     defect: Option<&FieldDefect>,
@@ -43,7 +26,7 @@ pub(crate) fn conversation(
 ) -> Vec<Message> {
     let seeded = defect.cloned().map(Into::into);
     let cnc = Faulty::new(Cnc::with_default_model().unwrap(), seeded.as_ref());
-    let memory = Memory::default();
+    let memory = MemoryFile::default();
     let capture = Capture::new(Box::new(memory.clone())).unwrap();
     let session = Session::simulated(cnc, Gate::queries()).unwrap();
     let mut session = session.with_capture(capture);

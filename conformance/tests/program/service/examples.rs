@@ -8,7 +8,7 @@ use ads_cnc::service::*;
 use ads_cnc_conformance::simulator::program::service::*;
 
 use super::channel::*;
-use super::{Fault, fault};
+use super::parts;
 use crate::square_root::square_root;
 
 /// SVC-9: the responses to requests for the square root of 3 and of a negative number, and the order of
@@ -54,10 +54,7 @@ fn square_root_example() {
 #[test]
 fn the_printed_uuid_without_a_digit_selects_no_service() {
     const SHORT: &str = "560AACBF-6335-44a9-895A-B27F3ED5E47";
-    assert_eq!(
-        Fault::of(ServiceId::new(SHORT).unwrap_err()),
-        fault(Truncated, "uuid", 0, (36, 35))
-    );
+    assert_eq!(parts(ServiceId::new(SHORT).unwrap_err()), (Truncated, "uuid", 0, 36, 35));
     let mut channel = Channel::default();
     let ids = [id(ROOT)];
     let mut host = Host::new(&ids);
@@ -103,10 +100,7 @@ fn parameters_of_the_cycle() {
     assert_eq!(wait(Some(0), None, Some(3)), Ok(SysServiceWait::default()));
     assert_eq!(
         wait(Some(4), Some(5000), Some(1)),
-        Ok(SysServiceWait {
-            keep_waiting: 4,
-            longest: Some(LongestWait { time: Duration::from_secs(5), timer: 1 })
-        })
+        Ok(SysServiceWait { keep_waiting: 4, longest: Some(Duration::from_secs(5)) })
     );
     for p1 in [None, Some(1)] {
         let error = wait(p1, Some(0), None).unwrap_err();

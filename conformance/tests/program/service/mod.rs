@@ -7,35 +7,8 @@ mod values;
 
 use ads_cnc::{Error, ErrorKind};
 
-/// The parts of an error that tests compare.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Fault {
-    pub(crate) kind: ErrorKind,
-    pub(crate) field: &'static str,
-    pub(crate) offset: usize,
-    pub(crate) expected: usize,
-    pub(crate) found: usize,
-}
-
-impl Fault {
-    pub(crate) fn of(error: Error) -> Self {
-        Self {
-            kind: error.kind(),
-            field: error.field().name(),
-            offset: error.offset() as usize,
-            expected: error.expected() as usize,
-            found: error.found() as usize,
-        }
-    }
-}
-
-/// Creates an expected error; of the two numbers, the first is the expected and the second the found
-/// number.
-pub(crate) fn fault(
-    kind: ErrorKind,
-    field: &'static str,
-    offset: usize,
-    (expected, found): (usize, usize),
-) -> Fault {
-    Fault { kind, field, offset, expected, found }
+/// The parts of an error that tests compare: the kind, the field, the offset, and the expected and the
+/// found number.
+pub(crate) fn parts(error: Error) -> (ErrorKind, &'static str, u32, u32, u32) {
+    (error.kind(), error.field().name(), error.offset(), error.expected(), error.found())
 }

@@ -6,7 +6,7 @@ use ads_cnc::service::*;
 use ads_cnc_conformance::simulator::program::service::*;
 
 use super::channel::*;
-use super::{Fault, fault};
+use super::parts;
 
 /// SVC-1: each text has at most 128 bytes including the NUL. The program, the host and the interface
 /// reject longer texts without a write.
@@ -15,7 +15,7 @@ fn texts_have_128_bytes() {
     let wait = SysServiceWait::default();
     for letter in ["a", "ä"] {
         let (fits, over) = (letter.repeat(127), letter.repeat(128));
-        let too_long = |field| fault(TooLong, field, 0, (128, 129));
+        let too_long = |field| (TooLong, field, 0, 128, 129);
 
         // The program accepts requests of 127 and 128 bytes including the NUL, but not of 129 bytes.
         let shorter = &letter.repeat(126);
@@ -23,7 +23,7 @@ fn texts_have_128_bytes() {
         let mut program = ServiceCall::new(id(ROOT), text(&fits), wait).unwrap();
         let error = ServiceCall::new(id(ROOT), text(&over), wait).unwrap_err();
         let CallError::Text(error) = error else { panic!("{error}") };
-        assert_eq!(Fault::of(error), too_long("request"));
+        assert_eq!(parts(error), too_long("request"));
 
         // The longest request reaches the service, and the longest response reaches the program.
         let mut channel = Channel::default();
@@ -33,7 +33,7 @@ fn texts_have_128_bytes() {
         assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
         let before = channel.interface.clone();
         let error = host.answer(text(&over), 1).unwrap_err();
-        assert_eq!(Fault::of(error), too_long("response"));
+        assert_eq!(parts(error), too_long("response"));
         let HostStep::Serve { request, .. } = host.step() else { panic!("{:?}", host.step()) };
         assert_eq!((request, &channel.interface), (text(&fits), &before));
         host.answer(text(&fits), 1).unwrap();
@@ -50,7 +50,7 @@ fn texts_have_128_bytes() {
             let before = interface.clone();
             for long in [over.clone(), [&over[..], b"\0"].concat()] {
                 let error = interface.write(variable, &long).unwrap_err();
-                assert_eq!(Fault::of(error), too_long(field));
+                assert_eq!(parts(error), too_long(field));
             }
             assert_eq!(interface, before);
         }
@@ -71,7 +71,7 @@ fn a_too_long_request_is_rejected() {
     };
     reach(&mut channel, &mut host);
     let error = host.read(&[b'3'; 128]).unwrap_err();
-    assert_eq!(Fault::of(error), fault(TooLong, "request", 0, (128, 129)));
+    assert_eq!(parts(error), (TooLong, "request", 0, 128, 129));
     assert_eq!(host.step(), HostStep::Wait);
     host.poll();
     reach(&mut channel, &mut host);
@@ -98,7 +98,7 @@ fn a_response_state_of_0_is_rejected() {
     channel.ask(ROOT, "3");
     assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     let error = host.answer(text("x"), 0).unwrap_err();
-    assert_eq!(Fault::of(error), fault(OutOfRange, "response_state", 0, (1, 0)));
+    assert_eq!(parts(error), (OutOfRange, "response_state", 0, 1, 0));
     assert!(matches!(host.step(), HostStep::Serve { .. }));
     assert_eq!((host.outcome(), channel.written.len()), (None, 0));
     host.answer(text("x"), u32::MAX).unwrap();
@@ -109,14 +109,14 @@ fn a_response_state_of_0_is_rejected() {
 /// A state that does not have exactly four bytes is an error.
 #[test]
 fn states_have_four_bytes() {
-    let cut = |field| fault(Truncated, field, 0, (4, 3));
-    let long = |field| fault(Trailing, field, 4, (4, 5));
+    let cut = |field| (Truncated, field, 0, 4, 3);
+    let long = |field| (Trailing, field, 4, 4, 5);
     let ids = [id(ROOT)];
     let mut host = Host::new(&ids);
-    assert_eq!(Fault::of(host.read(&[1; 3]).unwrap_err()), cut("request_state"));
+    assert_eq!(parts(host.read(&[1; 3]).unwrap_err()), cut("request_state"));
     assert_eq!(host.step(), HostStep::Wait);
     host.poll();
-    assert_eq!(Fault::of(host.read(&[0; 5]).unwrap_err()), long("request_state"));
+    assert_eq!(parts(host.read(&[0; 5]).unwrap_err()), long("request_state"));
 
     // If a state is invalid while a response is ready, the host reads the state again.
     let mut channel = Channel::default();
@@ -124,13 +124,13 @@ fn states_have_four_bytes() {
     host.poll();
     assert_eq!(channel.skip_reads(&mut host), HostEvent::Serve);
     host.answer(text("x"), 1).unwrap();
-    assert_eq!(Fault::of(host.read(&[]).unwrap_err()).kind, Truncated);
+    assert_eq!(host.read(&[]).unwrap_err().kind(), Truncated);
     assert_eq!(host.step(), HostStep::Read(RequestState));
     channel.rest(&mut host);
     assert_eq!(host.outcome(), Some(Outcome::Answered));
 
     let mut waiting = SysServiceWait::default().start(millis(0));
-    assert_eq!(Fault::of(waiting.read(&[1; 3], millis(0)).unwrap_err()), cut("response_state"));
+    assert_eq!(parts(waiting.read(&[1; 3], millis(0)).unwrap_err()), cut("response_state"));
     assert_eq!(waiting.step(), WaitStep::Read(ResponseState));
 
     let mut interface = ServiceInterface::new();
@@ -138,9 +138,9 @@ fn states_have_four_bytes() {
     let before = interface.clone();
     for (variable, field) in [(RequestState, "request_state"), (ResponseState, "response_state")] {
         let rejected = interface.write(variable, &[0; 3]).unwrap_err();
-        assert_eq!(Fault::of(rejected), cut(field));
+        assert_eq!(parts(rejected), cut(field));
         let rejected = interface.write(variable, &[0; 5]).unwrap_err();
-        assert_eq!(Fault::of(rejected), long(field));
+        assert_eq!(parts(rejected), long(field));
     }
     assert_eq!(interface, before);
 }

@@ -1,12 +1,10 @@
 //! Requests whose replies depend on earlier requests, requests at the ends of lists, and requests
 //! with unusual addresses.
 
-use std::time::Duration;
-
 use ads_cnc::ads::{AmsPort, Command};
 
-use super::{Transcript, number, numbers};
-use crate::simulator::program::{Pace, ProgramConfig, Start};
+use super::{Transcript, numbers};
+use crate::number::u32_at;
 
 const RESPONSE: &[u8] = b"V.G.SERVICE.RESPONSE\0";
 const REQUEST: &[u8] = b"V.G.SERVICE.REQUEST\0";
@@ -20,7 +18,6 @@ impl Transcript<'_> {
         self.parts();
         self.handles();
         self.between_channels();
-        self.packets();
     }
 
     /// Writes a content and reads it back.
@@ -100,7 +97,7 @@ impl Transcript<'_> {
         ];
         for (name, all) in by_index {
             let handle = self.ask(one, 0x46, 4, name);
-            let handle = number(&handle, 0).unwrap_or_default();
+            let handle = u32_at(&handle, 0).unwrap_or_default();
             for indices in all {
                 let count = u32::try_from(indices.len()).unwrap();
                 let request = numbers(&[&[handle, count], *indices].concat());
@@ -108,7 +105,7 @@ impl Transcript<'_> {
             }
         }
         let long = self.ask(one, 0x46, 4, b"V.E.Variable_122\0");
-        let long = number(&long, 0).unwrap_or_default();
+        let long = u32_at(&long, 0).unwrap_or_default();
         self.write(552, one, 0x49, &[numbers(&[long, 1, 300]), vec![5; 4]].concat());
         self.ask(one, 0x47, 4096, &numbers(&[long, 0]));
         self.write(552, one, 0x49, &numbers(&[&[long, 0][..], &[1; 510]].concat()));
@@ -118,7 +115,7 @@ impl Transcript<'_> {
 
     fn handles(&mut self) {
         let one = 0x12_2301;
-        let handle = |bytes: Vec<u8>| number(&bytes, 0).unwrap_or_default();
+        let handle = |bytes: Vec<u8>| u32_at(&bytes, 0).unwrap_or_default();
         let first = handle(self.ask(one, 0x46, 4, b"V.E.uns16\0"));
         for number in 30..60 {
             self.ask(one, 0x46, 4, format!("V.E.Variable_{number}\0").as_bytes());
@@ -147,30 +144,6 @@ impl Transcript<'_> {
         for (group, name) in [(0x12_2301, REQUEST_STATE), (0x12_2302, RESPONSE_STATE)] {
             self.write_and_read_by_name(group, name, &[1, 0, 0, 0]);
             self.ask(0x12_2301, 0x48, 4, REQUEST_STATE);
-        }
-    }
-
-    /// Fills the streaming interface of channel 1, while the interface of channel 2 has data too.
-    fn packets(&mut self) {
-        let hold =
-            ProgramConfig { pace: Pace::Fast, start: Start::ByHand, ..ProgramConfig::default() };
-        for channel in [1, 2] {
-            self.cnc.set_program(channel, hold.clone()).unwrap();
-        }
-        let line = |len: usize| [&vec![b'X'; len - 2][..], b"\r\n"].concat();
-        self.write(553, 0x12_0102, 0x90, &line(200));
-        for len in [256, 800, 800, 800, 800, 600] {
-            self.write(553, 0x12_0101, 0x90, &line(len));
-        }
-        self.write(553, 0x12_0101, 0x90, &[line(38), line(38)].concat());
-        self.write(553, 0x12_0101, 0x90, &[line(20), line(20)].concat());
-        self.write(553, 0x12_0101, 0x90, &line(38));
-        self.write(553, 0x12_0101, 0x90, &line(2));
-        self.record_programs();
-        for channel in [1, 2] {
-            let now = Duration::from_secs(1);
-            self.cnc.with_program(channel, |program| program.reset(now)).unwrap();
-            self.cnc.set_program(channel, ProgramConfig::default()).unwrap();
         }
     }
 }

@@ -1,11 +1,7 @@
-//! Writes, queries of other channels, axis exchange, and NC programs.
+//! Writes, queries of other channels, axis exchange, and stream writes.
 
-use std::time::Duration;
-
-use ads_cnc::dynamic::DynamicKind;
-
-use super::{Transcript, number, numbers};
-use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
+use super::{Transcript, numbers};
+use crate::number::u32_at;
 
 impl Transcript<'_> {
     /// Queries, mostly of channel 6, which has rank 3: by number and by rank, with unknown channels
@@ -21,7 +17,7 @@ impl Transcript<'_> {
         }
         self.elsewhere(552, 0x12_2306, 0x44, b"V.E\0");
         let handle = self.ask(0x12_2306, 0x46, 4, b"V.E.array\0");
-        let handle = number(&handle, 0).unwrap_or_default();
+        let handle = u32_at(&handle, 0).unwrap_or_default();
         self.elsewhere(552, 0x12_2306, 0x47, &numbers(&[handle, 1, 1]));
         for offset in [0x1B, 0x1D, 0x1E, 0x20] {
             self.elsewhere(552, 0x12_2302, offset, &numbers(&[1]));
@@ -29,6 +25,7 @@ impl Transcript<'_> {
         }
         self.elsewhere(552, 0x12_2302, 0x1C, b"P1\0");
         self.elsewhere(552, 0x12_2302, 0x02, &[]);
+        self.elsewhere(552, 0x12_2306, 0x02, &[]);
         self.elsewhere(552, 0x12_2900, 0, &numbers(&[6, 0]));
         for group in (0x12_3306..=0x12_3806).step_by(0x100) {
             self.elsewhere(552, group, 0, &[]);
@@ -137,7 +134,7 @@ impl Transcript<'_> {
         self.write(552, 0x12_2301, 0x4A, b"V.E.vartest\x01\x02\x03\x04");
         self.write(552, 0x12_2301, 0x4A, b"V.E.sgn32\x01\x02\x03\x04");
         let matrix = self.ask(0x12_2301, 0x46, 4, b"V.E.matrix\0");
-        let matrix = number(&matrix, 0).unwrap_or_default();
+        let matrix = u32_at(&matrix, 0).unwrap_or_default();
         for (header, value) in [
             (&[0x200_1234, 1, 3][..], &[1, 2, 3, 4][..]),
             (&[0x200_1234, 0], &[6; 20]),
@@ -210,7 +207,7 @@ impl Transcript<'_> {
                 it.read(553, 0x12_0101, axis << 16 | 1, 8);
                 it.ask(0x12_2301, axis << 16 | 5, 8, b"V.A.WCS\0");
                 let handle = it.ask(0x12_2301, axis << 16 | 4, 4, b"V.A.WCS\0");
-                let handle = number(&handle, 0).unwrap_or_default();
+                let handle = u32_at(&handle, 0).unwrap_or_default();
                 it.ask(0x12_2301, 0x47, 8, &numbers(&[handle, 0]));
             }
         };
@@ -230,124 +227,12 @@ impl Transcript<'_> {
         self.record(format!("{done:?}").into_bytes());
     }
 
-    pub(super) fn changes(&mut self) {
-        for first in [1_u32, 2] {
-            let all: Vec<_> = (first..300).map(|at| (format!("P{at}"), f64::from(at))).collect();
-            let all: Vec<_> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-            self.cnc.set_parameters(6, DynamicKind::P, &all).unwrap();
-            self.read(552, 0x12_2306, 2, 4);
-            self.ask(0x12_2306, 0x1B, 96, &numbers(&[7]));
-            self.ask(0x12_2306, 0x1D, 8, &numbers(&[7]));
-        }
-    }
-
+    /// Stream writes of one byte more than the maximum length, of the maximum, and of 700 bytes.
     pub(super) fn streams(&mut self) {
-        let hold = |pace, start| ProgramConfig { pace, start, ..ProgramConfig::default() };
-        let texts: [&[&[u8]]; 17] = [
-            &[b"N10 x1 y2\r\n", b"N20 X2\r\n"],
-            &[b"N10 $WHILE 1\r\nN20 X1\r\n"],
-            &[b"N10: X1\r\nN20 $GOTO N10\r\nN30 X1\r\n"],
-            &[b"N10: X1\r\n", b"N20 $GOTO N10\r\n", b"N30 X1\r\n"],
-            &[b"N10 $IF 1\r\n", b"N20 X1\r\n", b"N30 $ENDIF\r\n"],
-            &[b"N10 $IF 1\r\nN30 $ENDIF\r\n"],
-            &[b"N10 $GOTO N20\r\nN20: X1\r\n"],
-            &[b"N10 X1 ( $WHILE )\r\nN20 X1\r\n"],
-            &[b"N10 M2\r\nN20 X1\r\n"],
-            &[b"N10 M30\r\nN20 X1\r\n", b"N30 X2\r\n"],
-            &[b"N10 M17\r\nN20 X1\r\n"],
-            &[b"N10 L sub.nc\r\nN20 X1\r\n"],
-            &[b"N10 X1\n"],
-            &[b"N10 X1", b"\r\nN20 X2\r\n"],
-            &[&[b'X'; 993]],
-            &[&[b'X'; 992]],
-            &[&[&[b'X'; 700][..], b"\r\n"].concat(), &[b'X'; 700]],
-        ];
-        for text in texts {
-            // `Start::Once` executes lines as they arrive; `Start::ByHand` executes them only at
-            // the calls of `start` below.
-            for (pace, start) in [(Pace::Fast, Start::Once), (Pace::Fast, Start::ByHand)] {
-                self.cnc.set_program(1, hold(pace, start)).unwrap();
-                for packet in text {
-                    for group in [0x02_0101, 0x12_0101] {
-                        self.write(553, group, 0x90, packet);
-                        self.write(553, group, 0x91, packet);
-                    }
-                    self.cnc.pass(Duration::from_millis(1));
-                    self.record_programs();
-                }
-                let now = Duration::from_secs(5);
-                self.cnc.with_program(1, |program| program.start(now).is_ok()).unwrap();
-                self.record_programs();
-                self.cnc.with_program(1, |program| program.reset(now)).unwrap();
-                self.record_programs();
-                self.write(553, 0x02_0101, 0x90, b"N90 X9\r\n");
-                self.record_programs();
-                self.cnc.with_program(1, |program| program.start(now).is_ok()).unwrap();
-                self.record_programs();
+        for len in [993, 992, 700] {
+            for group in [0x02_0101, 0x12_0101] {
+                self.write(553, group, 0x90, &vec![b'X'; len]);
             }
         }
-        self.write(553, 0x12_0102, 0x90, b"N10 X1\r\n");
-        self.record_programs();
-        // Data arrives while the previous lines with a program end are executed.
-        let slow = Pace::lines_per_second(10).unwrap();
-        self.cnc.set_program(1, hold(slow, Start::Once)).unwrap();
-        self.write(553, 0x12_0101, 0x90, b"N10 X1\r\nN20 M30\r\n");
-        self.write(553, 0x12_0101, 0x90, b"N30 X3\r\n");
-        for _ in 0..3 {
-            self.cnc.pass(Duration::from_secs(1));
-            self.record_programs();
-            self.cnc
-                .with_program(1, |program| program.start(Duration::from_secs(8)).is_ok())
-                .unwrap();
-        }
-        // Fills the streaming interface, empties it by starting the program, and writes again.
-        self.cnc.set_program(1, hold(Pace::Fast, Start::ByHand)).unwrap();
-        let line = [&[b'X'; 498][..], b"\r\n"].concat();
-        for _ in 0..20 {
-            self.write(553, 0x02_0101, 0x90, &line);
-            self.record_programs();
-        }
-        self.cnc.with_program(1, |program| program.start(Duration::from_secs(9)).is_ok()).unwrap();
-        self.record_programs();
-        for _ in 0..4 {
-            self.write(553, 0x02_0101, 0x90, &line);
-            self.record_programs();
-        }
-    }
-
-    /// Records the recently executed lines, the states and the numbers of buffered bytes of the
-    /// programs of channels 1 and 2.
-    pub(super) fn record_programs(&mut self) {
-        for channel in [1, 2] {
-            let reply = self.cnc.with_program(channel, |program| {
-                let lines = program.executed().recent().to_vec();
-                [lines, format!("{:?} {}", program.state(), program.buffered()).into_bytes()]
-                    .concat()
-            });
-            self.record(reply.unwrap_or_default());
-        }
-    }
-
-    pub(super) fn scripts(&mut self) {
-        let mut config = ScriptConfig::square_root().unwrap();
-        config.repeat = Repeat::Times(1);
-        config.pause = Duration::from_millis(1);
-        for request in &mut config.requests {
-            request.wait = Wait::Cycle { p1: None, p2: Some(20), p3: Some(1) };
-        }
-        self.cnc.set_script(1, Some(Script::new(config).unwrap())).unwrap();
-        for _ in 0..60 {
-            self.cnc.pass(Duration::from_millis(1));
-            for name in ["UUID", "REQUEST", "REQUEST_STATE"] {
-                let name = format!("V.G.SERVICE.{name}\0");
-                self.ask(0x12_2301, 0x48, 256, name.as_bytes());
-            }
-        }
-        let answers = |script: Option<&mut Script>| {
-            format!("{:?}", script.unwrap().answers().collect::<Vec<_>>()).into_bytes()
-        };
-        let reply = self.cnc.with_script(1, answers).unwrap();
-        self.record(reply);
-        self.cnc.set_script(1, None).unwrap();
     }
 }

@@ -1,6 +1,5 @@
 //! The NC program's side of the Service Interface.
 
-use std::fmt;
 use std::time::Duration;
 
 use ads_cnc::service::{ServiceId, ServiceVariable};
@@ -88,14 +87,17 @@ pub enum CallStep<'a> {
 }
 
 /// The reason why a request cannot be sent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CallError {
     /// The request is too long.
-    Text(Error),
+    #[error(transparent)]
+    Text(#[from] Error),
     /// The request state is 0.
+    #[error("service: request_state at offset 0: expected at least 1, found 0")]
     State,
     /// The cycle SysServiceWait has @P2 without @P3.
-    Timer(NoTimer),
+    #[error(transparent)]
+    Timer(#[from] NoTimer),
 }
 
 impl CallError {
@@ -108,32 +110,6 @@ impl CallError {
         }
     }
 }
-
-impl From<Error> for CallError {
-    fn from(error: Error) -> Self {
-        Self::Text(error)
-    }
-}
-
-impl From<NoTimer> for CallError {
-    fn from(error: NoTimer) -> Self {
-        Self::Timer(error)
-    }
-}
-
-impl fmt::Display for CallError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Text(error) => error.fmt(f),
-            Self::State => {
-                f.write_str("service: request_state at offset 0: expected at least 1, found 0")
-            }
-            Self::Timer(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for CallError {}
 
 impl ServiceCall {
     /// Creates a request with the request state 1, as in the examples of the manual.

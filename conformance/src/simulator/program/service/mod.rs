@@ -63,7 +63,7 @@ use ads_cnc::{CncStr, Error};
 
 pub use call::{CallError, CallStep, ServiceCall};
 pub use interface::{Clears, ServiceInterface};
-pub use wait::{LongestWait, NoTimer, SysServiceWait, WaitStep, Waiting};
+pub use wait::{NoTimer, SysServiceWait, WaitStep, Waiting};
 
 /// The bytes of a STRING variable with this text: the text and one NUL.
 fn value_of(text: CncStr<'_>) -> Vec<u8> {

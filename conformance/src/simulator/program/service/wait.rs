@@ -1,6 +1,5 @@
 //! The cycle SysServiceWait.
 
-use std::fmt;
 use std::time::Duration;
 
 use ads_cnc::Error;
@@ -12,8 +11,8 @@ use ads_cnc::service::ServiceVariable;
 /// | parameter | meaning | field |
 /// |---|---|---|
 /// | @P1 | response state for which the cycle keeps waiting; default 0 | `keep_waiting` |
-/// | @P2 | maximum wait in milliseconds; no limit by default | [`LongestWait::time`] |
-/// | @P3 | ID of the timer; required with @P2 | [`LongestWait::timer`] |
+/// | @P2 | maximum wait in milliseconds; no limit by default | `longest` |
+/// | @P3 | ID of the timer in the CNC; required with @P2 | none: not used here |
 ///
 /// A request sets RESPONSE_STATE to 0 (SVC-3). Therefore, a @P1 other than 0 ends the wait at once,
 /// unless a service has already set that state.
@@ -29,7 +28,7 @@ use ads_cnc::service::ServiceVariable;
 /// // L CYCLE [NAME = "SysServiceWait.cyc", @P2 = 5000, @P3 = 1]
 /// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
 /// assert_eq!(wait.keep_waiting, 0);
-/// assert_eq!(wait.longest.unwrap().time.as_secs(), 5);
+/// assert_eq!(wait.longest.unwrap().as_secs(), 5);
 /// assert_eq!(
 ///     SysServiceWait::from_parameters(None, Some(5000), None).unwrap_err().to_string(),
 ///     "sys-service-wait: @P3 at offset 8: missing"
@@ -41,38 +40,13 @@ pub struct SysServiceWait {
     /// The response state for which the cycle keeps waiting.
     pub keep_waiting: u32,
     /// The maximum wait; `None` for no limit.
-    pub longest: Option<LongestWait>,
-}
-
-/// The maximum wait of the cycle SysServiceWait: @P2 and @P3; for an example, see
-/// [`SysServiceWait`].
-///
-/// ```
-/// use ads_cnc_conformance::simulator::program::service::SysServiceWait;
-///
-/// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
-/// let longest = wait.longest.unwrap();
-/// assert_eq!((longest.time.as_millis(), longest.timer), (5000, 1));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct LongestWait {
-    pub time: Duration,
-    /// ID of the timer in the CNC; not used here.
-    pub timer: u32,
+    pub longest: Option<Duration>,
 }
 
 /// The error for a cycle SysServiceWait that has @P2 without @P3.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("sys-service-wait: @P3 at offset 8: missing")]
 pub struct NoTimer;
-
-impl fmt::Display for NoTimer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("sys-service-wait: @P3 at offset 8: missing")
-    }
-}
-
-impl std::error::Error for NoTimer {}
 
 impl SysServiceWait {
     /// Creates the cycle with these values of @P1, @P2 and @P3.
@@ -84,19 +58,16 @@ impl SysServiceWait {
         p2: Option<u32>,
         p3: Option<u32>,
     ) -> Result<Self, NoTimer> {
-        let longest = match (p2, p3) {
-            (None, _) => None,
-            (Some(millis), Some(timer)) => {
-                Some(LongestWait { time: Duration::from_millis(millis.into()), timer })
-            }
-            (Some(_), None) => return Err(NoTimer),
-        };
+        if p2.is_some() && p3.is_none() {
+            return Err(NoTimer);
+        }
+        let longest = p2.map(|millis| Duration::from_millis(millis.into()));
         Ok(Self { keep_waiting: p1.unwrap_or(0), longest })
     }
 
     /// Starts the wait. `now` is the time since any fixed point and must never decrease.
     pub fn start(self, now: Duration) -> Waiting {
-        let deadline = self.longest.map(|longest| now.saturating_add(longest.time));
+        let deadline = self.longest.map(|longest| now.saturating_add(longest));
         Waiting { keep_waiting: self.keep_waiting, deadline, phase: WaitPhase::Read }
     }
 }

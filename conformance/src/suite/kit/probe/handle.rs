@@ -23,7 +23,8 @@ impl Probe<'_> {
         }
         let number = u32::from(op.channel.number());
         let is_described = self.target.variables.iter().any(|((channel, _), all)| {
-            *channel == number && all.descriptions().any(|variable| variable.handle == op.handle)
+            let mut described = all.read.values().flatten();
+            *channel == number && described.any(|variable| variable.handle == op.handle)
         });
         if is_described && !self.target.client.gate().knows_handle(op.channel, op.handle) {
             // The descriptions were probably read on an earlier connection, perhaps before a

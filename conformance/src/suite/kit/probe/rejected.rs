@@ -58,12 +58,12 @@ impl Probe<'_> {
                     let verdict = rule.verdict(false);
                     by_nothing.add(rule, verdict, "an error number", found, || last.clone());
                 }
-                self.check(&rules, data.is_empty(), expected, &exchange);
+                self.check(&rules[..], data.is_empty(), expected, &exchange);
             }
             None => {
                 // A missing reply is never permitted, even to an undocumented request.
                 let rules: Vec<Rule> = rules.into_iter().map(|rule| rule.at(Level::Must)).collect();
-                self.check(&rules, false, expected, &exchange);
+                self.check(&rules[..], false, expected, &exchange);
                 if self.target.silences > 1 {
                     return Err(Stop::Judged);
                 }
