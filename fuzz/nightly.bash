@@ -4,7 +4,7 @@
 # The sources whose change voids the recorded executions of a target: those of its laws and of the code under
 # test. Seeds, dictionaries and the replay determine only where a fuzzer begins.
 SOURCES=(codec/Cargo.toml codec/src codec/tests/common fuzz/Cargo.toml fuzz/src fuzz/fuzz_targets
-    ':!fuzz/src/seeds*' ':!fuzz/src/dictionary.rs' ':!fuzz/src/replay.rs')
+    ':!fuzz/src/seeds*' ':!fuzz/src/dictionary.rs' ':!fuzz/src/replay.rs' ':!*.md')
 CODEC_SOURCES=("${SOURCES[@]}" ':!fuzz/src/bodies/tools')
 TOOL_SOURCES=("${SOURCES[@]}" conformance/src conformance/tests/common conformance/tests/program spec-vectors/src
     spec-vectors/data)
