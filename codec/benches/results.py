@@ -203,7 +203,7 @@ def sizes():
     put("size", "\n".join(lines))
 
 
-WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×", "over": "≤ {:g} more"}
+WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×"}
 
 
 def lines_of(case, counts, times):
@@ -218,7 +218,7 @@ def lines_of(case, counts, times):
         ratio = spent = ""
         if other in counts:
             pairs = [(each(counts, case.key, build), each(counts, other, build)) for build in BUILDS]
-            ratio = [f"{a - b:+,.1f}" if "over" in wanted else f"{a / b:.2f}" for a, b in pairs]
+            ratio = [f"{a / b:.2f}" for a, b in pairs]
             ratio = " / ".join(ratio)
         name = other[1] if other else ""
         if row := times.get((*case.key, name)):

@@ -42,7 +42,7 @@ fn characters_encode_as_elsewhere() {
 }
 
 /// A text of all bytes except NUL obeys the laws of texts, including the five bytes to which the code
-/// page assigns no character.
+/// page assigns no character. A character that the code page lacks is rejected.
 #[test]
 fn all_bytes_but_nul_obey_the_laws_of_texts() {
     let all: Vec<u8> = (1..=u8::MAX).collect();

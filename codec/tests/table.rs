@@ -1,5 +1,5 @@
-//! Numbers that clients and servers must agree on. The tests repeat the numbers of codes and sizes;
-//! a snapshot contains those of functions.
+//! Numbers that clients and servers must agree on. The tests repeat the numbers of ports and
+//! services, and sizes; a snapshot contains the numbers of functions.
 
 use ads_cnc::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
@@ -106,7 +106,7 @@ fn the_axis_interface_begins_at_axis_1() {
     }
 }
 
-/// Ports, tasks and services have the documented numbers (ADS-7, GEN-4). `codes.rs` tests those of
+/// Ports, tasks and services have the documented numbers (ADS-1 to ADS-3, GEN-4). `codes.rs` tests those of
 /// commands, state flags and errors.
 #[test]
 fn numbers_of_ads() {

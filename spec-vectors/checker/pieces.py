@@ -31,7 +31,11 @@ EDIT_MAX = 8  # a count and an additional item, of four bytes each
 
 
 def edit(good, bad):
-    """The length of the part in which two streams differ; 0 if one of them begins with the other."""
+    """The length of the part in which two streams differ; 0 if one of them begins with the other.
+
+    >>> edit(b"abcd", b"ab"), edit(b"abcd", b"axcd"), edit(b"abcd", b"xbcy"), edit(b"abcd", b"abxxcd"), edit(b"aaaa", b"aab")
+    (0, 1, 4, 2, 2)
+    """
     short = min(len(good), len(bad))
     front = 0
     while front < short and good[front] == bad[front]:

@@ -132,21 +132,21 @@ def check_reject(vector, read, vectors):
                 raise Bad("%s: stated %s, derived %s" % (key, stated[key], found)) from None
     else:
         raise Bad("to be rejected as %s, but its bytes decode as %s" % (stated["class"], derived))
-    if "sibling" in vector:
-        sibling = vectors.get(vector["sibling"])
-        if sibling is None:
-            raise Bad("sibling %s does not exist" % vector["sibling"])
-        if "accept" not in sibling["expect"]:
-            raise Bad("sibling %s is not accepted" % vector["sibling"])
-        if sibling["stream"] != vector["stream"]:
-            raise Bad("sibling: stream %s, not %s" % (sibling["stream"], vector["stream"]))
-        if decoder_context(sibling) != decoder_context(vector):
-            raise Bad("sibling %s: its context is %s, not %s" % (vector["sibling"], decoder_context(sibling), decoder_context(vector)))
-        good = join((s["field"], from_hex(s["hex"])) for s in sibling["segments"])
-        if good == data:
-            raise Bad("sibling %s has the same bytes" % vector["sibling"])
-        if edit(good, data) > EDIT_MAX:
-            raise Bad("sibling %s differs by more than one fault: %s, not %s" % (vector["sibling"], to_hex(data), to_hex(good)))
+    name = vector.get("sibling")
+    sibling = vectors.get(name)
+    if sibling is None:
+        raise Bad("sibling %s does not exist" % name)
+    if "accept" not in sibling["expect"]:
+        raise Bad("sibling %s is not accepted" % name)
+    if sibling["stream"] != vector["stream"]:
+        raise Bad("sibling: stream %s, not %s" % (sibling["stream"], vector["stream"]))
+    if decoder_context(sibling) != decoder_context(vector):
+        raise Bad("sibling %s: its context is %s, not %s" % (name, decoder_context(sibling), decoder_context(vector)))
+    good = join((s["field"], from_hex(s["hex"])) for s in sibling["segments"])
+    if good == data:
+        raise Bad("sibling %s has the same bytes" % name)
+    if edit(good, data) > EDIT_MAX:
+        raise Bad("sibling %s differs by more than one fault: %s, not %s" % (name, to_hex(data), to_hex(good)))
 
 
 def check(vector, vectors):

@@ -225,7 +225,8 @@ pub struct ServiceStep {
     /// Request state, in decimal; `None` for 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub request_state: Option<String>,
-    /// How the program waits; `None` if it waits without a limit.
+    /// The parameters of the cycle SysServiceWait with which the program waits; `None` if it waits,
+    /// without a limit, until RESPONSE_STATE is not 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wait: Option<WaitParameters>,
     /// The response, without a NUL.

@@ -121,6 +121,13 @@ fn invalid_documents_are_rejected() {
                     d["vectors"][0]["segments"][0]["hex"] = json!("562e4500");
                 }),
                 ("positional ID", |d| d["vectors"][0]["id"] = json!("Case #1")),
+                ("ID without a letter", |d| d["vectors"][0]["id"] = json!("12-34")),
+                ("rejected without a sibling", |d| {
+                    let mut all = d["vectors"].as_array_mut().expect("vectors").iter_mut();
+                    let rejected = all.find(|one| one["sibling"].is_string());
+                    let rejected = rejected.and_then(|one| one.as_object_mut());
+                    rejected.expect("a rejected vector").remove("sibling");
+                }),
                 ("unknown stream", |d| d["vectors"][0]["stream"] = json!("x")),
                 ("no segments", |d| d["vectors"][0]["segments"] = json!([])),
                 ("accepted and rejected", |d| {
@@ -144,6 +151,7 @@ fn invalid_documents_are_rejected() {
             "data/sequences/nc-text.json",
             &[
                 ("unknown field", |d| d["cases"][0]["kind"] = json!("nc-text")),
+                ("ID without a letter", |d| d["cases"][0]["id"] = json!("12-34")),
                 ("no packets", |d| d["cases"][0]["expect"]["accept"] = json!({})),
                 ("sibling of an accepted one", |d| {
                     d["cases"][0]["sibling"] = json!("text-lf");

@@ -235,14 +235,25 @@ fn device_information_is_optional() {
     }
 }
 
-/// A run whose output cannot be written ends with exit code 70.
+/// A command whose output cannot be written ends with exit code 70.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_lost_report_is_an_error() {
-    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-    let status = command.stdout(full).stderr(std::process::Stdio::null()).status().unwrap();
-    assert_eq!(status.code(), Some(70));
+fn lost_output_is_an_error() {
+    let commands: [&[&str]; 6] = [
+        &[],
+        &["client", "--list-defects"],
+        &["completions", "bash"],
+        &["requirements"],
+        &["serve", "--list-defects"],
+        &["serve", "--print-model"],
+    ];
+    for args in commands {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+        let output = command.args(args).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(70), "{args:?}");
+        assert!(text(&output.stderr).contains("cannot write the output: "), "{args:?}");
+    }
 }
 
 /// An unreachable device has exit code 3, wrong usage exit code 2.
