@@ -11,6 +11,7 @@ mod path;
 mod stream;
 mod typed_values;
 
+pub(crate) use address::hyphenated;
 pub use decoded::{CodecError, Decoded};
 use fields::{collect, data, name, numbers, one, record, text_tagged, uns16, uns32};
 

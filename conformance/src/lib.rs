@@ -35,8 +35,8 @@
 //! | [`deadline`] | when a tool stops sending requests |
 //! | [`value_format`] | the type by which values are shown |
 //! | [`exit`] | the exit codes |
-//! | [`text`] | hex, escapes, durations, patterns of names, JSON |
-//! | [`number`], [`mutex`] | converts numbers and lengths, and forms a digest of bytes; locks a mutex |
+//! | [`text`] | hex, escapes, durations, patterns of names, JSON, errors of files |
+//! | [`number`], [`mutex`] | converts numbers, lengths and bytes, and forms a digest of bytes; locks a mutex |
 //!
 //! The simulated CNC encodes the headers and streams that it sends with [`ads_cnc`]. To detect
 //! errors of [`ads_cnc`], [`client_suite`] also compares requests with bytes that [`ads_cnc`] did

@@ -9,6 +9,7 @@ use clap::Args;
 use serde::Deserialize;
 
 use super::message::print_error;
+use super::report_output::{lost, show};
 use crate::client_suite::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };
@@ -51,7 +52,7 @@ impl ClientCommandArgs {
     /// executes the action in `ADS_CNC_DO`; with --list-defects, lists the defects.
     pub(super) fn execute(&self) -> Exit {
         if self.list_defects {
-            return written(list());
+            return show(list).map_or_else(lost, |()| Exit::Success);
         }
         let defect = match self.defect.as_deref().map(|id| (id, client_suite::find_defect(id))) {
             Some((id, None)) => {
@@ -80,8 +81,7 @@ fn written(done: io::Result<()>) -> Exit {
     }
 }
 
-fn list() -> io::Result<()> {
-    let mut out = io::stdout().lock();
+fn list(out: &mut dyn io::Write) -> io::Result<()> {
     client_suite::defects().iter().try_for_each(|defect| {
         writeln!(out, "{:<30} {:<7} {defect}", defect.id, defect.requirement)
     })

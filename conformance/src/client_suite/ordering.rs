@@ -268,5 +268,6 @@ fn saw(exchange: &RecordedExchange) -> bool {
     exchange.sent.get(46..50).is_some_and(|state| state.iter().any(|&byte| byte != 0))
 }
 
-/// The text of the request of the NC program, which the response must repeat.
+/// The text of the request in the scenarios of the Service Interface. A client that answers the
+/// request must repeat it in its response.
 pub(super) const REQUEST: &str = "some-command";

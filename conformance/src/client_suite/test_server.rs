@@ -107,7 +107,7 @@ impl Recording {
 }
 
 /// The number of requests and connections that exceeded the limits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Overflow {
     /// Number of requests that were not recorded, and so are not judged.
     pub(super) requests: usize,

@@ -87,7 +87,7 @@ fn addressing(addressing: Addressing) -> &'static str {
 }
 
 /// The word of the vectors for a class or an attribute, such as `write-flag`.
-fn hyphenated(shown: impl Display) -> String {
+pub(crate) fn hyphenated(shown: impl Display) -> String {
     shown.to_string().to_lowercase().replace(' ', "-")
 }
 

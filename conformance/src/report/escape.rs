@@ -25,21 +25,22 @@ impl Report {
 /// Escapes all texts of a part of a report. Those with the key `lines` keep their line ends.
 fn escaped<T: Serialize + DeserializeOwned>(part: T, lines: Option<&str>) -> T {
     serde_json::to_value(part)
-        .and_then(|part| serde_json::from_value(escape_value(part, None, lines)))
+        .and_then(|part| serde_json::from_value(escape_value(part, false, lines)))
         .expect("escaping changes only the texts of a report")
 }
 
-/// Escapes a value with this key, and all keys and values in it.
-fn escape_value(value: Value, key: Option<&str>, lines: Option<&str>) -> Value {
+/// Escapes a value, and all keys and values in it. Texts with the key `lines` keep their line ends,
+/// and so does the value itself if `keeps_lines`.
+fn escape_value(value: Value, keeps_lines: bool, lines: Option<&str>) -> Value {
     match value {
-        Value::String(text) if key.is_some() && key == lines => escape_lines(&text).into(),
+        Value::String(text) if keeps_lines => escape_lines(&text).into(),
         Value::String(text) => escape(&text).into(),
         Value::Array(items) => {
-            items.into_iter().map(|item| escape_value(item, None, lines)).collect()
+            items.into_iter().map(|item| escape_value(item, false, lines)).collect()
         }
         Value::Object(fields) => fields
             .into_iter()
-            .map(|(key, value)| (escape(&key), escape_value(value, Some(&key), lines)))
+            .map(|(key, value)| (escape(&key), escape_value(value, lines == Some(&key), lines)))
             .collect(),
         value @ (Value::Null | Value::Bool(_) | Value::Number(_)) => value,
     }

@@ -143,6 +143,7 @@ pub(super) fn judge(context: &mut ExchangeJudge<'_>, answer: &AdsReply) {
 
 /// Judges a reply together with earlier replies.
 fn together(context: &mut ExchangeJudge<'_>, request: &Request<'_>, reply: Option<&Reply<'_>>) {
+    // The clause of a function determines the topic.
     match Topic::of_reply(request.function()) {
         Topic::CncCom => context.objects(request, reply),
         Topic::CncStream => context.stream(reply.is_some()),

@@ -238,6 +238,7 @@ mod tests {
             assert_eq!(cnc.exchange_axis(1, place, axis), Err(error));
         }
         assert_eq!(cnc.exchange_axis(3, 1, 1), Err(ControlError::Channel(3)));
+        assert_eq!(cnc.set_active(5, true), Err(ControlError::Channel(5)));
     }
 
     #[test]

@@ -73,7 +73,7 @@ impl Peer for InProcess {
                 answers.extend(bytes.chunks(cnc.piece()).map(<[u8]>::to_vec));
                 Ok(())
             });
-            // Like the server, close a connection after an invalid frame.
+            // Like a `Server`, close a connection after an invalid frame.
             *closed = taken.is_err();
         }
         Ok(())

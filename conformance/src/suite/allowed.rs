@@ -27,7 +27,7 @@ pub struct Unwritable {
 enum Named {
     Writable,
     ReadOnly,
-    /// The target does not have the item, which is of this kind.
+    /// The target does not have the item, or not its channel; the text says which.
     Absent(&'static str),
 }
 

@@ -20,7 +20,7 @@ struct Escaping<'w>(&'w mut dyn Write);
 
 impl Write for Escaping<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // `serde_json` writes whole characters.
+        // `serde_json` writes whole characters; otherwise, this is an error.
         let text = std::str::from_utf8(bytes).map_err(io::Error::other)?;
         for part in text.split_inclusive(|one| one != '\n' && is_escaped(one)) {
             // All escaped characters have one UTF-16 code unit.

@@ -40,6 +40,7 @@ fn element(element: Element<'_>) -> Value {
         Element::Real64(number) if number.is_finite() => number.into(),
         Element::Real64(number) => format!("{number:?}").into(),
         Element::String(text) => text.text().to_string().into(),
+        // An integer is displayed as in JSON.
         other => match other.to_string().parse() {
             Ok(integer) => Value::Number(integer),
             Err(_) => printable(&format!("{other:?}")).into(),

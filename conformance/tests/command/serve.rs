@@ -137,7 +137,7 @@ fn other_machines_need_an_option() {
     assert!(log.contains("warning: 0.0.0.0:0 is not a loopback address"), "{log}");
 }
 
-/// The error for an invalid address to listen on contains a valid address.
+/// The error for an invalid option says which values are valid.
 #[test]
 fn invalid_options_are_rejected_with_advice() {
     let serve = |options: &[&str]| {

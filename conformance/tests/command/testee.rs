@@ -1,5 +1,5 @@
 //! Codecs over the testee protocol: this project's codec, with and without a defect, and
-//! miniatures, which are small testees, most of which misbehave in the same way in every case.
+//! miniatures: small testees, most of which have one kind of wrong behaviour.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;

@@ -19,7 +19,7 @@ pub(crate) enum Answer {
 }
 
 /// Starts a fake CNC that replies to writes to the program stream as `answer` decides. Any other
-/// request closes its connection with a panic. Returns its address.
+/// request panics in the thread of its connection, which closes it. Returns its address.
 pub(crate) fn fake(answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static) -> SocketAddr {
     let answer = Mutex::new(answer);
     serving(move |frame, out| {

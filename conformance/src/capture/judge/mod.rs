@@ -46,7 +46,7 @@ struct ConnectionLoss {
     /// The number of the last packet that follows a gap, or that contains bytes that are not a
     /// frame.
     gap: Option<u64>,
-    /// The first few replies for which no request was captured.
+    /// The first [`SHOWN`] replies that belong to no waiting request.
     unasked: Vec<CapturedFrame>,
 }
 

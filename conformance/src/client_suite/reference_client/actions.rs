@@ -18,6 +18,7 @@ use super::error::ActionError;
 use super::{ClientFault, service, streaming};
 use crate::client_suite::Action;
 use crate::client_suite::message::DONE;
+use crate::codec::hyphenated;
 use crate::text::plural;
 use crate::values::{self, Type};
 
@@ -67,9 +68,8 @@ impl<'a> Arguments<'a> {
 
     /// Parses a class such as `path-preparation`.
     fn class(&mut self) -> Result<Class, ActionError> {
-        let name = self.text()?.replace('-', " ");
-        let mut all = Class::ALL.into_iter();
-        let known = all.find(|one| one.to_string().to_lowercase() == name);
+        let name = self.text()?;
+        let known = Class::ALL.into_iter().find(|one| hyphenated(one) == name);
         Ok(known.ok_or("unknown class")?)
     }
 }

@@ -19,10 +19,12 @@ fn named(offset: u32, name: &[u8], least: u32) -> ExpectedRequest {
 
 /// A scenario that reads the value of a variable by its name.
 fn value(id: &str, title: &str, name: &str, ty: &str, size: u32) -> Scenario {
-    // The characters of the names have the same codes in CP1252 as in Unicode.
-    let cp1252: Vec<u8> = name.chars().map(|one| u8::try_from(one).unwrap()).collect();
+    // The characters of these names have the same codes in CP1252 as in Latin-1, whose codes are those
+    // of Unicode.
+    let latin1 = name.chars().map(|one| u8::try_from(one).expect("a name in Latin-1"));
+    let name_bytes: Vec<u8> = latin1.collect();
     Scenario::new(format!("client-read-{id}"), title, format!("read-by-name 1 {name} {ty}"))
-        .asks(named(0x48, &cp1252, size))
+        .asks(named(0x48, &name_bytes, size))
 }
 
 fn written(id: &str, title: &str, action: &str, name: &[u8], bytes: &[u8]) -> Scenario {
@@ -275,8 +277,8 @@ fn of_axes() -> Vec<Scenario> {
 
 fn dynamic() -> Vec<Scenario> {
     let mut all = Vec::new();
-    // For each kind, `number` is the index offset of the count, and `base` that of the names.
-    for (kind, id, number, base, count, name, place, parameter) in [
+    // `count_at` is the index offset of the number of parameters, and `names_at` that of their names.
+    for (kind, id, count_at, names_at, count, name, place, parameter) in [
         ("P", "p", 2, 0x1B, 1, "P1", 1_u8, 4711.0),
         ("V.L", "vl", 3, 0x1E, 1, "V.L.depth", 1, 2.5),
         ("V.P", "vp", 4, 0x21, 2, "V.P.offset", 2, -0.125),
@@ -292,14 +294,14 @@ fn dynamic() -> Vec<Scenario> {
                 format!("The client reads the number of {kind} parameters"),
                 format!("count-parameters 1 {kind}"),
             )
-            .asks(read(552, GROUP, number, 4).of(DYN_1, DYN_1))
+            .asks(read(552, GROUP, count_at, 4).of(DYN_1, DYN_1))
             .gives(count),
             Scenario::new(
                 format!("client-parameter-name-{id}"),
                 format!("The client requests the name of a {kind} parameter, counted from 1"),
                 format!("parameter-name 1 {kind} {place}"),
             )
-            .asks(both(GROUP, base, &index, 96).of(DYN_2, DYN_5))
+            .asks(both(GROUP, names_at, &index, 96).of(DYN_2, DYN_5))
             .gives(name),
             Scenario::new(
                 format!("client-parameter-value-{id}"),
@@ -307,7 +309,7 @@ fn dynamic() -> Vec<Scenario> {
                 format!("parameter-by-name 1 {kind} {name}"),
             )
             .asks(
-                both(GROUP, base + 1, &zeroed, 8)
+                both(GROUP, names_at + 1, &zeroed, 8)
                     .of(DYN_3, DYN_6)
                     .also(&padded)
                     .tolerating(name.as_bytes()),
@@ -318,7 +320,7 @@ fn dynamic() -> Vec<Scenario> {
                 format!("The client reads a {kind} parameter by its index"),
                 format!("parameter-by-index 1 {kind} {place}"),
             )
-            .asks(both(GROUP, base + 2, &index, 8).of(DYN_4, DYN_5))
+            .asks(both(GROUP, names_at + 2, &index, 8).of(DYN_4, DYN_5))
             .gives(parameter),
         ]);
     }

@@ -25,14 +25,14 @@ pub(super) const ROWS: &[CncDefect] = &[
         "a read on the axis interface of channel 1 returns the axis that had the index before \
          axis exchange",
         |cnc, call| match (of_axis(call), function(call)) {
-            (Some((axis, offset)), Some(Function::AxisReadByName)) if group(call) & 0xFF == 1 => {
+            (Some((axis, function_offset)), Some(Function::AxisReadByName)) if group(call) & 0xFF == 1 => {
                 let place = (1..=3).find(|place| {
                     let at = place << 16 | 3;
                     let number = cnc.read(ads_cnc::ads::AmsPort::COM, 0x12_0101, at);
                     number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)
                         == Some(axis)
                 });
-                cnc.at(call, group(call), place.unwrap_or(axis) << 16 | offset)
+                cnc.at(call, group(call), place.unwrap_or(axis) << 16 | function_offset)
             }
             _ => cnc.answer(call),
         }),
