@@ -147,7 +147,7 @@ impl CheckArgs {
         let mut checked = match self.read(&mut notes) {
             Ok(checked) => checked,
             Err(why) => {
-                let why = format_args!("{}: {why}", self.file.display());
+                let why = format!("{}: {why}", self.file.display());
                 return exit_with_error(Exit::Usage, why);
             }
         };
@@ -197,7 +197,7 @@ impl CheckArgs {
         let extracted = match self.extract(&checked) {
             Ok(extracted) => extracted,
             Err(error) => {
-                let why = format_args!("the vectors could not be written: {error}");
+                let why = format!("the vectors could not be written: {error}");
                 return exit_with_error(Exit::Usage, why);
             }
         };

@@ -93,7 +93,7 @@ impl SelfTestArgs {
             for (name, text) in files {
                 let file = folder.join(name);
                 if let Err(error) = std::fs::write(&file, text) {
-                    let why = format_args!("{}: {error}", file.display());
+                    let why = format!("{}: {error}", file.display());
                     return exit_with_error(Exit::Internal, why);
                 }
             }

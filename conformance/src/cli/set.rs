@@ -241,7 +241,7 @@ fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
         return Exit::Success;
     }
     let wrote = plain(ty, written).unwrap_or_default();
-    let why = format_args!("the CNC accepted {wrote}, but now returns another value");
+    let why = format!("the CNC accepted {wrote}, but now returns another value");
     exit_with_error(Exit::Failure, why)
 }
 

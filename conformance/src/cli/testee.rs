@@ -34,7 +34,7 @@ impl TesteeArgs {
             Err(why) => return exit_with_error(Exit::Usage, why),
         };
         if let Some(defect) = defect.as_ref().filter(|defect| !defect.is_for_codec()) {
-            let why = format_args!("{} is a defect of a CNC, not of a codec", defect.id);
+            let why = format!("{} is a defect of a CNC, not of a codec", defect.id);
             return exit_with_error(Exit::Usage, why);
         }
         let own = CodecTestee { defect };

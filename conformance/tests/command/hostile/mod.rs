@@ -279,7 +279,7 @@ fn a_device_on_which_everything_exists() {
     let ended = run(&against(&addr, &["get", "no_such_object", "--deadline", "3"]));
     assert_eq!(ended.code, Some(3), "{}", ended.stderr);
     assert!(ended.stderr.contains("the deadline of 3 s has passed"), "{}", ended.stderr);
-    let ended = run(&against(&addr, &["run", "--seed", "1", "--deadline", "20"]));
+    let ended = run(&against(&addr, &["run", "--seed", "1", "--deadline", "6"]));
     assert!(matches!(ended.code, Some(1 | 3)), "{}", ended.stderr);
 }
 
