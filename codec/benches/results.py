@@ -110,8 +110,7 @@ def listed(results):
 
 def check(results):
     """Fails if a case exceeds its limit, exceeds its committed count by more than 5 %, or lacks a committed
-    count, or if a committed count has no case. Checks only the limits if the committed counts are for a
-    different
+    count, or if a committed count has no case. Checks only the limits if the committed counts are for a different
     toolchain."""
     counts, cases = counted(results), listed(results)
     faults = [text for build in BUILDS for text in missed(cases, counts, build)]
@@ -203,7 +202,7 @@ def sizes():
     put("size", "\n".join(lines))
 
 
-WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×"}
+WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×", "over": "≤ {:g} more"}
 
 
 def lines_of(case, counts, times):

@@ -106,7 +106,7 @@ fn the_axis_interface_begins_at_axis_1() {
     }
 }
 
-/// Ports, tasks and services have the documented numbers (ADS-1 to ADS-3, GEN-4). `codes.rs` tests those of
+/// Ports, tasks and services have the documented numbers (GEN-4, ADS-5). `codes.rs` tests those of
 /// commands, state flags and errors.
 #[test]
 fn numbers_of_ads() {

@@ -29,7 +29,7 @@ pub fn digest(bytes: &[u8]) -> u64 {
     digest_more(BASIS, bytes)
 }
 
-/// Continues a digest: returns that of the bytes with this digest followed by these bytes.
+/// The digest of bytes in two parts: `digest` is that of the first part, and `bytes` are the rest.
 pub(crate) fn digest_more(digest: u64, bytes: &[u8]) -> u64 {
     let next = |digest: u64, &byte: &u8| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3);
     bytes.iter().fold(digest, next)

@@ -81,7 +81,7 @@ impl Frames {
         self.emit_skipped(out);
     }
 
-    /// Removes one frame, or bytes that are not a frame, from the buffer and emits an event; returns
+    /// Removes one frame, or bytes that are not a frame, from the buffer and emits an event. Returns
     /// whether another event may follow.
     fn step(&mut self, direction: SegmentDirection, out: &mut Vec<ConnectionEvent>) -> bool {
         if self.is_lost {

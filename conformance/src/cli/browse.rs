@@ -7,7 +7,8 @@ use clap::{Args, ValueEnum};
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name_args::{no_channel, print};
+use super::name_args::no_channel;
+use super::output::print;
 use super::progress::ProgressLine;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::exit::Exit;

@@ -8,8 +8,8 @@ use std::time::Duration;
 use clap::Args;
 use serde::Deserialize;
 
-use super::message::print_error;
-use super::report_output::{lost, show};
+use super::message::exit_with_error;
+use super::output::print_output;
 use crate::client_suite::{
     self, Action, ActionResult, ClientHello, ClientReaction, CncAddress, ReferenceClient,
 };
@@ -52,15 +52,14 @@ impl ClientCommandArgs {
     /// executes the action in `ADS_CNC_DO`; with --list-defects, lists the defects.
     pub(super) fn execute(&self) -> Exit {
         if self.list_defects {
-            return show(list).map_or_else(lost, |()| Exit::Success);
+            return print_output(list);
         }
         let defect = match self.defect.as_deref().map(|id| (id, client_suite::find_defect(id))) {
             Some((id, None)) => {
                 let near = did_you_mean(id, client_suite::defects().iter().map(|defect| defect.id));
-                print_error(format_args!(
-                    "no defect has the ID {id}{near}; client --list-defects shows all"
-                ));
-                return Exit::Usage;
+                let why =
+                    format!("no defect has the ID {id}{near}; client --list-defects shows all");
+                return exit_with_error(Exit::Usage, why);
             }
             Some((_, defect)) => defect,
             None => None,
@@ -74,10 +73,7 @@ fn written(done: io::Result<()>) -> Exit {
     match done {
         Ok(()) => Exit::Success,
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
-        Err(error) => {
-            print_error(format_args!("stdin or stdout: {error}"));
-            Exit::Internal
-        }
+        Err(error) => exit_with_error(Exit::Internal, format_args!("stdin or stdout: {error}")),
     }
 }
 

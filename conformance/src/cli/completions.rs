@@ -3,7 +3,7 @@
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use super::report_output::{lost, show};
+use super::output::print_output;
 use crate::exit::Exit;
 
 /// Print a script that completes the command line in a shell
@@ -29,6 +29,6 @@ impl Completions {
     pub(super) fn execute(&self, mut command: Command) -> Exit {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut command, "ads-cnc", &mut script);
-        show(|out| out.write_all(&script)).map_or_else(lost, |()| Exit::Success)
+        print_output(|out| out.write_all(&script))
     }
 }

@@ -16,7 +16,7 @@ use super::check::compressed;
 use super::display::Color;
 use super::message::{exit_with_error, print_error};
 use super::name_args::number;
-use super::report_output::{lost, show};
+use super::output::{lost, print_output, show};
 use crate::exit::Exit;
 use crate::explain::{
     ExplainQuery, ExplainSubject, Explanation, ServiceAddress, ValueFormat, candidates, explain,
@@ -162,7 +162,7 @@ impl Explain {
     /// Explains the bytes, or lists the streams, and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         if self.list {
-            return show(list).map_or_else(lost, |()| Exit::Success);
+            return print_output(list);
         }
         let explanation = match self.explanation() {
             Ok(explanation) => explanation,

@@ -4,7 +4,8 @@ use clap::Args;
 
 use super::message::print_error;
 use super::model::ModelArgs;
-use super::name_args::{NameArgs, headline, print};
+use super::name_args::{NameArgs, headline};
+use super::output::print;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use crate::exit::Exit;
 use crate::named::find;

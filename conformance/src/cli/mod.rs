@@ -15,6 +15,7 @@ mod model;
 mod name_args;
 mod not_sent;
 mod numbers;
+mod output;
 mod progress;
 mod repeat_command;
 mod report;

@@ -1,7 +1,6 @@
 //! Options of the commands that take a name (`get` and `set`), and functions that other commands
 //! use too.
 
-use std::io::{self, Write};
 use std::time::Duration;
 
 use ads_cnc::address::{Channel, ChannelAxis};
@@ -10,7 +9,6 @@ use ads_cnc::value::DataType;
 use clap::Args;
 
 use super::model::ModelArgs;
-use super::report_output::{not_written, show};
 use super::target::{ChannelArgs, TargetArgs};
 use crate::deadline::Deadline;
 use crate::named::{Lookup, by_name_alone};
@@ -237,11 +235,6 @@ fn given_name(text: &str) -> Result<String, String> {
 fn axis(text: &str) -> Result<ChannelAxis, String> {
     let place = text.parse().map_err(|_| "expected a number".to_owned())?;
     ChannelAxis::new(place).map_err(|error| error.to_string())
-}
-
-/// Writes to stdout; a broken pipe is not an error.
-pub(super) fn print(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), ToolError> {
-    show(make).map_err(|error| ToolError::Internal(not_written(error)))
 }
 
 /// Parses a number of 32 bits, decimal or in hex with 0x.

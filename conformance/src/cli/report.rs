@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::display::DisplayArgs;
 use super::message::exit_with_error;
-use super::report_output::{ReportFormats, is_stdout, lost, show, write};
+use super::output::{is_stdout, lost, show, write};
+use super::report_output::ReportFormats;
 use crate::exit::Exit;
 use crate::report::{self, Report};
 use crate::text::utf8;

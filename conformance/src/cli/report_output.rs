@@ -1,12 +1,13 @@
 //! The options of `run`, `check` and `report` for the formats of a report, and their output.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::message::{exit_with_error, print_error};
+use super::message::print_error;
+use super::output::{is_stdout, lost, show, write};
 use crate::client_suite;
 use crate::exit::Exit;
 use crate::judge::Waivers;
@@ -161,45 +162,6 @@ fn writable(file: &Path) -> Result<(), String> {
         let _gone = fs::remove_file(file);
     }
     Ok(())
-}
-
-/// Whether the file name is `-`, which is stdout.
-pub(super) fn is_stdout(file: &Path) -> bool {
-    file.as_os_str() == "-"
-}
-
-/// Writes to a file, or to stdout if its name is `-`.
-pub(super) fn write(
-    file: &Path,
-    make: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    if is_stdout(file) {
-        return show(make);
-    }
-    let named =
-        |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", file.display()));
-    let mut out = BufWriter::new(File::create(file).map_err(named)?);
-    make(&mut out).and_then(|()| out.flush()).map_err(named)
-}
-
-/// Writes to stdout; a broken pipe is not an error.
-pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut out = BufWriter::new(io::stdout().lock());
-    // Ignore a closed pipe: the exit code must depend on the result, not on the reader of stdout.
-    make(&mut out).and_then(|()| out.flush()).or_else(|error| match error.kind() {
-        io::ErrorKind::BrokenPipe => Ok(()),
-        _ => Err(error),
-    })
-}
-
-/// Prints that the output cannot be written, and returns the exit code of an internal error.
-pub(super) fn lost(error: io::Error) -> Exit {
-    exit_with_error(Exit::Internal, not_written(error))
-}
-
-/// The message for output that cannot be written.
-pub(super) fn not_written(error: io::Error) -> String {
-    format!("cannot write the output: {error}")
 }
 
 fn waivers(file: &Path) -> Result<Waivers, String> {

@@ -6,7 +6,7 @@ use ads_cnc::operation::Function;
 use ads_cnc_vectors::{Erratum, erratum};
 
 use super::message::{exit_with_error, print_error};
-use super::report_output::{lost, show};
+use super::output::print_output;
 use crate::exit::Exit;
 use crate::judge::{clauses_of, matches, names, sections};
 use crate::matrix::{self, RequirementRow};
@@ -74,8 +74,7 @@ impl Requirements {
             RequirementsFormat::Sections => Ok(matrix::to_sections(&rows)),
             RequirementsFormat::Json => serde_json::to_string_pretty(&rows).map(|json| json + "\n"),
         };
-        let shown = show(|out| out.write_all(text?.as_bytes()));
-        shown.map_or_else(lost, |()| Exit::Success)
+        print_output(|out| out.write_all(text?.as_bytes()))
     }
 
     fn words(&self) -> impl Iterator<Item = &String> {

@@ -20,9 +20,10 @@ use super::display::DisplayArgs;
 use super::list;
 use super::message::{exit_with_error, print_error};
 use super::numbers::whole;
+use super::output::{lost, print_output, show, write};
 use super::progress::Watch;
 use super::repeat_command::again;
-use super::report_output::{Reports, WAIVER, lost, show, write};
+use super::report_output::{Reports, WAIVER};
 use super::run_client::ClientArgs;
 use super::run_testee;
 use super::serve::find_defect;
@@ -208,7 +209,6 @@ fn lossy(argument: OsString) -> String {
 enum Stopped {
     Usage(String),
     Target(ToolError),
-    Unmatched(Unmatched),
 }
 
 impl From<ToolError> for Stopped {
@@ -219,7 +219,7 @@ impl From<ToolError> for Stopped {
 
 impl From<Unmatched> for Stopped {
     fn from(unmatched: Unmatched) -> Self {
-        Self::Unmatched(unmatched)
+        Self::Usage(unmatched.to_string())
     }
 }
 
@@ -236,8 +236,7 @@ impl Run {
             } else {
                 profile::EXAMPLE.to_owned()
             };
-            let printed = show(|out| out.write_all(text.as_bytes()));
-            return printed.map_or_else(lost, |()| Exit::Success);
+            return print_output(|out| out.write_all(text.as_bytes()));
         }
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
             // An invalid file for --allow-write is an error even without a target.
@@ -329,7 +328,6 @@ impl Run {
                 }
                 error.exit()
             }
-            Err(Stopped::Unmatched(why)) => exit_with_error(Exit::Usage, why),
         }
     }
 

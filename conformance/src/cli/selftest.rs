@@ -8,8 +8,8 @@ use clap::Args;
 
 use super::message::{exit_with_error, print_error};
 use super::numbers::whole;
+use super::output::{is_stdout, lost, show, write};
 use super::progress::{LOG_INTERVAL, ProgressLine, UPDATE_INTERVAL, progress_text};
-use super::report_output::{is_stdout, lost, show, write};
 use crate::exit::Exit;
 use crate::judge::any_seed;
 use crate::mutex::lock;

@@ -11,7 +11,7 @@ use super::executed::{self, ExecutedTo};
 use super::message::{exit_with_error, print_error};
 use super::model::ModelArgs;
 use super::numbers::whole;
-use super::report_output::{lost, show};
+use super::output::print_output;
 use super::target::net_id;
 use crate::exit::Exit;
 use crate::faults::{self, Faulty, SeededDefect};
@@ -106,8 +106,7 @@ pub(super) fn serve(args: &ServeArgs) -> Exit {
         return list_defects(part);
     }
     if args.print_model {
-        let shown = show(|out| out.write_all(DEFAULT_MODEL.as_bytes()));
-        return shown.map_or_else(lost, |()| Exit::Success);
+        return print_output(|out| out.write_all(DEFAULT_MODEL.as_bytes()));
     }
     if let Err(why) = check_address(args.listen, args.allow_remote) {
         return exit_with_error(Exit::Usage, why);
@@ -247,13 +246,12 @@ fn list_defects(part: &str) -> Exit {
             format!("no defect contains {part} in its ID or violates the requirement {part}{near}");
         return exit_with_error(Exit::Usage, why);
     }
-    let shown = show(|out| {
+    print_output(|out| {
         for defect in listed {
             writeln!(out, "{}\t{}\t{defect}", defect.id, defect.requirements.join(" "))?;
         }
         Ok(())
-    });
-    shown.map_or_else(lost, |()| Exit::Success)
+    })
 }
 
 /// The defect with this ID; `None` without an ID.

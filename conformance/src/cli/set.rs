@@ -12,8 +12,9 @@ use clap::Args;
 
 use super::message::{exit_with_error, print_error};
 use super::model::ModelArgs;
-use super::name_args::{NameArgs, print};
+use super::name_args::NameArgs;
 use super::not_sent;
+use super::output::print;
 use super::target::{
     DeadlineArgs, REACHING_A_DEVICE, TargetArgs, WHAT_MAY_BE_WRITTEN, simulator_gate,
 };

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use clap::Args;
 
-use super::report_output::{lost, show};
+use super::output::print_output;
 use crate::exit::Exit;
 use crate::tables::{self, OffsetTable, Tables};
 use crate::text::plural;
@@ -56,23 +56,21 @@ impl TablesArgs {
     /// Prints the tables and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
         let tables = Tables::new();
-        let shown = show(|out| match (self.json, self.ksy) {
+        print_output(|out| match (self.json, self.ksy) {
             (true, _) => crate::text::json::write(&tables, out),
             (false, true) => out.write_all(tables::kaitai_struct(&tables).as_bytes()),
             (false, false) => print(&tables, out),
-        });
-        shown.map_or_else(lost, |()| Exit::Success)
+        })
     }
 }
 
 impl WiresharkArgs {
     /// Prints the dissector and returns the exit code.
     pub(super) fn execute(&self) -> Exit {
-        let shown = show(|out| {
+        print_output(|out| {
             let script = tables::dissector(&Tables::new()).map_err(io::Error::other)?;
             out.write_all(script.as_bytes())
-        });
-        shown.map_or_else(lost, |()| Exit::Success)
+        })
     }
 }
 

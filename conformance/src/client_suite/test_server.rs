@@ -17,7 +17,7 @@ use crate::client::Tap;
 use crate::judge::Stop;
 use crate::mutex::lock;
 use crate::net;
-use crate::number::to_usize;
+use crate::number::{to_usize, u32_at};
 use crate::simulator::{FRAME_MAX, NET_ID};
 use crate::text::plural;
 
@@ -439,8 +439,7 @@ impl TestRun {
 /// The length of a frame according to its AMS/TCP header; `None` if the header is incomplete. The
 /// header is read without the codec, which judges the frame later.
 fn frame_len(received: &[u8]) -> Option<usize> {
-    let length = received.get(2..6)?.try_into().ok()?;
-    Some(to_usize(u32::from_le_bytes(length)).saturating_add(6))
+    Some(to_usize(u32_at(received, 2)?).saturating_add(6))
 }
 
 #[cfg(test)]

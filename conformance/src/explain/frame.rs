@@ -15,7 +15,7 @@ use super::codes;
 use super::explanation::{ExplainedFault, ExplainedStream, ServiceAddress};
 use super::part;
 use crate::ads_service::{reply_stream, request_stream, service_of};
-use crate::number::{to_u32, to_usize};
+use crate::number::{to_u32, to_usize, u32_at};
 use crate::text::plural;
 use crate::value_format::ValueFormat;
 
@@ -252,7 +252,7 @@ fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
     // An error after the field is irrelevant here.
     let _fault = stream.walk(bytes, |segment| {
         if segment.field.name() == field {
-            number = segment.bytes.first_chunk().map(|le| u32::from_le_bytes(*le));
+            number = u32_at(segment.bytes, 0);
         }
     });
     number

@@ -1,16 +1,17 @@
 //! Seeded defects of a codec or a CNC, and valid variants of a CNC.
 //!
-//! A seeded defect is a defect or a variant: middleware around the codec or the simulated CNC, or another
-//! data model or policy of the CNC. They test the suite. With a valid variant, no requirement may
-//! fail. With a defect, at least one of the requirements that it violates must fail or, below the
-//! level *must*, have a warning or a difference. Exceptions are defects that change no byte, or for
-//! which the self-test (`selftest`) states a reason.
+//! A [`SeededDefect`] is a defect or a valid variant: middleware around the codec or the simulated
+//! CNC, or another data model or policy of the CNC. Seeded defects test the suite. With a valid
+//! variant, no requirement may fail. With a defect, at least one of the requirements that it
+//! violates must fail or, below the level *must*, have a warning or a difference. Exceptions are
+//! defects that change no byte, or for which the self-test (`selftest`) states a reason.
 //!
 //! ```
 //! use ads_cnc_conformance::faults::{self, DefectKind};
 //!
 //! let defect = faults::by_id("variable-description.size.flip").unwrap();
-//! assert_eq!((defect.kind, &defect.requirements[..]), (DefectKind::Codec, &["VAR-4", "VAR-8"][..]));
+//! assert_eq!(defect.kind, DefectKind::Codec);
+//! assert_eq!(defect.requirements, ["VAR-4", "VAR-8"]);
 //! ```
 
 mod cnc;

@@ -25,8 +25,8 @@ pub struct SeededDefect {
     /// The only edition in which the defect is detectable; `None` if the defect is not limited to
     /// an edition.
     pub edition: Option<Edition>,
-    /// Whether the CNC with this seeded defect claims to reply literally as in the manuals' printed examples
-    /// (`printed_examples` of its profile). False for some valid variants.
+    /// Whether the CNC with this seeded defect claims to reply literally as in the manuals' printed
+    /// examples (`printed_examples` of its profile). False for some valid variants.
     pub printed: bool,
     pub(super) how: Mechanism,
 }
@@ -92,7 +92,7 @@ impl SeededDefect {
         }
     }
 
-    /// The field defect; `None` for any other defect.
+    /// The field defect; otherwise `None`.
     pub fn field(&self) -> Option<&FieldDefect> {
         match &self.how {
             Mechanism::Field(defect) => Some(defect),
@@ -100,7 +100,7 @@ impl SeededDefect {
         }
     }
 
-    /// The defect that changes a codec's answers in the testee protocol; `None` for any other defect.
+    /// The defect that changes a codec's answers in the testee protocol; otherwise `None`.
     pub(crate) const fn of_codec(&self) -> Option<CodecFault> {
         match self.how {
             Mechanism::Codec(fault) => Some(fault),
@@ -113,7 +113,7 @@ impl SeededDefect {
         matches!(self.how, Mechanism::Field(_) | Mechanism::Cnc(_))
     }
 
-    /// The data model of a variant that replaces the model of the CNC; `None` for any other defect.
+    /// The data model of a variant that replaces the model of the CNC; otherwise `None`.
     pub(crate) const fn own_model(&self) -> Option<&'static str> {
         match self.how {
             Mechanism::Cnc(CncFault::Model(model)) => Some(model),

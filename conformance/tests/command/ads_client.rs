@@ -110,20 +110,25 @@ fn invalid_requests_return_error_numbers() {
     }
     // The group of the names of elements supports only Read, so ReadWrite is rejected.
     assert_eq!(rejected(0x12_2401, 0x44, b"V.E\0"), 0x701);
-    assert_eq!(rejected(CHANNEL_1, 0x7FFF, b"V.E\0"), 0x703);
-    assert_eq!(rejected(CHANNEL_1, 0x46, b"V.E.nobody\0"), 0x710);
-    assert_eq!(rejected(CHANNEL_1, 0x48, b"V.E.nobody\0"), 0x710);
-    assert_eq!(rejected(CHANNEL_1, 0x44, b"V.X\0"), 0x710);
-    assert_eq!(rejected(CHANNEL_1, 0x45, b"\x7B\0\0\0V.E\0"), 0x706);
-    assert_eq!(rejected(CHANNEL_1, 0x47, b"\xFF\xFF\xFF\x7F\0\0\0\0"), 0x706);
-    assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x01\0\0\0\x05\0\0\0"), 0x706);
-    assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x02\0\0\0\0\0\0\0\0\0\0\0"), 0x706);
-    assert_eq!(rejected(CHANNEL_1, 0x48, b"V.E.test[5]\0"), 0x706);
-    // Requests and read lengths of the wrong size.
-    assert_eq!(rejected(CHANNEL_1, 0x44, b"V.E"), 0x705);
-    assert_eq!(rejected(CHANNEL_1, 0x45, b"\x02\0\0"), 0x705);
-    assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02"), 0x705);
-    assert_eq!(rejected(CHANNEL_1, 0x47, b"\x34\x12\0\x02\xFF\xFF\xFF\xFF"), 0x705);
+    // Unknown offsets, names and kinds; indices and handles that do not exist; wrong sizes.
+    for (offset, data, error) in [
+        (0x7FFF, &b"V.E\0"[..], 0x703),
+        (0x46, b"V.E.nobody\0", 0x710),
+        (0x48, b"V.E.nobody\0", 0x710),
+        (0x44, b"V.X\0", 0x710),
+        (0x45, b"\x7B\0\0\0V.E\0", 0x706),
+        (0x47, b"\xFF\xFF\xFF\x7F\0\0\0\0", 0x706),
+        (0x47, b"\x34\x12\0\x02\x01\0\0\0\x05\0\0\0", 0x706),
+        (0x47, b"\x34\x12\0\x02\x02\0\0\0\0\0\0\0\0\0\0\0", 0x706),
+        (0x48, b"V.E.test[5]\0", 0x706),
+        (0x44, b"V.E", 0x705),
+        (0x45, b"\x02\0\0", 0x705),
+        (0x47, b"\x34\x12\0\x02", 0x705),
+        (0x47, b"\x34\x12\0\x02\xFF\xFF\xFF\xFF", 0x705),
+    ] {
+        assert_eq!(rejected(CHANNEL_1, offset, data), error, "{offset:#x} {data:x?}");
+    }
+    // Read lengths of the wrong size.
     assert_eq!(sda.ask_for(CHANNEL_1, 0x44, b"V.E\0", 3), Err(0x705));
     assert_eq!(sda.ask_for(CHANNEL_1, 0x48, b"V.E.test\0", 19), Err(0x705));
     // Requests to COM with a wrong size, or an object, channel or axis that does not exist.

@@ -1,18 +1,10 @@
 //! Messages of the command. A message about a wrong argument, for example, states which argument is
 //! wrong, what is expected, and what was found.
 
-use std::process::Command;
-
 use ads_cnc_conformance::net;
 
 use crate::common::file::TestFile;
-
-/// The exit code, stdout and stderr of a call.
-fn run_tool(args: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
+use crate::common::run_tool;
 
 #[test]
 fn a_number_out_of_range_is_named_with_its_range() {

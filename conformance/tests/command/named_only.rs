@@ -3,20 +3,20 @@
 //! defect has changed them.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
+use std::io::{BufRead as _, BufReader, Write as _};
 use std::net::{SocketAddr, TcpStream};
 use std::process::{Command, Output};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 
-use crate::common::file::{MemoryFile, TestFile};
+use crate::common::Serve;
+use crate::common::file::{HEAD, MemoryFile, TestFile};
 use crate::common::harmless::number;
-use crate::common::{Serve, connect};
+use crate::common::proxy::{frame, proxy_by};
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::faults::{self, Faulty, SeededDefect};
 use ads_cnc_conformance::gate::{Allowed, Gate};
 use ads_cnc_conformance::judge::Selection;
-use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, LocalCnc, Model, NET_ID};
 use ads_cnc_conformance::suite;
@@ -99,8 +99,7 @@ fn written(model: Model, defect: &SeededDefect, named: &Named) -> BTreeSet<Strin
     tracing::subscriber::with_default(log, || {
         let cnc = Cnc::new(model).with_stopped_clock();
         let cnc = Arc::new(Faulty::new(cnc, Some(defect)));
-        let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
-        let allowed = Allowed::from_toml(&format!("{head}{}", named.table)).unwrap();
+        let allowed = Allowed::from_toml(&format!("{HEAD}{}", named.table)).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed));
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
         let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID)).unwrap();
@@ -179,36 +178,11 @@ fn the_command_writes_nothing_else() {
     }
 }
 
-/// Reads a complete frame.
-fn frame(stream: &mut TcpStream) -> io::Result<Vec<u8>> {
-    let mut frame = vec![0; 6];
-    stream.read_exact(&mut frame)?;
-    frame.resize(6 + number(&frame, 2) as usize, 0);
-    stream.read_exact(&mut frame[6..])?;
-    Ok(frame)
-}
-
 /// Starts a proxy that serves one connection after the other. It forwards each reply of the CNC
 /// after `change` has changed it, and closes the connection after a reply for which `change` returns
 /// false. Returns its address.
 fn lying(cnc: &str, mut change: impl FnMut(&[u8], &mut [u8]) -> bool + Send + 'static) -> String {
-    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
-    let (addr, cnc) = (listener.local_addr().unwrap(), cnc.parse().unwrap());
-    thread::spawn(move || {
-        for client in listener.incoming() {
-            // Either side may disconnect at any time.
-            let _gone = forward(&mut client.unwrap(), &mut connect(cnc), &mut change);
-        }
-    });
-    addr.to_string()
-}
-
-fn forward(
-    client: &mut TcpStream,
-    cnc: &mut TcpStream,
-    change: &mut impl FnMut(&[u8], &mut [u8]) -> bool,
-) -> io::Result<()> {
-    loop {
+    let forward = move |mut client: &TcpStream, mut cnc: &TcpStream| loop {
         let request = frame(client)?;
         cnc.write_all(&request)?;
         let mut reply = frame(cnc)?;
@@ -217,7 +191,8 @@ fn forward(
         if !continues {
             return Ok(());
         }
-    }
+    };
+    proxy_by(cnc.parse().unwrap(), forward).to_string()
 }
 
 /// The offset of the data in a reply frame, after the headers, the result and the length.

@@ -2,26 +2,20 @@
 //! commands as a user does.
 
 use std::collections::BTreeSet;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use crate::common::Serve;
 use crate::common::fake::{Answer, fake};
 use crate::common::file::TestFile;
 use crate::common::proxy::{FrameHandling, is_write, proxy};
-use crate::common::text;
+use crate::common::{Serve, ads_cnc, text};
 use ads_cnc::ads::{AdsError, Command as AdsCommand};
 use ads_cnc_conformance::gate::Moment;
 
-fn tool(args: &[&str]) -> Output {
-    let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-    tool.args(args).stdin(Stdio::null()).output().unwrap()
-}
-
 fn against(addr: &str, args: &[&str]) -> Output {
-    tool(&[args, &["--target", addr, "--net-id", "127.0.0.1.1.1"]].concat())
+    ads_cnc(&[args, &["--target", addr, "--net-id", "127.0.0.1.1.1"]].concat())
 }
 
 /// A file for `--allow-write` that expires after `seconds`.
@@ -99,7 +93,7 @@ fn a_missing_file_is_an_error() {
     ];
     for command in commands {
         let (name, rest) = command.split_first().unwrap();
-        let ended = tool(&[&[*name, "--allow-write", "/no/such/file.toml"], rest].concat());
+        let ended = ads_cnc(&[&[*name, "--allow-write", "/no/such/file.toml"], rest].concat());
         assert_eq!(ended.status.code(), Some(2), "{command:?}: {}", text(&ended.stderr));
         assert!(text(&ended.stderr).contains("/no/such/file.toml"), "{}", text(&ended.stderr));
     }
@@ -128,6 +122,18 @@ fn a_stream_ends_when_its_file_expires() {
     let shown = text(&ended.stdout);
     assert!(shown.contains("accepted lines 1 to "), "{shown}");
     assert!(shown.ends_with(" to 1000\n") && shown.contains("not sent or not accepted"), "{shown}");
+}
+
+/// Before each further value, the time until the expiry must suffice to restore all changed values:
+/// here, it suffices for one value.
+#[test]
+fn the_time_to_restore_is_that_of_all_changed_values() {
+    let (cnc, file) = (Serve::start(&[]), expiring("[[service]]\nchannel = 1\n", 200));
+    let run = ["run", "--only", "service-response", "--timeout", "1000"];
+    let ended = against(&cnc.addr, &[&run[..], &["--allow-write", file.path()]].concat());
+    let shown = text(&ended.stdout);
+    assert!(shown.contains("service-response: restoring 2 values may take 256 s"), "{shown}");
+    assert_eq!(ended.status.code(), Some(4), "{shown}");
 }
 
 const STREAM: &str = "[[stream]]\nchannel = 1\n";

@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
 
+/// The beginning of a file for --allow-write for a CNC on this machine.
+pub(crate) const HEAD: &str = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
+
 /// A temporary file that is removed when this value is dropped.
 pub(crate) struct TestFile(pub(crate) PathBuf);
 
@@ -18,8 +21,7 @@ impl TestFile {
 
     /// Creates a file for --allow-write for a CNC on this machine with the AMS NetId 127.0.0.1.1.1.
     pub(crate) fn allowing(table: &str) -> Self {
-        let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
-        Self::new(".toml", format!("{head}{table}").as_bytes())
+        Self::new(".toml", format!("{HEAD}{table}").as_bytes())
     }
 
     pub(crate) fn path(&self) -> &str {

@@ -22,6 +22,12 @@ pub(crate) fn ads_cnc(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
 }
 
+/// The exit code, stdout and stderr of the command with these arguments.
+pub(crate) fn run_tool(args: &[&str]) -> (Option<i32>, String, String) {
+    let output = ads_cnc(args);
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
 /// An output as text, which must be UTF-8.
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()

@@ -28,21 +28,30 @@ pub(crate) enum FrameHandling {
     Reject,
 }
 
-/// Starts a proxy that forwards connections to a CNC one after the other and calls `handling` for
-/// each frame of the tool. Returns the address of the proxy.
-pub(crate) fn proxy(
+/// Starts a proxy that handles connections to a CNC one after the other by `pass`. Returns the address
+/// of the proxy.
+pub(crate) fn proxy_by(
     cnc: SocketAddr,
-    mut handling: impl FnMut(&FrameRef<'_>) -> FrameHandling + Send + 'static,
+    mut pass: impl FnMut(&TcpStream, &TcpStream) -> io::Result<()> + Send + 'static,
 ) -> SocketAddr {
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let addr = listener.local_addr().unwrap();
     thread::spawn(move || {
         for client in listener.incoming() {
             // Either side may disconnect at any time.
-            let _gone = pass(&client.unwrap(), &connect(cnc), &mut handling);
+            let _gone = pass(&client.unwrap(), &connect(cnc));
         }
     });
     addr
+}
+
+/// Starts a proxy that forwards connections to a CNC one after the other and calls `handling` for
+/// each frame of the tool. Returns the address of the proxy.
+pub(crate) fn proxy(
+    cnc: SocketAddr,
+    mut handling: impl FnMut(&FrameRef<'_>) -> FrameHandling + Send + 'static,
+) -> SocketAddr {
+    proxy_by(cnc, move |client, cnc| pass(client, cnc, &mut handling))
 }
 
 fn pass(
@@ -50,16 +59,16 @@ fn pass(
     mut cnc: &TcpStream,
     handling: &mut impl FnMut(&FrameRef<'_>) -> FrameHandling,
 ) -> io::Result<()> {
-    let mut received = Vec::new();
-    while let Some(bytes) = frame(&mut client, &mut received)? {
+    loop {
+        let bytes = frame(client)?;
         let (frame, _) = FrameRef::split(&bytes, u32::MAX).unwrap().unwrap();
         let handling = handling(&frame);
         match handling {
             FrameHandling::Pass | FrameHandling::LoseAnswer => {
                 cnc.write_all(&bytes)?;
-                let answer = self::frame(&mut cnc, &mut Vec::new())?;
+                let answer = self::frame(cnc)?;
                 if handling == FrameHandling::Pass {
-                    client.write_all(&answer.unwrap_or_default())?;
+                    client.write_all(&answer)?;
                 }
             }
             FrameHandling::Lose => {}
@@ -75,20 +84,16 @@ fn pass(
             }
         }
     }
-    Ok(())
 }
 
-fn frame(from: &mut &TcpStream, received: &mut Vec<u8>) -> io::Result<Option<Vec<u8>>> {
-    let mut chunk = [0; 4096];
-    loop {
-        if let Some((_, len)) = FrameRef::split(received, u32::MAX).unwrap() {
-            return Ok(Some(received.drain(..len).collect()));
-        }
-        match from.read(&mut chunk)? {
-            0 => return Ok(None),
-            len => received.extend_from_slice(&chunk[..len]),
-        }
-    }
+/// Reads a complete frame.
+pub(crate) fn frame(mut stream: &TcpStream) -> io::Result<Vec<u8>> {
+    let mut frame = vec![0; 6];
+    stream.read_exact(&mut frame)?;
+    let length = frame[2..].try_into().map(u32::from_le_bytes).unwrap();
+    frame.resize(6 + length as usize, 0);
+    stream.read_exact(&mut frame[6..])?;
+    Ok(frame)
 }
 
 /// Whether the frame is a Write.

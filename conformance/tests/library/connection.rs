@@ -1,12 +1,17 @@
-//! The client without a connection.
+//! The client without a connection, and a session whose connection is replaced.
+
+use std::time::Duration;
 
 use ads_cnc::Kind;
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, Request};
 use ads_cnc_conformance::client::{Client, Target};
+use ads_cnc_conformance::deadline::Deadline;
 use ads_cnc_conformance::exchange::{Exchange, ExchangeError};
 use ads_cnc_conformance::gate::{Gate, NET_ID};
 use ads_cnc_conformance::net;
+use ads_cnc_conformance::session::{Session, ToolError};
+use ads_cnc_conformance::simulator::Cnc;
 
 /// The first request is sent before the connection is found to be closed. Without a connection, the
 /// second request is not sent.
@@ -25,4 +30,15 @@ fn without_a_connection_no_frame_is_sent() {
         |one: &Exchange| matches!(one.outcome, Err(ExchangeError::Disconnected(_)));
     assert!(exchanges.iter().all(is_disconnected), "{exchanges:?}");
     assert_eq!(exchanges.map(|one| one.sent.is_empty()), [false, true]);
+}
+
+/// A session with another gate keeps its deadline.
+#[test]
+fn the_deadline_remains_with_another_gate() {
+    let session = Session::simulated_to_try(Cnc::with_default_model().unwrap()).unwrap();
+    let session = session.with_deadline(Deadline::after(Duration::ZERO));
+    let mut session = session.with_gate(Gate::queries()).unwrap();
+    let count = CountVariables::new(Channel::new(1).unwrap(), Kind::V_E);
+    let called = session.call(&count);
+    assert!(matches!(called, Err(ToolError::Enough(_))), "{called:?}");
 }

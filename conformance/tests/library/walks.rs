@@ -46,6 +46,18 @@ fn the_notes_of_a_list_with_a_gap_are_true() {
         "HLD channel 1: only the first 10 of 33554432 were requested",
     ];
     assert!(found.notes.iter().eq(notes), "{:?}", found.notes);
+    // The limit of elements is smaller than the number that the CNC states.
+    assert!(found.is_cut);
+}
+
+/// A list of objects that is longer than the limit makes the result incomplete.
+#[test]
+fn a_long_list_of_objects_is_cut() {
+    let defect = FieldDefect::by_id("object-count.count.swap").unwrap();
+    let cnc = Faulty::new(default_cnc(), Some(&defect.into()));
+    let lists = Some(Pattern::whole("COM channel 1"));
+    assert!(found(cnc, &Options { lists: lists.clone(), ..Options::default() }).is_cut);
+    assert!(!found(default_cnc(), &Options { lists, ..Options::default() }).is_cut);
 }
 
 /// With each defect of a field in the streams below, a walk over all objects and elements, and a

@@ -7,8 +7,8 @@ use ads_cnc::operation::Task;
 
 use super::{Run, Stopped};
 use crate::cli::message::print_error;
+use crate::cli::output::show;
 use crate::cli::progress::Watch;
-use crate::cli::report_output::show;
 use crate::cli::run_dry;
 use crate::faults::{Faulty, SeededDefect};
 use crate::judge::{

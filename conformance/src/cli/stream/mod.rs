@@ -166,8 +166,8 @@ impl StreamArgs {
         drop(progress);
         let channel = self.channel.channel.number();
         let summary = sending.summary(name, lines.get(), &end, took);
-        // Unlike other output, a lost summary is an error even if the pipe is closed: it states what the
-        // machine runs.
+        // Unlike other output, a lost summary is an error even if the pipe is closed: it states what
+        // the machine runs.
         if let Err(error) = writeln!(io::stdout().lock(), "{summary}") {
             print_error(format_args!("{summary}"));
             return Err(ToolError::Internal(format!("cannot write the summary: {error}")));

@@ -19,8 +19,8 @@ fn named(offset: u32, name: &[u8], least: u32) -> ExpectedRequest {
 
 /// A scenario that reads the value of a variable by its name.
 fn value(id: &str, title: &str, name: &str, ty: &str, size: u32) -> Scenario {
-    // The characters of these names have the same codes in CP1252 as in Latin-1, whose codes are those
-    // of Unicode.
+    // The characters of these names have the same codes in CP1252 as in Latin-1, whose codes are
+    // those of Unicode.
     let latin1 = name.chars().map(|one| u8::try_from(one).expect("a name in Latin-1"));
     let name_bytes: Vec<u8> = latin1.collect();
     Scenario::new(format!("client-read-{id}"), title, format!("read-by-name 1 {name} {ty}"))
@@ -277,7 +277,7 @@ fn of_axes() -> Vec<Scenario> {
 
 fn dynamic() -> Vec<Scenario> {
     let mut all = Vec::new();
-    // `count_at` is the index offset of the number of parameters, and `names_at` that of their names.
+    // `count_at` is the index offset of the number of parameters, `names_at` that of their names.
     for (kind, id, count_at, names_at, count, name, place, parameter) in [
         ("P", "p", 2, 0x1B, 1, "P1", 1_u8, 4711.0),
         ("V.L", "vl", 3, 0x1E, 1, "V.L.depth", 1, 2.5),

@@ -25,7 +25,9 @@ pub(super) const ROWS: &[CncDefect] = &[
         "a read on the axis interface of channel 1 returns the axis that had the index before \
          axis exchange",
         |cnc, call| match (of_axis(call), function(call)) {
-            (Some((axis, function_offset)), Some(Function::AxisReadByName)) if group(call) & 0xFF == 1 => {
+            (Some((axis, function_offset)), Some(Function::AxisReadByName))
+                if group(call) & 0xFF == 1 =>
+            {
                 let place = (1..=3).find(|place| {
                     let at = place << 16 | 3;
                     let number = cnc.read(ads_cnc::ads::AmsPort::COM, 0x12_0101, at);

@@ -176,7 +176,9 @@ pub(in crate::faults) fn reply(
     other: impl FnOnce(&mut Vec<u8>),
 ) -> ReplyData {
     if is(call, of) {
-        within_length(call, changed(cnc, &Call { read_length: u32::MAX, ..*call }, other))
+        let mut bytes = cnc.whole(call)?;
+        other(&mut bytes);
+        within_length(call, Ok(bytes))
     } else {
         cnc.answer(call)
     }

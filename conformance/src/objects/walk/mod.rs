@@ -190,9 +190,11 @@ impl<'w> Walk<'w> {
     }
 
     /// Adds a note if the CNC has rejected requests for entries of a list, and another note if not
-    /// all of the `count` entries were requested.
-    fn note_missing(&mut self, list: ValueList, count: u32, requested: Requested) {
+    /// all of the `count` entries were requested. The walk is incomplete if the limit `most` is
+    /// smaller than `count`.
+    fn note_missing(&mut self, list: ValueList, count: u32, most: u32, requested: Requested) {
         let Requested { sent, rejected } = requested;
+        self.found.is_cut |= count > most;
         if rejected > 0 {
             self.note(list, format_args!("the CNC rejects the requests for {rejected} of {sent}"));
         }

@@ -65,8 +65,7 @@ impl Walk<'_> {
             }
             Ok(true)
         })?;
-        self.note_missing(list, count, requested);
-        self.found.is_cut |= count > most;
+        self.note_missing(list, count, most, requested);
         Ok(())
     }
 }

@@ -39,8 +39,8 @@ const MASKED: [(&str, &str); 3] = [
 pub struct PairFigures {
     /// Number of pairs of which both defects are detected.
     pub both: usize,
-    /// Number of two kinds of pairs: only one defect is detected, and it can make the other
-    /// undetectable; or both are defects of frames, and neither is detected.
+    /// Number of pairs of which only one defect is detected, and it can make the other undetectable,
+    /// plus the number of pairs of two defects of frames of which neither is detected.
     pub masked: usize,
     /// All other pairs: those in which a defect is not detected without such a reason, and those
     /// that could not be tried.

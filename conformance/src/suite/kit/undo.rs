@@ -16,6 +16,7 @@ use ads_cnc::{Decode as _, ObjectCount};
 use crate::exchange::{Exchange, ExchangeError};
 use crate::gate::Entry;
 use crate::judge::{Step, Stop};
+use crate::number::to_u32;
 use crate::objects::ValueAddress;
 use crate::suite::kit::changes::Change;
 use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, WriteCheck, same};
@@ -84,8 +85,8 @@ impl Probe<'_> {
     }
 
     /// Ends the case if the file of `--allow-write` would expire before the changed values, and
-    /// `next` more, could be restored. Called before a change with [`changing`](Self::changing), and
-    /// before each request of a case while a changed value is still to be restored.
+    /// `next` more, could be restored. Called before a change with [`changing`](Self::changing),
+    /// and before each request of a case while a changed value is still to be restored.
     pub(crate) fn check_time_to_restore(&self, next: usize) -> Step {
         let client = &self.target.client;
         let target = client.target();
@@ -93,7 +94,7 @@ impl Probe<'_> {
         // Each request may have to wait for a connection and for a reply.
         let request = target.timeout.saturating_mul(2).saturating_add(target.pace);
         let each = request.saturating_mul(REQUESTS_MAX).saturating_add(PAUSES);
-        let time = each.saturating_mul(u32::try_from(values).unwrap_or(u32::MAX));
+        let time = each.saturating_mul(to_u32(values));
         let end = Moment::now().after(time);
         client.gate().check_target(target.net_id, end).map_err(|why| {
             let (values, time) = (plural(values, "value"), time.as_secs());

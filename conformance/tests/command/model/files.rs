@@ -1,35 +1,27 @@
 //! Data models in files: the default model that `serve` prints is valid, and invalid models are rejected.
 
-use std::process::{Command, Stdio};
-
 use ads_cnc_conformance::simulator::{DEFAULT_MODEL, Model};
 
 use super::{CHANNEL_1, Cnc};
 use crate::common::file::TestFile;
+use crate::common::run_tool;
 
-fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
-    let run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-        .arg("serve")
-        .args(options)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (run.status.code(), text(run.stdout), text(run.stderr))
+fn serve(options: &[&str]) -> (Option<i32>, String, String) {
+    run_tool(&[&["serve"], options].concat())
 }
 
 /// An error in the encoding of a file has a line number, like an error in its content.
 #[test]
 fn a_file_in_another_encoding_has_a_line() {
     let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
-    let (code, _, why) = ads_cnc(&["--model", file.path()]);
+    let (code, _, why) = serve(&["--model", file.path()]);
     assert_eq!(code, Some(2), "{why}");
     assert!(why.ends_with(".toml:2: the file must be UTF-8; byte 0xE4 is not\n"), "{why}");
 }
 
 #[test]
 fn the_printed_model_is_the_default_model() {
-    let (code, printed, errors) = ads_cnc(&["--print-model"]);
+    let (code, printed, errors) = serve(&["--print-model"]);
     assert_eq!((code, errors.as_str()), (Some(0), ""));
     let model = Model::from_toml(&printed, "printed").unwrap();
     assert_eq!(model, Model::default_model().unwrap());
@@ -62,11 +54,11 @@ fn a_minimal_model_is_valid() {
 fn invalid_models_are_usage_errors() {
     let file =
         TestFile::new(".toml", b"[[channel]]\nnumber = 1\nvariables = [\n  { name = \"x\" },\n]\n");
-    let (code, out, errors) = ads_cnc(&["--model", file.path()]);
+    let (code, out, errors) = serve(&["--model", file.path()]);
     assert_eq!((code, out.as_str()), (Some(2), ""));
     let place = format!("{}:4: ", file.path());
     assert!(errors.contains(&place) && errors.contains("type"), "{errors}");
-    let (code, _, errors) = ads_cnc(&["--model", "no such file"]);
+    let (code, _, errors) = serve(&["--model", "no such file"]);
     assert_eq!(code, Some(2));
     assert!(errors.contains("no such file: "), "{errors}");
 }
