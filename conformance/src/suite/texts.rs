@@ -18,12 +18,12 @@ pub(super) const CASES: &[CaseRow] = &[
 /// Bytes without a character in CP1252.
 pub(super) const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 
-/// The writable texts that the cases read, with their names: objects, and single variables except
-/// those of the Service Interface.
+/// The writable texts that the cases read, with their names: objects except those at axis indices
+/// that have no axis, or may have none, and single variables except those of the Service Interface.
 fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
     let mut all = Vec::new();
     for object in probe.objects().if_applicable()?.unwrap_or_default() {
-        if object.is_text() && object.is_writable() {
+        if object.is_text() && object.is_writable() && !probe.is_blank(&object) {
             all.push((object.address, object.name.to_string()));
         }
     }

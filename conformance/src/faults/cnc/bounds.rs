@@ -33,9 +33,9 @@ pub(super) const ROWS: &[CncDefect] = &[
             0x300..=0x800 => cnc.at(call, group(call), offset(call) & 0xFF_FFFF),
             _ => cnc.answer(call),
         }),
-    row("cnc.com.many-12", &[COM_3],
+    on("cnc.com.many-12", &[COM_3],
         "a reply has at most 12 descriptors, as many as fit into 1024 bytes",
-        |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| bytes.truncate(84 * 12))),
+        DESCRIPTORS, |cnc, call| changed(cnc, call, |bytes| bytes.truncate(84 * 12))),
     on("cnc.com.many-to-last", &[COM_3],
         "a reply with several descriptors lacks that of the last object of the list",
         DESCRIPTORS, |cnc, call| {

@@ -8,8 +8,8 @@ use ads_cnc_vectors::ids::*;
 use super::handle::{joined, parts};
 use super::lookup::{described, instance, is_string, name_of};
 use super::{
-    CncDefect, LOGICAL, after_nul, changed, function, group, is, offset, on, records_mut, reply,
-    row, set_u32, text, u32_at,
+    CncDefect, LOGICAL, after_nul, changed, each, function, group, is, offset, on, row, set_u32,
+    text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -49,16 +49,16 @@ pub(super) const ROWS: &[CncDefect] = &[
         }),
     row("cnc.com.many-access-stays", &[COM_2, COM_3],
         "in a reply, the descriptors after one with write access have write access too",
-        |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
+        |cnc, call| {
             let mut writable = false;
-            for record in records_mut(bytes) {
+            each(cnc, call, |record| {
                 writable |= record.get(8) == Some(&1);
                 record.iter_mut().skip(8).take(1).for_each(|byte| *byte = u8::from(writable));
-            }
-        })),
-    row("cnc.com.many-types-run-on", &[COM_2, COM_3],
+            })
+        }),
+    on("cnc.com.many-types-run-on", &[COM_2, COM_3],
         "in a reply, a type shorter than that of the previous descriptor is followed by its rest",
-        |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
+        DESCRIPTORS, |cnc, call| changed(cnc, call, |bytes| {
             let mut records = super::records(bytes);
             run_on(&mut records, 52);
             *bytes = records.concat();

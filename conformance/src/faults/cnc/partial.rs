@@ -8,9 +8,8 @@ use ads_cnc_vectors::ids::*;
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    CncDefect, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, changed, dimensions, function, group,
-    is, number, of_decoder, offset, on, records_mut, reply, row, set_u32, text, u32_at,
-    within_length,
+    CncDefect, DESCRIPTIONS, LOGICAL, ReplyData, Upstream, changed, dimensions, each, function,
+    group, is, number, of_decoder, offset, on, reply, row, set_u32, text, u32_at, within_length,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
@@ -109,12 +108,10 @@ pub(super) const ROWS: &[CncDefect] = &[
         })),
     row("cnc.com.string-size", &[COM_2],
         "the size of a STRING in its descriptor does not count the NUL",
-        |cnc, call| reply(cnc, call, &[Function::ReadDescriptors], |bytes| {
-            for record in records_mut(bytes) {
-                if text(record.get(52..).unwrap_or_default()) == b"STRING" {
-                    let size = u32_at(record, 4).unwrap_or_default();
-                    set_u32(record, 4, size.saturating_sub(1));
-                }
+        |cnc, call| each(cnc, call, |record| {
+            if text(record.get(52..).unwrap_or_default()) == b"STRING" {
+                let size = u32_at(record, 4).unwrap_or_default();
+                set_u32(record, 4, size.saturating_sub(1));
             }
         })),
     row("cnc.com.lreal-written-narrow", &[COM_5],

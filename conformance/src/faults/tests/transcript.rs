@@ -123,7 +123,7 @@ impl<'t> Transcript<'t> {
                 self.read(553, group, offset, 256);
                 self.read(553, group & !0x10_0000, offset, 256);
             }
-            for (first, len) in [(1, 252), (2, 168), (23, 840), (1, 85), (257, 84)] {
+            for (first, len) in [(1, 252), (2, 168), (23, 840), (1, 85), (257, 84), (1, 1092)] {
                 self.read(553, list, first, len);
             }
         }

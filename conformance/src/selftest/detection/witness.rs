@@ -81,7 +81,7 @@ pub(super) fn of(
     mode: Mode,
 ) -> Result<DetectionResult, ToolError> {
     if let Some(why) = is_right(defect) {
-        return Ok(DetectionResult::Undetectable(format!("a right CNC: {why}")));
+        return Ok(DetectionResult::Undetectable(format!("a correct CNC: {why}")));
     }
     let mut witness = None;
     for device in devices {
