@@ -72,7 +72,7 @@ fn programs_are_checked() {
                 let (class, refers_to) = match finding.kind {
                     DiagnosticKind::Loop(_) => ("loop", None),
                     DiagnosticKind::BackwardJump { to } => ("backward-jump", Some(to)),
-                    DiagnosticKind::AfterEnd { of, .. } => ("behind-end", Some(of)),
+                    DiagnosticKind::AfterEnd { of, .. } => ("after-end", Some(of)),
                     DiagnosticKind::OpenComment => ("open-comment", None),
                     other => panic!("{}: {other:?}", case.id),
                 };

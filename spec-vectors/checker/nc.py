@@ -43,7 +43,7 @@ def check_text(case):
         agree("fault", expect["reject"], fault)
         return
     if fault:
-        raise Bad("to be accepted, but it has the fault %s" % fault)
+        raise Bad("the case states that the text is accepted, but it has the fault %s" % fault)
     stated = [to_bytes(packet) for packet in expect["accept"]["packets"]]
     agree("packets", stated, packets(data))
 
@@ -51,7 +51,7 @@ def check_text(case):
 # ---------------------------------------------------------------- constructs that are not permitted
 
 LOOPS = ("FOR", "ENDFOR", "DO", "ENDDO", "REPEAT", "UNTIL", "WHILE", "ENDWHILE")
-CLAUSES = {"loop": "STM-8", "backward-jump": "STM-8", "open-comment": "STM-9", "behind-end": "STM-10"}
+CLAUSES = {"loop": "STM-8", "backward-jump": "STM-8", "open-comment": "STM-9", "after-end": "STM-10"}
 HEAD = r"\s*(?:/\d*\s*)?(?:N\s*\d+\s*)?"
 BLOCK_BEGIN = re.compile(HEAD + r"(#COMMENT\s+BEGIN)(?![\w.])", re.I)
 BLOCK_END = re.compile(HEAD + r"#COMMENT\s+END(?![\w.])", re.I)
@@ -128,7 +128,7 @@ class Program:
         for end in sorted({line for line, _ in self.ends}):
             after = [position for position in self.code if position[0] > end]
             if after:
-                found.append(("behind-end", *after[0], end))
+                found.append(("after-end", *after[0], end))
         if self.open_block:
             found.append(("open-comment", *self.open_block, None))
         return sorted(found, key=lambda one: one[1:3])

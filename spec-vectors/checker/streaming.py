@@ -28,7 +28,7 @@ STREAMS = {"program-stream": (program_stream_write, program_stream_read)}
 
 class Model:
     def __init__(self, text):
-        self.held, self.running, self.program = b"", False, b""
+        self.buffered, self.running, self.program = b"", False, b""
         self.to_send = None if text is None else nc.packets(text)
 
     def step(self, step):
@@ -40,15 +40,15 @@ class Model:
         for key in outcome:
             agree("%s: %s" % (step["id"], key), step.get(key), outcome[key])
         if cls in ("outcome", "overfull"):
-            return cls  # the stated `held` belongs to the fault, so it is not compared
-        agree("%s: held" % step["id"], step["held"], len(self.held))
+            return cls  # the stated `buffered` belongs to the fault, so it is not compared
+        agree("%s: buffered" % step["id"], step["buffered"], len(self.buffered))
         return cls
 
     def start(self, _step, _outcome):
         self.running, self.program = True, b""
 
     def reset(self, _step, _outcome):
-        self.running, self.held = False, b""
+        self.running, self.buffered = False, b""
 
     def write(self, step, _outcome):
         data, ack, cls = to_bytes(step["bytes"]), step["ack"], None
@@ -58,28 +58,30 @@ class Model:
             elif ack == "accepted":
                 self.to_send.pop(0)
         if len(data) > nc.PACKET_MAX:
-            agree("%s: ack" % step["id"], ack, "refused")
+            agree("%s: ack" % step["id"], ack, "rejected")
             return "too-long"
-        if len(self.held) + len(data) > STREAM_MAX:
+        if len(self.buffered) + len(data) > STREAM_MAX:
             if ack == "accepted":
                 return "overfull"
             agree("%s: ack" % step["id"], ack, "later")
             return cls
         agree("%s: ack" % step["id"], ack, "accepted")
-        self.held += data
+        self.buffered += data
         return cls
 
     def take(self, step, outcome):
         if not self.running:
             return "not-started"
-        if to_bytes(step["bytes"]) != self.held:
+        if to_bytes(step["bytes"]) != self.buffered:
             return "outcome"
-        data, self.held = self.held, b""
-        wrong = missing_end(data)
-        if wrong:
-            outcome["error"] = dict(wrong, number=LINE_END_ERROR)
-            return "line-end"
+        data, self.buffered = self.buffered, b""
         before = len(nc.split(self.program))
+        end = missing_end(data)
+        if end:
+            line, column = end
+            error = {"number": LINE_END_ERROR, "line": before + line, "column": column}
+            outcome["error"] = error
+            return "line-end"
         self.program += data
         program = nc.Program(self.program)
         for cls, line, column, _ in program.findings():
@@ -105,12 +107,12 @@ def text_of(pieces, data):
 
 
 def missing_end(data):
-    """The position of the end of the first line that does not end with CR LF; None if all lines do."""
+    """The line and the column of the first end of a line that is not CR LF; None if all ends are."""
     line = 1
     for end in re.finditer(rb"\r\n|\r|\n|\Z", data):
         start = max(data.rfind(b"\n", 0, end.start()), data.rfind(b"\r", 0, end.start())) + 1
         if end.group() != b"\r\n" and (end.group() or start < len(data)):
-            return {"line": line, "column": end.start() - start + 1}
+            return line, end.start() - start + 1
         line += 1
     return None
 

@@ -107,7 +107,7 @@ def check_accept(vector, write, read):
     try:
         derived = read(data, context)
     except Malformed as why:
-        raise Bad("to be accepted, but its bytes are rejected: %s" % why) from None
+        raise Bad("the vector states that the bytes are accepted, but they are rejected: %s" % why) from None
     if derived != accept["value"]:
         raise Bad("value %s: stated %s, from the bytes %s" % differing("", accept["value"], derived))
     canonical = canonical_bytes(vector["stream"], write, accept["value"], context, data)
@@ -131,7 +131,8 @@ def check_reject(vector, read, vectors):
             if stated[key] != found:
                 raise Bad("%s: stated %s, derived %s" % (key, stated[key], found)) from None
     else:
-        raise Bad("to be rejected as %s, but its bytes decode as %s" % (stated["class"], derived))
+        text = "the vector states that the bytes are rejected as %s, but they decode as %s"
+        raise Bad(text % (stated["class"], derived))
     name = vector.get("sibling")
     sibling = vectors.get(name)
     if sibling is None:

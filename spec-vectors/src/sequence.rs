@@ -70,7 +70,7 @@ pub enum StreamingAck {
     /// The interface rejected the write for now; the client has to write the same bytes again.
     Later,
     /// The interface rejected the write permanently.
-    Refused,
+    Rejected,
 }
 
 /// The fault that the CNC finds in the data that it has read, and its position.
@@ -127,7 +127,7 @@ pub struct StreamingStep {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub discarded: Option<Pieces>,
     /// The number of bytes that the interface contains after the step.
-    pub held: usize,
+    pub buffered: usize,
 }
 
 /// A client and the CNC at the streaming interface.

@@ -47,9 +47,10 @@ pub(super) fn play<'c>(target: &TestCnc, given: &'c Streaming) -> CheckResult<Fa
             }
         };
         if !matches!(fault, Some("outcome" | "overfull" | "not-started")) {
-            let held = held(target)?;
-            if held != step.held {
-                return differs(format!("{} bytes held after {}", step.held, step.id), held);
+            let found = buffered(target)?;
+            if found != step.buffered {
+                let stated = format!("{} bytes buffered after {}", step.buffered, step.id);
+                return differs(stated, found);
             }
         }
         if let Some(fault) = fault {
@@ -63,7 +64,7 @@ pub(super) fn play<'c>(target: &TestCnc, given: &'c Streaming) -> CheckResult<Fa
 }
 
 /// Number of bytes in the streaming interface.
-fn held(target: &TestCnc) -> CheckResult<usize> {
+fn buffered(target: &TestCnc) -> CheckResult<usize> {
     Ok(target.cnc().with_program(CHANNEL, |program| program.buffered())?)
 }
 
@@ -101,16 +102,16 @@ fn acknowledged(
     step: &StreamingStep,
 ) -> CheckResult<Ack> {
     let channel = Channel::new(CHANNEL.into())?;
-    let held = held(target)?;
+    let buffered = buffered(target)?;
     let sent = match stated {
         StreamingAck::Accepted => send_until_taken(target, channel, data)?,
-        StreamingAck::Later | StreamingAck::Refused => send(target, channel, data)?,
+        StreamingAck::Later | StreamingAck::Rejected => send(target, channel, data)?,
     };
     match (stated, sent) {
         (StreamingAck::Accepted, Ok(())) => Ok(Ack::Accepted),
-        (StreamingAck::Accepted, Err(_)) if held + data.len() > BUFFER_LEN => Ok(Ack::Busy),
+        (StreamingAck::Accepted, Err(_)) if buffered + data.len() > BUFFER_LEN => Ok(Ack::Busy),
         (StreamingAck::Later, Err(_)) => Ok(Ack::Busy),
-        (StreamingAck::Refused, Err(_)) => Ok(Ack::Rejected),
+        (StreamingAck::Rejected, Err(_)) => Ok(Ack::Rejected),
         _ => differs(format!("{stated:?} in {}", step.id), format!("{sent:?}")),
     }
 }
