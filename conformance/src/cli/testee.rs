@@ -20,7 +20,7 @@ pub(super) struct TesteeArgs {
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// Misbehave in a way that the suite must detect, to test the suite: accepts-all, refuses-all,
+    /// Misbehave in a way that the suite must detect, to test the suite: accepts-all, rejects-all,
     /// hangs, crashes, …; noisy, decodes-only and terse are correct
     #[arg(long, value_name = "NAME", conflicts_with = "defect", value_parser = Miniature::by_name)]
     miniature: Option<Miniature>,
@@ -84,7 +84,7 @@ fn misbehave(miniature: Miniature, own: &CodecTestee) -> io::Result<()> {
                 serde_json::to_writer(&mut out, &miniature.hello(own))?;
                 out.write_all(b"\n")?;
             }
-            Ok(TesteeCommand::Bye) if miniature == Miniature::Stays => stay(),
+            Ok(TesteeCommand::Bye) if miniature == Miniature::IgnoresBye => stay(),
             Ok(TesteeCommand::Bye) => return Ok(()),
             other => {
                 if let Ok(TesteeCommand::Case { seq: given, .. }) = other {

@@ -12,7 +12,7 @@ pub enum Miniature {
     /// Accepts invalid input: returns an empty value for input that must be rejected.
     AcceptsAll,
     /// Rejects the input of every question with a known op and stream.
-    RefusesAll,
+    RejectsAll,
     /// Returns the input of each question with a known op and stream as the answer.
     Echoes,
     /// Hangs at every fortieth question.
@@ -20,19 +20,19 @@ pub enum Miniature {
     /// Crashes at every tenth question.
     Crashes,
     /// Claims streams that it does not implement.
-    Boasts,
+    Overclaims,
     /// Accepts ops and streams that do not exist, instead of answering that they are unsupported.
-    KnowsAll,
+    AcceptsUnknown,
     /// Reports an internal error instead of rejecting faulty input.
-    Excuses,
+    InternalErrors,
     /// Answers every tenth question with the number of the next question.
-    Miscounts,
+    WrongNumbers,
     /// Answers every tenth question with a line that is not JSON.
-    Mumbles,
+    NotJson,
     /// After a hundred questions, rejects the input of every question with a known op and stream.
-    Tires,
+    RejectsLater,
     /// Does not exit after `bye`.
-    Stays,
+    IgnoresBye,
     /// Writes much text to stderr. This testee is correct.
     Noisy,
     /// Implements and claims only `decode`. This testee is correct.
@@ -42,9 +42,9 @@ pub enum Miniature {
 }
 
 named! { Miniature:
-    AcceptsAll "accepts-all", RefusesAll "refuses-all", Echoes "echoes", Hangs "hangs",
-    Crashes "crashes", Boasts "boasts", KnowsAll "knows-all", Excuses "excuses",
-    Miscounts "miscounts", Mumbles "mumbles", Tires "tires", Stays "stays", Noisy "noisy",
+    AcceptsAll "accepts-all", RejectsAll "rejects-all", Echoes "echoes", Hangs "hangs",
+    Crashes "crashes", Overclaims "overclaims", AcceptsUnknown "accepts-unknown", InternalErrors "internal-errors",
+    WrongNumbers "wrong-numbers", NotJson "not-json", RejectsLater "rejects-later", IgnoresBye "ignores-bye", Noisy "noisy",
     DecodesOnly "decodes-only", Terse "terse",
 }
 
@@ -86,11 +86,11 @@ impl Miniature {
         match self {
             Self::Hangs if seq % 40 == 9 => return MiniatureAction::Hang,
             Self::Crashes if tenth => return MiniatureAction::Crash,
-            Self::Mumbles if tenth => return MiniatureAction::Say("what?".to_owned()),
+            Self::NotJson if tenth => return MiniatureAction::Say("what?".to_owned()),
             _ => {}
         }
         let answer = self.answer(own, &question, seq);
-        let seq = if self == Self::Miscounts && tenth { seq.saturating_add(1) } else { seq };
+        let seq = if self == Self::WrongNumbers && tenth { seq.saturating_add(1) } else { seq };
         let line = serde_json::to_string(&AnswerLine { seq: Some(seq), answer });
         MiniatureAction::Say(line.unwrap_or_default())
     }
@@ -100,22 +100,26 @@ impl Miniature {
         let unsupported = |what: &str| Answer::Unsupported { what: what.to_owned() };
         let right = own.answer(question);
         match (self, right) {
-            (_, unsupported @ Answer::Unsupported { .. }) if self != Self::KnowsAll => unsupported,
-            (Self::KnowsAll, Answer::Unsupported { .. })
+            (_, unsupported @ Answer::Unsupported { .. }) if self != Self::AcceptsUnknown => {
+                unsupported
+            }
+            (Self::AcceptsUnknown, Answer::Unsupported { .. })
             | (Self::AcceptsAll, Answer::Reject(_)) => {
                 Answer::Ok(Output { value: Some(serde_json::json!({})), ..Output::default() })
             }
-            (Self::RefusesAll, _) => rejected(),
+            (Self::RejectsAll, _) => rejected(),
             (Self::Echoes, _) => Answer::Ok(Output {
                 value: question.value.as_ref().and_then(|value| serde_json::to_value(value).ok()),
                 hex: question.hex.clone(),
                 packets: question.packets.clone(),
             }),
-            (Self::Boasts, _) if question.stream.starts_with("variable") => unsupported("stream"),
-            (Self::Excuses, Answer::Reject(_)) => {
+            (Self::Overclaims, _) if question.stream.starts_with("variable") => {
+                unsupported("stream")
+            }
+            (Self::InternalErrors, Answer::Reject(_)) => {
                 Answer::Error { message: "an exception".to_owned() }
             }
-            (Self::Tires, _) if seq > 100 => rejected(),
+            (Self::RejectsLater, _) if seq > 100 => rejected(),
             (Self::Terse, Answer::Ok(mut output)) => {
                 output.value.iter_mut().for_each(strip);
                 Answer::Ok(output)

@@ -113,7 +113,7 @@ fn miniatures_fail() {
         // With these two miniatures, the run waits for the time limit, so it is short.
         let timeout = match miniature {
             Miniature::Hangs => Duration::from_secs(1),
-            Miniature::Stays => Duration::from_secs(5),
+            Miniature::IgnoresBye => Duration::from_secs(5),
             _ => WAIT_MAX,
         };
         let mut process = within(timeout, &format!("--miniature {}", miniature.name()));
@@ -123,22 +123,22 @@ fn miniatures_fail() {
         assert_eq!(exit(&judged), expected, "{}: {failed:?}", miniature.name());
         let by_manners = matches!(
             miniature,
-            Miniature::KnowsAll
-                | Miniature::Tires
-                | Miniature::Stays
-                | Miniature::Mumbles
-                | Miniature::Miscounts
+            Miniature::AcceptsUnknown
+                | Miniature::RejectsLater
+                | Miniature::IgnoresBye
+                | Miniature::NotJson
+                | Miniature::WrongNumbers
         );
         if by_manners {
             assert!(failed.contains(&TESTEE), "{}: {failed:?}", miniature.name());
         }
-        if miniature == Miniature::Stays {
+        if miniature == Miniature::IgnoresBye {
             assert_eq!(failed, [TESTEE]);
         }
         match miniature {
             Miniature::Hangs => assert!(judged.restarts > 1),
             Miniature::Crashes => assert!(judged.restarts > 3),
-            Miniature::Miscounts => assert!(process.starts > 3),
+            Miniature::WrongNumbers => assert!(process.starts > 3),
             _ => assert_eq!(process.starts, 1, "{}", miniature.name()),
         }
         if miniature == Miniature::Noisy {
@@ -199,7 +199,7 @@ fn a_rejection_for_another_reason_is_vacuous() {
     let is_cut = |case: &Case| case.title.contains("truncated");
     let cut: Vec<Case> = cases().into_iter().filter(is_cut).take(20).collect();
     assert!(cut.len() > 10);
-    let mut process = process("--miniature refuses-all");
+    let mut process = process("--miniature rejects-all");
     let judged = judge(&mut process, cut, OF_A_TESTEE);
     for outcome in judged.outcomes.iter().filter(|outcome| is_cut(&outcome.case)) {
         assert!(

@@ -41,9 +41,11 @@ fn json_matches_its_schema_and_is_read_back() {
     let folder = TestFolder::new();
     let testee = format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"));
     let noisy = format!("{testee} --miniature noisy");
-    let rejecting = format!("{testee} --miniature refuses-all");
+    let rejecting = format!("{testee} --miniature rejects-all");
+    let unreadable = format!("{testee} --miniature not-json");
     let client = format!("\"{}\" client", env!("CARGO_BIN_EXE_ads-cnc"));
     let dying = format!("{client} --defect client.dies");
+    let garbling = format!("{client} --defect client.garbles");
     let dying = run(&["--client", &dying, "--only", "client-name-data-length-huge"]);
     let serve = Serve::start(&[]);
     let capture = folder.file("run.pcapng");
@@ -54,6 +56,7 @@ fn json_matches_its_schema_and_is_read_back() {
         run(&[]),
         run(&["--testee", &noisy, "--only", "VAR-11"]),
         run(&["--testee", &rejecting, "--only", "VAR-11"]),
+        run(&["--testee", &unreadable, "--only", "VAR-11"]),
         run(&["--target", &serve.addr, "--net-id", &serve.net_id]),
         everything(&folder),
         run(&["--defect", "object-descriptor.size.flip"]),
@@ -61,6 +64,7 @@ fn json_matches_its_schema_and_is_read_back() {
         run(&["--defect", "variable-handle-read.index_count.flip"]),
         run(&["--edition", "en-1.05", "--only", "VAR-20"]),
         run(&["--client", &client, "--only", "client-name-twice"]),
+        run(&["--client", &garbling, "--only", "client-name-data-length-huge"]),
         dying,
         checked,
     ];
