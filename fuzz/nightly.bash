@@ -2,7 +2,7 @@
 # The library of fuzz/nightly: building and running targets, evaluating logs, printing tables.
 
 # The sources whose change voids the recorded executions of a target: those of its laws and of the code under
-# test. Seeds, dictionaries and the replay determine only where a fuzzer begins.
+# test. The list omits seeds, dictionaries and the replay, because they do not change what a target checks.
 SOURCES=(codec/Cargo.toml codec/src codec/tests/common fuzz/Cargo.toml fuzz/src fuzz/fuzz_targets
     ':!fuzz/src/seeds*' ':!fuzz/src/dictionary.rs' ':!fuzz/src/replay.rs' ':!*.md')
 CODEC_SOURCES=("${SOURCES[@]}" ':!fuzz/src/bodies/tools')
@@ -227,8 +227,9 @@ summary() {
     list_findings >"$output/findings.tsv"
     {
         markdown <"$output/summary.tsv"
-        printf '\n%s executions with %s; edges and features: at the end (gained).\n' \
-            "$(rows | awk -F'\t' '{ n += $4 } END { print n + 0 }')" "$toolchain"
+        printf '\n%s executions with %s; edges and features: %s.\n' \
+            "$(rows | awk -F'\t' '{ n += $4 } END { print n + 0 }')" "$toolchain" \
+            "number at the end of the run (increase over the initial inputs)"
         while IFS=$'\t' read -r target sanitizer path signature; do
             local fuzz="--fuzz-dir fuzz --features libfuzzer --sanitizer $sanitizer $target"
             printf '\n%s (%s)\n\n' "$signature" "$(basename "$path")"
@@ -242,8 +243,9 @@ summary() {
 # Lists the inputs that libFuzzer named, with the digest of their bytes as the name.
 digests() { find "$1" -maxdepth 1 -type f 2>/dev/null | grep -E '/[0-9a-f]{40}$' || true; }
 
-# Collects the kept and new inputs that add coverage to the committed ones. If the corpus is the committed one,
-# collects those that add coverage to the committed inputs without a digest as name, which always stay.
+# Collects the inputs of the corpus and the new inputs that add coverage to the committed inputs. If the corpus
+# is the committed one, collects those that add coverage to the inputs named by hand: keep_inputs replaces only
+# inputs whose name is a digest.
 minimise() {
     local target="$1" base into="$output/corpus/$1" path before options folders status=0
     base="$(mktemp -d)"
@@ -254,7 +256,7 @@ minimise() {
     mapfile -t folders < <(inputs "$target")
     mapfile -t -O "${#folders[@]}" folders < <(echo "$output/found/$target")
     mapfile -t options < <(options "$target")
-    libfuzzer "$(binary "$target" "$steady")" 3600 "${options[@]}" -merge=1 "$base" \
+    libfuzzer "$(binary "$target" "$chosen_sanitizer")" 3600 "${options[@]}" -merge=1 "$base" \
         "${folders[@]}" >"$output/logs/$target.merge.log" 2>&1 || status=$?
     if [ "$status" -ne 0 ]; then
         say "$target: not minimised, see $output/logs/$target.merge.log"
@@ -299,7 +301,7 @@ prove_target() {
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took kind=crash
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))
-    program="$(binary "$target" "$steady")"
+    program="$(binary "$target" "$chosen_sanitizer")"
     scratch="$(mktemp -d)"
     mkdir "$scratch"/{found,artifacts}
     mapfile -t options < <(options "$target")
@@ -317,7 +319,7 @@ prove() {
     if [ "$(files "$scratch/artifacts" -name "$kind-*")" -gt 0 ]; then
         verdict=found
         find "$scratch/artifacts" -name "$kind-*" -exec "$program" "${LIMITS[@]}" {} + >>"$log" 2>&1 ||
-            verdict="fails without it"
+            verdict="fails without the defect"
     elif [ "${executions:-0}" -gt 0 ]; then
         verdict="not found"
     else

@@ -231,5 +231,5 @@ class Api(Signature):
     def crate_of(self, number):
         path = self.paths.get(str(number))
         if path is None:
-            return self.crate if str(number) in self.index else "a crate unknown"
+            return self.crate if str(number) in self.index else "an unknown crate"
         return self.crates.get(path["crate_id"], self.crate)

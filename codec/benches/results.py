@@ -37,8 +37,8 @@ def toolchain():
 class Case:
     """A line of the list of cases."""
 
-    def __init__(self, group, subject, who, units, *limits):
-        self.group, self.key, self.units = group, (subject, who), int(units)
+    def __init__(self, group, subject, implementation, units, *limits):
+        self.group, self.key, self.units = group, (subject, implementation), int(units)
         self.limits = [
             (limits[at], (subject, limits[at + 1]), float(limits[at + 2]))
             for at in range(0, len(limits), 3)
@@ -64,8 +64,8 @@ def counted(results):
     """Returns the counts by case and build: {key: {build: (units, instructions)}}."""
     counts = {}
     for build in BUILDS:
-        for subject, who, units, instructions in rows(results / f"{build}.tsv"):
-            counts.setdefault((subject, who), {})[build] = (int(units), int(instructions))
+        for subject, implementation, units, instructions in rows(results / f"{build}.tsv"):
+            counts.setdefault((subject, implementation), {})[build] = (int(units), int(instructions))
     return counts
 
 
@@ -99,8 +99,8 @@ def committed():
     """Returns the toolchain of the committed counts, and the counts."""
     head = COUNTS.read_text(encoding="utf-8").split("\n")[0].removeprefix("# ")
     counts = {}
-    for subject, who, units, *builds in rows(COUNTS):
-        counts[subject, who] = {b: (int(units), int(count)) for b, count in zip(BUILDS, builds)}
+    for subject, implementation, units, *builds in rows(COUNTS):
+        counts[subject, implementation] = {b: (int(units), int(count)) for b, count in zip(BUILDS, builds)}
     return head, counts
 
 
@@ -124,7 +124,7 @@ def check(results):
     for fault in faults:
         print(fault)
     if faults:
-        sys.exit(f"{len(faults)} faults; where a cost has to be: codec/benches/run --renew")
+        sys.exit(f"{len(faults)} faults; if an increase is intended, run codec/benches/run --renew")
     compared = f", and at most 5 % above {COUNTS.name}" if head == toolchain() else ""
     print(f"{len(counts)} cases, with std and without: within their limits{compared}")
 
@@ -139,7 +139,7 @@ def grown(counts, before):
 
 def renew(results):
     counts = counted(results)
-    lines = [f"# {toolchain()}", "# subject, who, units, instructions without std, with std"]
+    lines = [f"# {toolchain()}", "# subject, implementation, units, instructions without std, instructions with std"]
     for case in listed(results):
         both = [str(counts[case.key][build][1]) for build in BUILDS]
         lines.append("\t".join([*case.key, str(case.units), *both]))
@@ -152,14 +152,14 @@ def time(results):
     limits = {(case.key, other[1]): most for case in listed(results) for kind, other, most in case.limits
               if kind == "time"}
     builds = [{tuple(row[:3]): row[3:] for row in rows(results / f"{build}.time")} for build in BUILDS]
-    lines = ["# subject, who, against whom; median, least, greatest ratio without std, then with std"]
+    lines = ["# subject, implementation, reference; median, least, greatest ratio without std, then with std"]
     for key in builds[0]:
         ratios = [f"{float(ratio):.2f}" for build in builds for ratio in build[key]]
         lines.append("\t".join([*key, *ratios]))
         for build, ratio in zip(BUILDS, (ratios[0], ratios[3])):
             most = limits[key[:2], key[2]]
             if float(ratio) > most:
-                print(f"{named(key[:2])} ({build}): {ratio} times the time of {key[2]}, {most:g} wanted")
+                print(f"{named(key[:2])} ({build}): {ratio} times the time of {key[2]}, {most:g} is the goal")
     TIMES.write_text("\n".join(lines) + "\n", encoding="utf-8")
     tables(results)
 
@@ -176,7 +176,7 @@ def tables(results):
         # The table is only for subjects with a goal of time; instructions.tsv has the figures of all.
         if not any(kind == "time" for case in cases for kind, *_ in case.limits):
             continue
-        lines += ["", f"| {subject} | `no_std` | `std` | against | instructions | time | wanted |",
+        lines += ["", f"| {subject} | `no_std` | `std` | reference | instructions | time | limit or goal |",
                   "|---|--:|--:|---|--:|--:|---|"]
         lines += [line for case in cases for line in lines_of(case, counts, times)]
     put("counts", "\n".join(lines[1:]))
@@ -188,7 +188,7 @@ def sizes():
     figures = {}
     for target, program, *bytes_of in rows(SIZES)[1:]:
         figures.setdefault(program, {})[target] = [int(number) for number in bytes_of]
-    limited, borrowed = "views and operations", "all that borrows"
+    limited, borrowed = "views and operations", "all borrowing types"
     lines = ["| | thumbv7em `.text` | read-only data | x86-64 `.text` | read-only data |", "|---|--:|--:|--:|--:|"]
     for program, targets in figures.items():
         base = limited if program.startswith("with ") else borrowed if ", and " in program else None
@@ -230,7 +230,7 @@ def put(mark, text):
     readme = README.read_text(encoding="utf-8")
     place = re.compile(rf"(<!-- {mark} -->\n).*?(<!-- /{mark} -->)", re.DOTALL)
     if not place.search(readme):
-        sys.exit(f"no place for {mark} in {README.name}")
+        sys.exit(f"no markers <!-- {mark} --> and <!-- /{mark} --> in {README.name}")
     README.write_text(place.sub(lambda at: f"{at[1]}{text}\n{at[2]}", readme), encoding="utf-8")
 
 

@@ -41,8 +41,10 @@ ARGUMENTS = {
     },
 }
 MEANINGS = {
-    "channel": "from 1; 0 is the platform, for functions that support it",
-    "axis": "axis of the channel, from 1; for a list of objects with channel 0, a platform axis",
+    "channel": "from 1; 0 is the platform, for functions that support it; for the object address of a spindle, the "
+    "index of the spindle",
+    "axis": "axis of the channel, from 1; for a list of objects with channel 0, a platform axis; for an object "
+    "address, 0 is the channel itself",
     "index": "from 0 for variables, from 1 for parameters and objects",
     "count": "number of descriptors to read",
     "size": "maximum number of bytes to read",
@@ -53,7 +55,7 @@ MEANINGS = {
     "name": "name of the variable or parameter",
     "value": "the bytes to write",
     "indices": "one for each dimension, from 0; empty for the whole variable",
-    "by_index": "whether `channel` counts the active channels",
+    "by_index": "whether `channel` is the index among the active channels, from 1, not the logical number",
 }
 EFFECTS = ("changes nothing", "changes a value", "may move an axis")
 COMMANDS = {2: "Read", 3: "Write", 9: "ReadWrite"}

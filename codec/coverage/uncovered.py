@@ -101,13 +101,13 @@ def main(path, renew):
     there, known = (collections.Counter(keys) for keys in (missed, [key for key, _ in entries]))
     faults = [f"not run, not listed: {': '.join(key)}" for key in (there - known).elements()]
     faults += [f"listed, but run or gone: {': '.join(key)}" for key in (known - there).elements()]
-    faults += [f"why? {': '.join(key)}" for key, reason in entries if reason in ("", WANTED)]
+    faults += [f"no reason in uncovered.txt: {': '.join(key)}" for key, reason in entries if reason in ("", WANTED)]
     if faults:
-        faults.append("write a test; or codec/coverage/run --renew, and the reason into the list")
+        faults.append("write a test, or run codec/coverage/run --renew and add the reason to uncovered.txt")
     percent = 100 * (total - len(missed)) / max(total, 1)
     print(f"{total - len(missed)} of {total} lines run: {percent:.2f} %, {len(missed)} listed")
     if percent < LEAST:
-        faults.append(f"that is less than {LEAST} %")
+        faults.append(f"the tests run less than {LEAST} % of the lines")
     return faults
 
 

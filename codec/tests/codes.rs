@@ -12,6 +12,7 @@ macro_rules! names {
     };
 }
 
+/// Types, access and write access of variables and elements (VAR-5, VAR-6, SDA-9).
 #[test]
 fn codes_of_variables_have_the_numbers_of_the_manual() {
     let types = [
@@ -32,6 +33,7 @@ fn codes_of_variables_have_the_numbers_of_the_manual() {
     assert_eq!(names!(WriteAccess), [(0, "READ_ONLY"), (1, "WRITABLE")]);
 }
 
+/// Commands, flags, states and errors of ADS (ADS-5, ADS-7, ADS-9).
 #[test]
 fn codes_of_ads_have_the_numbers_of_the_help_pages() {
     let commands = [

@@ -259,7 +259,7 @@ function answer(line) {
 }
 
 for await (const line of createInterface({ input: process.stdin })) {
-  const said = answer(line);
-  if (!said) break;
-  process.stdout.write(`${JSON.stringify(said)}\n`);
+  const reply = answer(line);
+  if (!reply) break;
+  process.stdout.write(`${JSON.stringify(reply)}\n`);
 }

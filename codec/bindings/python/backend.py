@@ -34,7 +34,8 @@ def digest(data):
 def write_wheel(directory, about, platforms, files, executable=()):
     """Writes a wheel with these files, by path; dots separate `platforms`. Returns the name of the wheel.
 
-    The wheel is reproducible: it contains no times, so the same input produces the same bytes on the same platform.
+    The wheel is reproducible: all its files have the same fixed date, so the same input produces the same bytes on
+    the same platform.
     """
     name, tag = about.name.replace("-", "_"), f"py3-none-{platforms}"
     info = f"{name}-{about.version}.dist-info"
@@ -73,7 +74,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         f"ads_cnc/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()
     }
     if not any(f"ads_cnc/{name}" in files for name in LIBRARIES) or "ads_cnc/_functions.py" not in files:
-        raise SystemExit("no library to pack: codec/bindings/build python puts it there")
+        raise SystemExit("the library or _functions.py is missing in src/ads_cnc: run codec/bindings/build python")
     readme = (HERE / "README.md").read_text(encoding="utf-8")
     described = (field(name) for name in ("name", "version", "description", "license", "requires-python"))
     return write_wheel(wheel_directory, About(*described, readme), platform(), files)

@@ -273,7 +273,7 @@ def answer(line):
         return {"seq": seq, "reject": {"class": error.kind, "at": error.offset, "message": str(error)}}
     except ValueError as error:
         if seq is None:
-            return {"seq": None, "error": {"message": "no JSON"}}
+            return {"seq": None, "error": {"message": "the line is not valid JSON"}}
         return {"seq": seq, "reject": {"class": "value", "message": str(error)}}
     except Exception as error:  # answer with the error, and continue with the next line
         return {"seq": seq, "error": {"message": repr(error)}}
@@ -281,7 +281,7 @@ def answer(line):
 
 if __name__ == "__main__":
     for line in sys.stdin.buffer:
-        said = answer(line)
-        if said is None:
+        reply = answer(line)
+        if reply is None:
             break
-        print(json.dumps(said), flush=True)
+        print(json.dumps(reply), flush=True)

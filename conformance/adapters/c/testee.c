@@ -130,12 +130,12 @@ static Json skip_value(Json p, int depth) {
 /* The next character of a checked string. Other characters than ASCII are returned
  * as bytes or as the numbers of escapes; they only have to differ from ASCII. */
 static unsigned next_character(Json *p) {
-    static const char letters[] = "bfnrt", meant[] = "\b\f\n\r\t";
+    static const char letters[] = "bfnrt", escaped[] = "\b\f\n\r\t";
     unsigned c = (unsigned char)*(*p)++;
     if (c != '\\') return c;
     c = (unsigned char)*(*p)++;
     const char *letter = strchr(letters, (int)c);
-    if (c != 'u') return letter ? (unsigned char)meant[letter - letters] : c;
+    if (c != 'u') return letter ? (unsigned char)escaped[letter - letters] : c;
     c = 0;
     for (int i = 0; i < 4; i++) c = c * 16 + (unsigned)hex_digit((unsigned char)*(*p)++);
     return c;
@@ -408,16 +408,16 @@ static void read_text(Codec *c, const char *name, Rule rule, size_t room) {
     const unsigned char *text = c->in + c->at;
     const unsigned char *nul = room > 0 ? memchr(text, 0, room) : NULL;
     size_t length = nul ? (size_t)(nul - text) : room;
-    size_t behind = nul ? length + 1 : room, zeros = room;
-    while (zeros > behind && text[zeros - 1] == 0) zeros--;
+    size_t after = nul ? length + 1 : room, zeros = room;
+    while (zeros > after && text[zeros - 1] == 0) zeros--;
     if (!nul && rule == REQUEST && room > 0) fail(c, "missing-nul", c->at);
-    if (zeros > behind && (rule == REQUEST || rule == OPEN_REQUEST))
-        fail(c, "trailing", c->at + behind);
+    if (zeros > after && (rule == REQUEST || rule == OPEN_REQUEST))
+        fail(c, "trailing", c->at + after);
     start(c, name, "{\"type\":\"STRING\",\"hex\":\"");
     print_hex(c->out, text, length, " ");
-    if (behind < room && !(rule == FILLED && zeros == behind)) {
+    if (after < room && !(rule == FILLED && zeros == after)) {
         print(c->out, "\",\"tail\":\"");
-        print_hex(c->out, text + behind, room - behind, " ");
+        print_hex(c->out, text + after, room - after, " ");
     }
     print(c->out, nul ? "\"}" : "\",\"open\":true}");
     c->at += room;

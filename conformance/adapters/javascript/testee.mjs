@@ -4,8 +4,8 @@ import { isDeepStrictEqual } from "node:util";
 
 // An answer other than a value or bytes is thrown as an error.
 const end = (answer) => { throw Object.assign(new Error(JSON.stringify(answer)), { answer }); };
-const must = (holds, kind, at) => holds || end({ reject: { class: kind, at } });
-const support = (holds, what) => holds || end({ unsupported: { what } });
+const must = (condition, kind, at) => condition || end({ reject: { class: kind, at } });
+const support = (condition, what) => condition || end({ unsupported: { what } });
 
 const readerOf = (bytes) => ({
   bytes, at: 0,

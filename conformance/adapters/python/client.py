@@ -71,11 +71,11 @@ def say(answer):
 
 
 def main():
-    told = os.environ.get("ADS_CNC_DO", "hello").split()
-    if told[0] != "hello":
+    words = os.environ.get("ADS_CNC_DO", "hello").split()
+    if words[0] != "hello":
         where = {"host": os.environ["ADS_CNC_HOST"], "tcp_port": os.environ["ADS_CNC_TCP_PORT"],
                  "net_id": os.environ["ADS_CNC_NET_ID"]}
-        say(act(where, told[0], told[1:]))
+        say(act(where, words[0], words[1:]))
         return
     say({"protocol": 1, "client": {"name": "example", "version": "1", "language": "Python"},
          "actions": list(ACTIONS), "stays": True})

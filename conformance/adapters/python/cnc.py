@@ -1,4 +1,5 @@
-"""An example of a client to be judged, written from the manuals with Python's standard library only."""
+"""A client of a CNC, written from the manuals with only Python's standard library; with client.py, an example for
+`ads-cnc run --client`."""
 import re
 import socket
 import struct
@@ -22,8 +23,8 @@ class Wrong(Exception):
     """The reply is invalid, or the action cannot be executed."""
 
 
-def check(kept, why):
-    if not kept:
+def check(condition, why):
+    if not condition:
         raise Wrong(why)
 
 
@@ -82,7 +83,7 @@ class Cnc:
         if result:
             raise Rejected(result)
         if command == WRITE:
-            check(total == 36, "a Write gives no data")
+            check(total == 36, "the reply to a Write contains data")
             return b""
         check(len(frame) >= 40 and number(frame[36:40]) == len(frame) - 40 <= length, "a wrong length before the data")
         return frame[40:]
@@ -98,7 +99,7 @@ class Cnc:
         while len(found) < count:
             wanted = min(count - len(found), 64) * 84
             data = self.ask(READ, COM, 0x130100 + int(channel), len(found) + 1, length=wanted)
-            check(data and len(data) % 84 == 0, "no whole descriptors")
+            check(data and len(data) % 84 == 0, "the reply does not consist of whole descriptors")
             for _, size, access, _, group, offset, name, kind in struct.iter_unpack("<IIHHII32s32s", data):
                 found.append({"name": text(name), "type": text(kind), "size": size, "writable": access != 0,
                               "group": group, "offset": offset})
@@ -147,7 +148,7 @@ def find(cnc, kind, channel, axis):
 def describe(cnc, channel, index, kind):
     data = cnc.variable(channel, 0x45, struct.pack("<I", int(index)) + nul(kind), 2048)
     handle, ty, access, size, count = take("<5I", data[:20])
-    check(20 + 4 * count <= len(data), "dimensions that are not there")
+    check(20 + 4 * count <= len(data), "the reply has fewer dimensions than its count states")
     dimensions = list(struct.unpack_from(f"<{count}I", data, 20))
     return {"name": text(data[20 + 4 * count:]), "handle": handle, "type": ty, "access": access, "size": size,
             "dimensions": dimensions}
@@ -160,9 +161,10 @@ def handled(handle, indices):
 
 def stream(cnc, channel, file):
     lines = open(file, "rb").read().replace(b"\r\n", b"\n").removesuffix(b"\n").split(b"\n")
-    check(all(len(line) <= 990 and line.isascii() and b"\0" not in line for line in lines), "no line for streaming")
+    can_stream = [len(line) <= 990 and line.isascii() and b"\0" not in line for line in lines]
+    check(all(can_stream), "a line cannot be streamed")
     loops = rb"\$(FOR|ENDFOR|DO|ENDDO|REPEAT|UNTIL|WHILE|ENDWHILE)\b"
-    check(not any(re.match(loops, line.strip()) for line in lines), "a loop")
+    check(not any(re.match(loops, line.strip()) for line in lines), "the program contains a loop")
     packets = [b""]
     for line in lines:
         if len(packets[-1] + line) + 2 > 992:

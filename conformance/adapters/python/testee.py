@@ -296,5 +296,5 @@ def answer(line):
         return {"seq": seq, "error": {"message": repr(fault)}}
 
 if __name__ == "__main__":
-    for said in itertools.takewhile(bool, map(answer, sys.stdin.buffer)):
-        print(json.dumps(said), flush=True)
+    for reply in itertools.takewhile(bool, map(answer, sys.stdin.buffer)):
+        print(json.dumps(reply), flush=True)

@@ -57,7 +57,7 @@ fn show_part(
     writeln!(out, "{}, {length}{place}", styled(color, HEAD, &format!("{}{name}", part.title)))?;
     if let Some(clause) = part.clause {
         let sources = match part.sources.as_slice() {
-            [] => "in no document: assumed".to_owned(),
+            [] => "not in the manuals: an assumption of this project".to_owned(),
             sources => sources.join("; "),
         };
         writeln!(out, "  {}", styled(color, DIM, &format!("{clause}: {sources}")))?;

@@ -14,7 +14,7 @@ use ads_cnc_vectors::ids::*;
 
 use super::chain::{before, can_explain, defines, follows, is_of_functions, origin};
 use super::root::{FailedCheck, Root, checks, is_broken, is_deviation, is_of_device, roots};
-use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, gravest};
+use super::{Body, CaseOutcome, Needs, RequirementVerdict, Verdict, most_severe};
 
 /// Clauses whose checks detect one specific error, such as reversed bytes. A violation of another
 /// clause is not considered the cause of this error: [`cause`] returns `None` for a failed check of
@@ -256,9 +256,9 @@ fn follow(
         }
     }
     if is_broken(verdict.verdict)
-        && let Some(gravest) = gravest(verdict.judgements.iter().map(|one| one.verdict))
+        && let Some(most_severe) = most_severe(verdict.judgements.iter().map(|one| one.verdict))
     {
-        verdict.verdict = gravest;
+        verdict.verdict = most_severe;
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) use chain::{clauses_of, follows};
 pub(crate) use check::{Checks, IfPresent, OrStop, Record, TEXT_MAX, applicable};
 pub use check::{Judgement, Rule, Rules, Step, Stop, assumed, online};
 pub(crate) use outcome::caught;
-pub use outcome::{CaseOutcome, RequirementVerdict, gravest};
+pub use outcome::{CaseOutcome, RequirementVerdict, most_severe};
 pub use plan::{Plan, Selection, SkippedCase, Unmatched, any_seed};
 pub(crate) use plan::{names, order, sections};
 pub use tally::VerdictTally;

@@ -86,7 +86,8 @@ impl CaseOutcome {
 
     /// The most severe verdict on the requirements of the case; `NotObserved` without requirements.
     pub fn verdict(&self) -> Verdict {
-        gravest(self.verdicts.iter().map(|judged| judged.verdict)).unwrap_or(Verdict::NotObserved)
+        most_severe(self.verdicts.iter().map(|judged| judged.verdict))
+            .unwrap_or(Verdict::NotObserved)
     }
 }
 
@@ -96,11 +97,11 @@ fn of_requirement(
     unjudged: Verdict,
 ) -> RequirementVerdict {
     let mine = || judgements.iter().filter(|judgement| judgement.requirement == requirement);
-    let judged = gravest(mine().map(|judgement| judgement.verdict));
+    let judged = most_severe(mine().map(|judgement| judgement.verdict));
     // A case that ended as inconclusive, interrupted or with a harness error does not pass, even if
     // its first checks passed.
     let verdict = match judged {
-        Some(Verdict::Pass) if unjudged.gravity() > Verdict::Pass.gravity() => unjudged,
+        Some(Verdict::Pass) if unjudged.severity() > Verdict::Pass.severity() => unjudged,
         Some(judged) => judged,
         None => unjudged,
     };
@@ -109,8 +110,8 @@ fn of_requirement(
 }
 
 /// The most severe of several verdicts.
-pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
-    verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
+pub fn most_severe(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
+    verdicts.into_iter().max_by_key(|verdict| verdict.severity())
 }
 
 /// Calls a function. If the function panics, returns the message of the panic as the error, so that

@@ -82,7 +82,7 @@ impl Verdict {
     }
 
     /// The severity: the verdict of a group is the verdict with the greatest severity in the group.
-    pub const fn gravity(self) -> u8 {
+    pub const fn severity(self) -> u8 {
         match self {
             Self::HarnessError => 10,
             Self::Fail => 9,

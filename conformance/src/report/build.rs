@@ -19,7 +19,7 @@ use crate::exit::Exit;
 use crate::explain;
 use crate::judge::{
     CLIENT, CaseOutcome, CaseSubject, Judgement, SkippedCase, TESTEE, UnrestoredValue, Verdict,
-    VerdictTally, WaiverReport, WaiverState, Waivers, gravest, names,
+    VerdictTally, WaiverReport, WaiverState, Waivers, most_severe, names,
 };
 use crate::profile::Profile;
 use crate::text::{Moment, hex};
@@ -53,7 +53,8 @@ pub struct RunInfo {
     pub times: Vec<(CaseSubject, Duration)>,
     /// Values that were changed and not restored.
     pub left_changed: Vec<UnrestoredValue>,
-    /// Why the run ended before all its cases were run.
+    /// The reason why cases were not run, if the target stopped answering or `--max-fail` ended
+    /// the run.
     pub ended: Option<String>,
 }
 
@@ -220,18 +221,18 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The verdict of a group, and whether it is waived. It is the gravest verdict that fails the run
-/// and is not waived; without such a verdict, the gravest waived verdict; without a waived verdict,
-/// the gravest verdict.
+/// The verdict of a group, and whether it is waived. It is the most severe verdict that fails the
+/// run and is not waived; without such a verdict, the most severe waived verdict; without a waived
+/// verdict, the most severe verdict.
 fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
     let open = verdicts.clone().filter(|(verdict, waived)| !waived && verdict.fails_run());
     let known = verdicts.clone().filter(|(_, waived)| *waived);
-    let open = gravest(open.map(|(verdict, _)| verdict));
-    let known = gravest(known.map(|(verdict, _)| verdict));
+    let open = most_severe(open.map(|(verdict, _)| verdict));
+    let known = most_severe(known.map(|(verdict, _)| verdict));
     match (open, known) {
         (Some(open), _) => Some((open, false)),
         (None, Some(known)) => Some((known, true)),
-        (None, None) => gravest(verdicts.map(|(verdict, _)| verdict)).map(|one| (one, false)),
+        (None, None) => most_severe(verdicts.map(|(verdict, _)| verdict)).map(|one| (one, false)),
     }
 }
 
@@ -362,7 +363,7 @@ mod tests {
     use super::*;
     use crate::judge::RequirementVerdict;
 
-    /// A warning that is graver than an inconclusive verdict does not hide it behind a waived
+    /// A warning that is more severe than an inconclusive verdict does not hide it behind a waived
     /// verdict.
     #[test]
     fn a_verdict_that_fails_the_run_is_shown() {

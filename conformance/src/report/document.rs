@@ -80,7 +80,8 @@ pub struct Report {
     pub exit_code: u8,
     pub checks: usize,
     pub frames: usize,
-    /// Why the run ended before all its cases were run.
+    /// The reason why cases were not run, if the target stopped answering or `--max-fail` ended
+    /// the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ended: Option<String>,
     /// Number of cases that were not selected; they are not in `cases`.
@@ -163,8 +164,8 @@ pub struct AreaReport {
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     pub requirement: String,
-    /// The gravest verdict that fails the run and is not waived; without such a verdict, the
-    /// gravest waived verdict; without a waived verdict, the gravest verdict.
+    /// The most severe verdict that fails the run and is not waived; without such a verdict, the
+    /// most severe waived verdict; without a waived verdict, the most severe verdict.
     pub verdict: Verdict,
     /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

@@ -238,8 +238,10 @@ fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
 fn sources(failure: &FailureReport) -> String {
     match (failure.sources.is_empty(), failure.level) {
         (false, _) => failure.sources.join("; "),
-        (true, Some(Level::Info) | None) => "in no document: assumed".to_owned(),
-        (true, Some(_)) => "in no document: a binding ruling of this project".to_owned(),
+        (true, Some(Level::Info) | None) => {
+            "not in the manuals: an assumption of this project".to_owned()
+        }
+        (true, Some(_)) => "not in the manuals: a binding ruling of this project".to_owned(),
     }
 }
 

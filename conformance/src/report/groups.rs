@@ -45,7 +45,7 @@ impl Report {
     }
 }
 
-/// The groups, sorted by verdict, with the gravest verdict last, and then by [`GroupKey`].
+/// The groups, sorted by verdict, with the most severe verdict last, and then by [`GroupKey`].
 pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
     let positions = report.positions();
     let position = |id: &str| positions.get(id).copied().unwrap_or(usize::MAX);
@@ -74,7 +74,7 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
                 stream.and_then(|_| LOST.into_iter().find(|kind| first.found.starts_with(kind)));
             let stream = stream.filter(|_| lost.is_none());
             let key = GroupKey {
-                gravity: first.verdict.gravity(),
+                severity: first.verdict.severity(),
                 waived: !first.waived,
                 subject: case.subject,
                 position: match (lost, stream) {
@@ -144,7 +144,7 @@ const LOST: [&str; 2] = ["a crash", "no answer within"];
 /// The common properties of the checks in a group. Groups are sorted by these properties.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct GroupKey<'r> {
-    gravity: u8,
+    severity: u8,
     waived: bool,
     subject: CaseSubject,
     position: usize,

@@ -186,8 +186,8 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     put(&mut test, "assertions", &case.checks.to_string());
     put_time(&mut test, case.milliseconds);
     let findings = text(case)?;
-    let gravest = case.failures.iter().rev().max_by_key(|failure| failure.verdict.gravity());
-    let message = match (&case.note, gravest) {
+    let most_severe = case.failures.iter().rev().max_by_key(|failure| failure.verdict.severity());
+    let message = match (&case.note, most_severe) {
         (_, Some(failure)) => {
             let sentence = sentence(failure, RESULT_MAX);
             format!("{}: {}: {sentence}", failure.requirement, case.title)

@@ -94,7 +94,7 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(out, "\n### Not passed\n")?;
     let (mut length, mut shown) = (0_usize, 0_usize);
-    // Begin with the gravest group, because not all groups may fit into a comment.
+    // Begin with the most severe group, because not all groups may fit into a comment.
     for group in groups.iter().rev() {
         let mut text = Vec::new();
         block(report, group, DisplayOptions::default(), &mut text)?;

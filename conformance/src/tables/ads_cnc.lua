@@ -80,7 +80,7 @@ local function function_of(command, port, group, offset)
             -- gets no function.
             if row.request ~= "content" and row.reply ~= "content" then
                 if command == 2 then return nil end
-                local copy = mistaken(row, "by another service than " .. row.service)
+                local copy = mistaken(row, "by a service other than " .. row.service)
                 copy.request, copy.reply = nil, nil
                 return copy
             end
@@ -131,7 +131,8 @@ local function walk(stream, range, tree)
             local may_lack = field.size.kind == "optional-fixed" or field.size.kind == "fixed-on-success"
             if may_lack and at == range:len() then return end
             if not length then
-                tree:add(fault_field, at < range:len() and range(at) or range, "ends in " .. field.name)
+                local fault = "the data ends inside the field " .. field.name
+                tree:add(fault_field, at < range:len() and range(at) or range, fault)
                 return
             end
             if field.size.kind == "items" then

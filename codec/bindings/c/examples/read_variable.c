@@ -35,8 +35,8 @@ static int dial(const char *host, const char *port) {
     wanted.ai_socktype = SOCK_STREAM;
     if (getaddrinfo(host, port, &wanted, &found) != 0) die("no such host");
     int connection = socket(found->ai_family, found->ai_socktype, 0);
-    struct timeval patience = {5, 0};
-    setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    struct timeval timeout = {5, 0};
+    setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     if (connection < 0 || connect(connection, found->ai_addr, found->ai_addrlen) != 0) die("no connection");
     freeaddrinfo(found);
     return connection;
@@ -58,7 +58,7 @@ static AdsCncBytes ask(int connection, const uint8_t net_id[6], const AdsCncCall
     if (!ads_cnc_call_write(call, payload, sizeof payload, &length, &error)) fail(&error);
     frame.data = (AdsCncBytes){payload, length};
     if (!ads_cnc_frame_write(&frame, sent, sizeof sent, &length, &error)) fail(&error);
-    if (write(connection, sent, length) != (ssize_t)length) die("not sent");
+    if (write(connection, sent, length) != (ssize_t)length) die("the request was not sent completely");
 
     while (used == 0) {
         ssize_t more = read(connection, received + there, sizeof received - there);
@@ -111,8 +111,8 @@ int main(int argc, char **argv) {
     unsigned part[6];
     if (argc != 6 ||
         sscanf(argv[3], "%u.%u.%u.%u.%u.%u", part, part + 1, part + 2, part + 3, part + 4, part + 5) != 6)
-        die("read_variable HOST PORT NET-ID CHANNEL NAME");
-    if (ads_cnc_abi() != ADS_CNC_ABI) die("a library of another version");
+        die("usage: read_variable HOST PORT NET-ID CHANNEL NAME");
+    if (ads_cnc_abi() != ADS_CNC_ABI) die("the library and ads_cnc.h have different ABI numbers");
     uint8_t net_id[6], data[512];
     for (int at = 0; at < 6; at++) net_id[at] = (uint8_t)part[at];
 

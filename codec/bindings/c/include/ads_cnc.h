@@ -96,7 +96,8 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_ARGUMENT = 36,     /* value that the function does not accept; name is the argument or field */
     ADS_CNC_ROOM = 37,         /* items or bytes needed, room available */
     ADS_CNC_NOT_STARTED = 38,  /* sender or host that was never started */
-    ADS_CNC_LINE = 39,         /* line; number of characters, or byte; `offset` is the column */
+    ADS_CNC_LINE = 39,         /* line; length of the line if it is too long, otherwise the invalid byte;
+                                  `offset` is the column */
     /* errors of a received call */
     ADS_CNC_NO_PORT = 40,      /* 0, the port */
     ADS_CNC_NO_GROUP = 41,     /* 0, the index group */
@@ -104,14 +105,15 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_COMMAND = 43       /* command of the function, command of the call */
 } AdsCncErrorKind;
 
-/* The arguments of any function. Set the arguments that ads_cnc_function_info lists for the function. You may also
- * set `by_index`, and `axis` for a list of objects, which are not listed. The others must be zero:
- * `AdsCncRequest request = {0};`. */
+/* The arguments of any function. Set the arguments that ads_cnc_function_info lists for the function. Two more
+ * arguments may be set, although they are not listed: `by_index` for a function with `channel`, and `axis` for a
+ * list of objects. All other arguments must be zero: `AdsCncRequest request = {0};`. */
 typedef struct AdsCncRequest {
     uint32_t function;      /* number from ads_cnc_function */
     uint32_t channel;       /* from 1; 0 is the platform, for lists of objects and object addresses; for the object
                                address of a spindle, the index of the spindle */
-    uint32_t by_index;      /* 1: `channel` counts the active channels */
+    uint32_t by_index;      /* 1: `channel` is the index among the active channels, from 1, not the logical
+                               number */
     uint32_t axis;          /* axis of the channel, from 1; a platform axis for lists of objects with channel 0; in
                                an object address, 0 is the channel itself */
     uint32_t index;         /* variables from 0; parameters and objects from 1 */

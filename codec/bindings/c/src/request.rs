@@ -24,7 +24,7 @@ pub struct AdsCncRequest {
     /// The channel, from 1; 0 is the platform, for functions that support it. For the object
     /// address of a spindle, the index of the spindle.
     pub channel: u32,
-    /// 1 if `channel` counts only the active channels (addressing by index), otherwise 0.
+    /// 1 if `channel` is the index among the active channels, from 1, otherwise 0.
     pub by_index: u32,
     /// An axis of the channel, from 1; for a list of objects with channel 0, a platform axis; in an
     /// object address, 0 is the channel itself.

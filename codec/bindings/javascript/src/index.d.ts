@@ -92,8 +92,8 @@ export interface Field {
   data: Uint8Array;
 }
 
-/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to null if it
- * has no field. */
+/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to null if the
+ * data contains no field. */
 export function decode(stream: string, data: Uint8Array): unknown;
 /** Encodes a stream, the inverse of `decode`. Bytes are written unchanged. */
 export function encode(stream: string, value: unknown): Uint8Array;

@@ -6,7 +6,8 @@ const ABI = 2,
   NONE = 0xffffffff;
 const wasm = Uint8Array.from(atob(WASM_BASE64), (letter) => letter.charCodeAt(0));
 const { exports: codec } = new WebAssembly.Instance(new WebAssembly.Module(wasm), {});
-if (codec.ads_cnc_abi() !== ABI) throw new Error(`ABI ${codec.ads_cnc_abi()}, ${ABI} needed`);
+if (codec.ads_cnc_abi() !== ABI)
+  throw new Error(`the WebAssembly module has ABI ${codec.ads_cnc_abi()}, but this package needs ${ABI}`);
 
 // Scratch memory after that of the codec. Each call reuses it from its start, so nothing has to be freed.
 const BASE = codec.memory.buffer.byteLength;
@@ -250,8 +251,8 @@ function valueOf(stream, parts) {
   return rows.length === 1 ? records[0][camel(rows[0].name)] : records[0];
 }
 
-/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to null if it
- * has no field. */
+/** Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to null if the
+ * data contains no field. */
 export const decode = (stream, data) => valueOf(named(stream), fields(stream, data));
 
 /** Encodes a stream, the inverse of `decode`. Bytes are written unchanged. */
@@ -276,7 +277,8 @@ const NUMBERS = 'function channel by_index axis index count size handle index_gr
 );
 const TEXTS = ['kind', 'name', 'value'];
 
-/** Writes an AdsCncRequest; returns its address. `given` has texts as CP1252: a conversion reuses the memory. */
+/** Writes an AdsCncRequest; returns its address. The texts in `given` must be CP1252, because a conversion here
+ * would overwrite the scratch memory. */
 function putRequest(number, given) {
   const plain = NUMBERS.map((name) => {
     const value = name === 'function' ? number : Number(given[name] ?? 0);
@@ -664,7 +666,8 @@ export class Host {
     this.#event(3);
   }
 
-  /** The outcome of the last answer: 'answered' or 'abandoned'; null before the first, and until one is known. */
+  /** The outcome of the last answer: 'answered' or 'abandoned'; null before the first answer, and until the
+   * outcome of an answer is known. */
   get outcome() {
     return [null, 'answered', 'abandoned'][this.#it.use((at) => codec.ads_cnc_host_outcome(at))];
   }

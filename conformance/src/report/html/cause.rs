@@ -32,12 +32,12 @@ struct FollowerView {
     case: String,
 }
 
-/// The groups: failures first, and then by verdict, with the gravest verdict first.
+/// The groups: failures first, and then by verdict, with the most severe verdict first.
 pub(super) fn causes(report: &Report) -> Vec<CauseView> {
     let mut all = groups(report);
     // The sort keeps the order of groups with an equal key, which `groups` has sorted.
     all.sort_by_key(|group| {
-        (!group.is_failure(), std::cmp::Reverse(group.verdict.gravity()), group.waived)
+        (!group.is_failure(), std::cmp::Reverse(group.verdict.severity()), group.waived)
     });
     all.iter().filter_map(cause).collect()
 }

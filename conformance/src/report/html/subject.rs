@@ -35,7 +35,7 @@ struct RequirementView {
     title: String,
     verdict: Verdict,
     waived: bool,
-    /// The cases to link to, the gravest first.
+    /// The cases to link to, the most severe first.
     cases: Vec<String>,
     /// Number of other cases.
     more: usize,
@@ -44,12 +44,12 @@ struct RequirementView {
 /// Maximum number of cases that a requirement links to.
 const LINKED_MAX: usize = 8;
 
-/// The IDs of at most [`LINKED_MAX`] cases of a requirement, the gravest first, and the number of
+/// The IDs of at most [`LINKED_MAX`] cases of a requirement, the most severe first, and the number of
 /// omitted cases.
 fn linked(report: &Report, judged_subject: CaseSubject, id: &str) -> (Vec<String>, usize) {
     let verdict = |case: &CaseReport| {
         let mut mine = case.requirements.iter().filter(|one| one.requirement == id);
-        mine.next().map(|one| std::cmp::Reverse(one.verdict.gravity()))
+        mine.next().map(|one| std::cmp::Reverse(one.verdict.severity()))
     };
     let mine = report.cases.iter().filter(|case| case.subject == judged_subject);
     let mut cases: Vec<_> = mine.filter_map(|case| Some((verdict(case)?, &case.id))).collect();
@@ -66,9 +66,9 @@ struct GroupView {
     counts: Vec<Chip>,
     /// Whether the group is initially collapsed.
     folded: bool,
-    /// The gravity of the gravest verdict that is not waived.
+    /// The severity of the most severe verdict that is not waived.
     #[serde(skip)]
-    gravity: u8,
+    severity: u8,
     /// In a folded group, all cases; otherwise the cases with a check that did not pass, or with a
     /// verdict that fails the run.
     cases: Vec<CaseView>,
@@ -135,33 +135,33 @@ pub(super) fn subject(report: &Report, judged_subject: CaseSubject) -> SubjectVi
         groups: {
             let groups = groups.into_iter().map(|((_, title), cases)| group(title, cases));
             let mut groups: Vec<GroupView> = groups.collect();
-            // The sort keeps the order of groups with equal gravity.
-            groups.sort_by_key(|group| (group.folded, std::cmp::Reverse(group.gravity)));
+            // The sort keeps the order of groups with equal severity.
+            groups.sort_by_key(|group| (group.folded, std::cmp::Reverse(group.severity)));
             groups
         },
     }
 }
 
 fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
-    // Cases that are not waived first, then the gravest cases, then the vectors with the fewest
+    // Cases that are not waived first, then the most severe cases, then the vectors with the fewest
     // bytes.
     cases.sort_by_cached_key(|case| {
         let evidence = case.failures.first().and_then(|failure| failure.evidence.as_ref());
         let parts = evidence.map(|one| [&one.sent, &one.received]).into_iter().flatten();
         let bytes: usize = parts.flatten().map(|part| part.length).sum();
         let size = if case.stream.is_some() { bytes } else { 0 };
-        let gravity = std::cmp::Reverse(case.verdict.gravity());
-        (case.waived, gravity, size, case.id.clone())
+        let severity = std::cmp::Reverse(case.verdict.severity());
+        (case.waived, severity, size, case.id.clone())
     });
     let counts = chips(cases.iter().map(|case| (case.verdict, case.waived)));
     let folded = cases.iter().all(|case| case.waived || !case.verdict.fails_run());
     let fails =
         |case: &&CaseReport| folded || !case.failures.is_empty() || case.verdict.fails_run();
     let (cases, rest): (Vec<&CaseReport>, Vec<&CaseReport>) = cases.into_iter().partition(fails);
-    let open = cases.iter().filter(|case| !case.waived).map(|case| case.verdict.gravity());
-    let gravity = open.max().unwrap_or_default();
+    let open = cases.iter().filter(|case| !case.waived).map(|case| case.verdict.severity());
+    let severity = open.max().unwrap_or_default();
     let [cases, rest] = [cases, rest].map(|cases| cases.into_iter().map(case).collect());
-    GroupView { title, counts, folded, gravity, cases, rest }
+    GroupView { title, counts, folded, severity, cases, rest }
 }
 
 /// CSS class and text of a count.

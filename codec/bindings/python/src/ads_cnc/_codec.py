@@ -261,7 +261,7 @@ def _value(stream: Stream, found: list[Field]) -> Any:
 
 def decode(stream: str, data: bytes) -> Any:
     """Decodes a stream: to its only field, to a record, or to a list of records if the stream repeats; to None if
-    it has no field."""
+    the data contains no field."""
     return _value(STREAMS[stream], fields(stream, data))
 
 
