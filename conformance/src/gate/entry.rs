@@ -105,13 +105,16 @@ fn is_of_service(name: CncStr<'_>) -> bool {
 
 /// Whether `requested_name` is `name`, optionally followed by indices.
 fn is_or_is_in(requested_name: CncStr<'_>, name: &CncString) -> bool {
-    let requested_name: Vec<u8> = requested_name.bytes().collect();
-    let Some(rest) = requested_name.strip_prefix(name.as_bytes()) else { return false };
+    let mut rest = requested_name.bytes();
+    if !name.as_bytes().iter().all(|&byte| rest.next() == Some(byte)) {
+        return false;
+    }
+    let rest: Vec<u8> = rest.collect();
     let is_index = |part: &[u8]| match part {
         [b'[', digits @ ..] => !digits.is_empty() && digits.iter().all(u8::is_ascii_digit),
         _ => false,
     };
-    match rest {
+    match rest.as_slice() {
         [] => true,
         [indices @ .., b']'] => indices.split(|&byte| byte == b']').all(is_index),
         _ => false,

@@ -16,7 +16,7 @@ use crate::common::proxy::{frame, proxy_by};
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::faults::{self, Faulty, SeededDefect};
 use ads_cnc_conformance::gate::{Allowed, Gate};
-use ads_cnc_conformance::judge::Selection;
+use ads_cnc_conformance::judge::{Case, Selection};
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, LocalCnc, Model, NET_ID};
 use ads_cnc_conformance::suite;
@@ -87,8 +87,15 @@ const OBJECT: Named = Named {
     cases: &["write-objects", "write-objects-by-index"],
 };
 
+impl Named {
+    fn plan(&self) -> Vec<Case> {
+        let only = self.cases.iter().map(|case| (*case).to_owned()).collect();
+        Selection { only, ..Selection::default() }.plan(suite::cases(), 1).unwrap().cases
+    }
+}
+
 /// The writes in the log of a simulated CNC in this process with this defect.
-fn written(model: Model, defect: &SeededDefect, named: &Named) -> BTreeSet<String> {
+fn written(model: Model, defect: &SeededDefect, table: &str, cases: Vec<Case>) -> BTreeSet<String> {
     let lines = MemoryFile::default();
     let writer = lines.clone();
     // The writes are in the log of the simulated CNC; the log of the client would be most of the
@@ -99,14 +106,12 @@ fn written(model: Model, defect: &SeededDefect, named: &Named) -> BTreeSet<Strin
     tracing::subscriber::with_default(log, || {
         let cnc = Cnc::new(model).with_stopped_clock();
         let cnc = Arc::new(Faulty::new(cnc, Some(defect)));
-        let allowed = Allowed::from_toml(&format!("{HEAD}{}", named.table)).unwrap();
+        let allowed = Allowed::from_toml(&format!("{HEAD}{table}")).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed));
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
         let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID)).unwrap();
         let mut session = suite::TargetState::new(client, Profile::DEVICE);
-        let only = named.cases.iter().map(|case| (*case).to_owned()).collect();
-        let plan = Selection { only, ..Selection::default() }.plan(suite::cases(), 1).unwrap();
-        suite::run(plan.cases, Some(&mut session), None, 1);
+        suite::run(cases, Some(&mut session), None, 1);
     });
     let lines = String::from_utf8(lines.0.lock().unwrap().clone()).unwrap();
     lines.lines().filter_map(|line| Some(line.split_once("write to a ")?.1.to_owned())).collect()
@@ -127,6 +132,7 @@ fn defects_of_the_cnc_write_nothing_else() {
     let defects: Vec<_> = faults::all().iter().filter(|defect| defect.is_for_cnc()).collect();
     assert!(defects.len() > 900, "{}", defects.len());
     let model = Model::default_model().unwrap();
+    let values = [VARIABLE, ARRAY, OBJECT].map(|named| (named.plan(), named));
     let queue = Mutex::new(defects.into_iter());
     let found = Mutex::new((BTreeMap::new(), 0));
     thread::scope(|scope| {
@@ -135,8 +141,8 @@ fn defects_of_the_cnc_write_nothing_else() {
                 loop {
                     let next = queue.lock().unwrap().next();
                     let Some(defect) = next else { break };
-                    for named in [&VARIABLE, &ARRAY, &OBJECT] {
-                        let mut writes = written(model.clone(), defect, named);
+                    for (plan, named) in &values {
+                        let mut writes = written(model.clone(), defect, named.table, plan.clone());
                         let is_written = writes.remove(named.log);
                         let mut found = found.lock().unwrap();
                         found.1 += usize::from(is_written);
