@@ -1,7 +1,6 @@
 //! `ads-cnc serve` as users call it. Other tests check the replies.
 
 use std::io::{Read as _, Write as _};
-use std::process::Command;
 
 use crate::common::{Serve, ads_cnc, connect, text};
 
@@ -63,7 +62,7 @@ fn executed_lines_are_written_at_the_end() {
         let executed = format!("2={}", ran.path());
         let options = ["--log", "info", "--pace", "fast", "--executed", &executed];
         let mut serve = Serve::logging(&options);
-        let stream = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        let stream = std::process::Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
             .args(["stream", program.path(), "--force", "--channel", "2"])
             .args(["--target", &serve.addr, "--net-id", &serve.net_id])
             .args(["--allow-write", allow.path()])
