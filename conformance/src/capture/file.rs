@@ -78,6 +78,18 @@ struct Interfaces {
     is_of_suite: bool,
 }
 
+/// Whether a pcapng block of process information is shorter than its own fields. The function
+/// `next` of pcap-parser 0.17 panics for such a block if overflow is checked.
+fn is_too_short(block: &[u8]) -> bool {
+    let Some((&kind, rest)) = block.split_first_chunk::<4>() else { return false };
+    let Some(&length) = rest.first_chunk::<4>() else { return false };
+    match kind {
+        [1, 0, 0, 0x80] => u32::from_le_bytes(length) < 12,
+        [0x80, 0, 0, 1] => u32::from_be_bytes(length) < 12,
+        _ => false,
+    }
+}
+
 /// Calls a function for each packet of a pcap or pcapng file.
 pub(super) fn packets(
     input: impl Read + Send,
@@ -88,9 +100,13 @@ pub(super) fn packets(
         PcapError::ReadError => FileError::Io(std::io::Error::other("read error")),
         _ => FileError::Format,
     })?;
+    let is_pcapng = reader.data().starts_with(b"\n\r\r\n");
     let mut interfaces = Interfaces::default();
     let mut capacity = BUFFER;
     loop {
+        if is_pcapng && is_too_short(reader.data()) {
+            return Ok(interfaces.cut("bytes that are not a record"));
+        }
         let more = match reader.next() {
             Ok((length, block)) => {
                 interfaces.read(block, &mut each);
@@ -109,8 +125,7 @@ pub(super) fn packets(
                     PcapError::ReadError => "read error",
                     _ => "bytes that are not a record",
                 };
-                let number = interfaces.packets;
-                return Ok(FileEnd::Cut(format!("{what}, after packet {number}")));
+                return Ok(interfaces.cut(what));
             }
         };
         if more {
@@ -150,6 +165,11 @@ impl<R: Read> Read for FullReader<R> {
 }
 
 impl Interfaces {
+    /// The end of a file that cannot be read after the last packet.
+    fn cut(&self, what: &str) -> FileEnd {
+        FileEnd::Cut(format!("{what}, after packet {}", self.packets))
+    }
+
     fn read(&mut self, block: PcapBlockOwned<'_>, each: &mut impl FnMut(Packet<'_>)) {
         match block {
             PcapBlockOwned::LegacyHeader(header) => {

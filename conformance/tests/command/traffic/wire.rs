@@ -198,6 +198,26 @@ fn hostile_files_are_read() {
     }
 }
 
+/// A block of process information that is shorter than its own fields ends the file, in both byte
+/// orders.
+#[test]
+fn a_block_shorter_than_its_fields_ends_a_file() {
+    for little in [true, false] {
+        let number = |one: u32| if little { one.to_le_bytes() } else { one.to_be_bytes() };
+        // The major version 1 has two bytes.
+        let version = if little { 1 } else { 0x1_0000 };
+        let header = [0x0A0D_0D0A, 28, 0x1A2B_3C4D, version];
+        for length in [0, 4, 11] {
+            let block = [0x8000_0001, length, 0, 0];
+            let all = [&header[..], &[u32::MAX, u32::MAX, 28], &block].concat();
+            let file: Vec<u8> = all.into_iter().flat_map(number).collect();
+            let end = check(&file[..], CaptureOptions::default()).unwrap().tally.end.unwrap();
+            let cut = "bytes that are not a record, after packet 0".to_owned();
+            assert_eq!(end, FileEnd::Cut(cut), "{length}");
+        }
+    }
+}
+
 /// A conversation with the simulated CNC passes on both sides.
 #[test]
 fn recorded_conversations_pass() {
