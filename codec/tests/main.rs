@@ -2,6 +2,9 @@
 //! many of them use the same samples and laws (`common`) and every further program has to be
 //! linked.
 
+use std::fs;
+use std::path::Path;
+
 mod common;
 mod damage;
 mod kept;
@@ -51,12 +54,32 @@ mod vectors;
 #[test]
 fn every_file_is_a_module() {
     let modules = include_str!("main.rs");
-    let files = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/tests")).unwrap();
+    let files = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/tests")).unwrap();
     let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
     for name in names.filter(|name| name != "main.rs") {
         let Some(name) = name.strip_suffix(".rs") else { continue };
         assert!(modules.contains(&format!("\nmod {name};")), "{name}.rs is not in main.rs");
     }
+}
+
+/// Two places of the library permit what Clippy rejects.
+#[test]
+fn lints_have_two_exceptions() {
+    fn exceptions(folder: &Path) -> usize {
+        let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        paths.map(|path| if path.is_dir() { exceptions(&path) } else { in_file(&path) }).sum()
+    }
+    fn in_file(path: &Path) -> usize {
+        let text = fs::read_to_string(path).unwrap();
+        let is_exception = |line: &&str| {
+            let starts = ["#[allow(", "#![allow(", "#[expect(", "#![expect("];
+            starts.iter().any(|start| line.trim_start().starts_with(start))
+                && line.contains("clippy::")
+                && !line.contains("upper_case_acronyms")
+        };
+        text.lines().filter(is_exception).count()
+    }
+    assert_eq!(exceptions(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))), 2);
 }
 
 /// The block `deny` of `src/lib.rs` that does not apply to unit tests contains exactly these lints

@@ -140,6 +140,22 @@ fn allocations_of_decoding_are_detected() {
     assert!(decoding > 0);
 }
 
+/// A length with few bytes after it does not make `BinRead` allocate memory for the length.
+#[cfg(feature = "binrw")]
+#[test]
+fn memory_of_binread_is_limited_by_the_bytes() {
+    use ads_cnc::ads::WriteRequest;
+    use ads_cnc::binrw::{BinRead as _, io::Cursor};
+
+    for length in [0x40_0000_u32, u32::MAX] {
+        let bytes = [&[0; 8], &length.to_le_bytes()[..], &[1, 2, 3]].concat();
+        let (held, _) = measure(|| {
+            assert!(black_box(WriteRequest::read(&mut Cursor::new(&bytes))).is_err());
+        });
+        assert!(held < 8192, "{length}: {held}");
+    }
+}
+
 /// The memory of a checker is limited for an endless stream of lines: with short labels, with long
 /// labels, and if each label is in a program of its own.
 #[test]

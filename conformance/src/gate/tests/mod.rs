@@ -255,6 +255,9 @@ fn a_file_may_require_an_address() {
         assert!(matches!(rejection.reason, Reason::OtherAddress { .. }), "{rejection}");
         assert!(other.check_target(TARGET, now()).is_err());
     }
+    for any in ["192.0.2.10", "192.0.2.11", "2001:db8::1"] {
+        assert!(to(&gate(table), any).check(&write, now()).is_ok(), "{any}");
+    }
 
     let text = file(table).replace("192.0.2.7.1.1", "127.0.0.1.1.1");
     let local = Gate::queries().with_allowed(Some(Allowed::from_toml(&text).unwrap()));
