@@ -12,7 +12,8 @@ macro_rules! names {
     };
 }
 
-/// Types, access and write access of variables and elements (VAR-5, VAR-6, SDA-9).
+/// Types, access, synchronisation and validity of variables, and the write access of objects
+/// (VAR-5, VAR-6, VAR-15, COM-2).
 #[test]
 fn codes_of_variables_have_the_numbers_of_the_manual() {
     let types = [

@@ -47,7 +47,7 @@ pub(super) fn lost(error: io::Error) -> Exit {
     exit_with_error(Exit::Internal, not_written(error))
 }
 
-/// Writes to stdout; an error is that of a tool.
+/// Like [`show`], but returns a [`ToolError`].
 pub(super) fn print(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), ToolError> {
     show(make).map_err(|error| ToolError::Internal(not_written(error)))
 }

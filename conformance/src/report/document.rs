@@ -164,8 +164,10 @@ pub struct AreaReport {
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     pub requirement: String,
-    /// The most severe verdict that fails the run and is not waived; without such a verdict, the
-    /// most severe waived verdict; without a waived verdict, the most severe verdict.
+    /// In an area: the most severe verdict that fails the run and is not waived; without such a
+    /// verdict, the most severe waived verdict; without a waived verdict, the most severe verdict.
+    /// In a case: the most severe verdict of the checks; the end of the case determines the verdict
+    /// without checks, and if all checks passed but the case did not end normally.
     pub verdict: Verdict,
     /// Whether the verdict is waived.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

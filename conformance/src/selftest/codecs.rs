@@ -55,7 +55,7 @@ fn of_miniature(miniature: Miniature) -> Candidate {
     Candidate {
         id: format!("miniature.{name}"),
         group: if is_right { SelfTestGroup::Different } else { SelfTestGroup::Miniature },
-        what: format!("a testee that {}", name.replace('-', " ")),
+        what: format!("ads-cnc testee --miniature {name}"),
         targets: if is_right { Vec::new() } else { targets(miniature) },
         run: Box::new(move || over_pipes(miniature).map(Some)),
     }

@@ -43,8 +43,9 @@ pub enum Miniature {
 
 named! { Miniature:
     AcceptsAll "accepts-all", RejectsAll "rejects-all", Echoes "echoes", Hangs "hangs",
-    Crashes "crashes", Overclaims "overclaims", AcceptsUnknown "accepts-unknown", InternalErrors "internal-errors",
-    WrongNumbers "wrong-numbers", NotJson "not-json", RejectsLater "rejects-later", IgnoresBye "ignores-bye", Noisy "noisy",
+    Crashes "crashes", Overclaims "overclaims", AcceptsUnknown "accepts-unknown",
+    InternalErrors "internal-errors", WrongNumbers "wrong-numbers", NotJson "not-json",
+    RejectsLater "rejects-later", IgnoresBye "ignores-bye", Noisy "noisy",
     DecodesOnly "decodes-only", Terse "terse",
 }
 

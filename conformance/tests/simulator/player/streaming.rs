@@ -131,7 +131,7 @@ fn take(
     program.set_pace(Pace::Fast, now);
     program.set_pace(Pace::Hold, now);
     let executed = program.executed().recent();
-    let Some(behind) = stated.strip_prefix(executed) else { return Ok(Some("outcome")) };
+    let Some(rest) = stated.strip_prefix(executed) else { return Ok(Some("outcome")) };
     match program.state() {
         ProgramState::Aborted(Message { number, line, column, text, .. }) => {
             let found = Some(StreamingFault { number, line, column });
@@ -147,7 +147,7 @@ fn take(
         ProgramState::Ended(end) => {
             let discarded = step.discarded.as_ref().map_or(Vec::new(), Pieces::bytes);
             let stated_end = (step.error, step.ends.clone(), discarded);
-            let found = (None, Some(end.to_string()), behind.to_vec());
+            let found = (None, Some(end.to_string()), rest.to_vec());
             if stated_end != found {
                 return differs(format!("{stated_end:?} in {}", step.id), format!("{found:?}"));
             }
@@ -163,7 +163,7 @@ fn take(
                 let stated = format!("{:?}, {:?} in {}", step.error, step.ends, step.id);
                 return differs(stated, format!("{state:?}"));
             }
-            Ok((!behind.is_empty()).then_some("outcome"))
+            Ok((!rest.is_empty()).then_some("outcome"))
         }
     }
 }
