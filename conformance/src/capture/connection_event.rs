@@ -27,8 +27,8 @@ pub(super) struct Span {
 pub(super) enum ConnectionEvent {
     /// A whole frame.
     Frame(Vec<u8>, SegmentDirection, Span),
-    /// A message between a client and its local router.
-    Router,
+    /// Number of consecutive messages between a client and its local router.
+    Router(u64),
     /// The first bytes of data that is not a frame, although a frame must begin there.
     Broken(Error, Vec<u8>, SegmentDirection, Span),
     /// The beginning of a frame whose rest was not captured.

@@ -76,18 +76,44 @@ struct Interfaces {
     all: Vec<CaptureInterface>,
     packets: u64,
     is_of_suite: bool,
+    /// Whether the numbers of the current pcapng section begin with their upper byte.
+    big_endian: bool,
 }
 
-/// Whether a pcapng block of process information is shorter than its own fields. The function
-/// `next` of pcap-parser 0.17 panics for such a block if overflow is checked.
-fn is_too_short(block: &[u8]) -> bool {
-    let Some((&kind, rest)) = block.split_first_chunk::<4>() else { return false };
-    let Some(&length) = rest.first_chunk::<4>() else { return false };
+/// Whether a pcapng block is shorter than its fields, or than the data whose length it contains.
+/// For such blocks, pcap-parser 0.17 waits for bytes after the block, or panics if overflow is
+/// checked.
+fn is_too_short(block: &[u8], big_endian: bool) -> bool {
+    let number = |offset: usize| number_at(block, offset, big_endian);
+    let (Some(kind), Some(length)) = (number(0), number(4)) else { return false };
+    let exceeds = |offset: usize, fields: u32| {
+        number(offset).is_some_and(|inner| inner > length.saturating_sub(fields))
+    };
     match kind {
-        [1, 0, 0, 0x80] => u32::from_le_bytes(length) < 12,
-        [0x80, 0, 0, 1] => u32::from_be_bytes(length) < 12,
+        ENHANCED_PACKET => exceeds(20, 32),
+        DECRYPTION_SECRETS => exceeds(12, 20),
+        PROCESS_INFORMATION => length < 16,
         _ => false,
     }
+}
+
+const ENHANCED_PACKET: u32 = 6;
+const DECRYPTION_SECRETS: u32 = 10;
+const PROCESS_INFORMATION: u32 = 0x8000_0001;
+
+fn number_at(bytes: &[u8], offset: usize, big_endian: bool) -> Option<u32> {
+    let number = *bytes.get(offset..)?.first_chunk()?;
+    Some(if big_endian { u32::from_be_bytes(number) } else { u32::from_le_bytes(number) })
+}
+
+/// Units of time per second, from the option `if_tsresol`: the negative exponent of 10 or, with the
+/// upper bit, of 2. Microseconds if it is too large.
+fn resolution(code: u8) -> u64 {
+    let power = match code {
+        0..0x80 => 10_u64.checked_pow(code.into()),
+        _ => 1_u64.checked_shl(u32::from(code & 0x7F)),
+    };
+    power.unwrap_or(1_000_000)
 }
 
 /// Calls a function for each packet of a pcap or pcapng file.
@@ -104,7 +130,7 @@ pub(super) fn packets(
     let mut interfaces = Interfaces::default();
     let mut capacity = BUFFER;
     loop {
-        if is_pcapng && is_too_short(reader.data()) {
+        if is_pcapng && is_too_short(reader.data(), interfaces.big_endian) {
             return Ok(interfaces.cut("bytes that are not a record"));
         }
         let more = match reader.next() {
@@ -194,16 +220,20 @@ impl Interfaces {
         match block {
             Block::SectionHeader(header) => {
                 self.all.clear();
+                self.big_endian = header.big_endian();
                 let mut options = header.options.iter();
                 self.is_of_suite = options.any(|option| {
                     option.code == OptionCode::Comment && option.as_bytes() == Ok(SUITE.as_bytes())
                 });
             }
             Block::InterfaceDescription(interface) if self.all.len() < INTERFACES_MAX => {
+                // pcap-parser 0.17 knows no powers of 2, and always reads the offset from its lower
+                // byte on.
+                let offset = interface.ts_offset();
                 self.all.push(CaptureInterface {
                     link: interface.linktype,
-                    resolution: interface.ts_resolution().unwrap_or(1_000_000).max(1),
-                    offset: interface.ts_offset(),
+                    resolution: resolution(interface.if_tsresol),
+                    offset: if self.big_endian { offset.swap_bytes() } else { offset },
                 });
             }
             Block::EnhancedPacket(packet) => {
@@ -245,5 +275,49 @@ impl Interfaces {
             missing,
             is_of_suite: self.is_of_suite,
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The time of a packet, 3 × 2^20 units after 1970, in a pcapng file with these options of the
+    /// interface: the resolution, and an offset of 100 seconds.
+    fn time_of_packet(resolution: u8, little: bool) -> std::time::Duration {
+        let four = |one: u32| if little { one.to_le_bytes() } else { one.to_be_bytes() };
+        let two = |one: u16| if little { one.to_le_bytes() } else { one.to_be_bytes() };
+        let eight = |one: u64| if little { one.to_le_bytes() } else { one.to_be_bytes() };
+        let mut file = Vec::new();
+        let mut block = |kind: u32, content: &[u8]| {
+            let length = four(u32::try_from(content.len() + 12).unwrap());
+            file.extend([&four(kind), &length, content, &length].concat());
+        };
+        block(0x0A0D_0D0A, &[&four(0x1A2B_3C4D)[..], &two(1), &two(0), &[0xFF; 8]].concat());
+        let resolution = [&two(9)[..], &two(1), &[resolution, 0, 0, 0]].concat();
+        let offset = [&two(14)[..], &two(8), &eight(100)].concat();
+        block(1, &[&two(101)[..], &[0; 6], &resolution, &offset, &[0; 4]].concat());
+        block(6, &[[0; 4], [0; 4], four(3 << 20), [0; 4], [0; 4]].concat());
+        let mut time = None;
+        let end = packets(&file[..], |packet| time = packet.time);
+        assert_eq!(end.unwrap(), FileEnd::Whole);
+        time.unwrap().since_1970()
+    }
+
+    #[test]
+    fn times_have_the_resolution_and_offset_of_the_interface() {
+        for little in [true, false] {
+            for (resolution, nanoseconds) in [
+                (0x94, 3_000_000_000),
+                (0x80, (3 << 20) * 1_000_000_000),
+                (0, (3 << 20) * 1_000_000_000),
+                (9, 3 << 20),
+                (20, (3 << 20) * 1000),
+                (0xC0, (3 << 20) * 1000),
+            ] {
+                let expected = std::time::Duration::from_nanos(nanoseconds + 100_000_000_000);
+                assert_eq!(time_of_packet(resolution, little), expected, "{resolution:#x}");
+            }
+        }
     }
 }

@@ -14,10 +14,13 @@ use super::tcp::CapturePosition;
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     bytes: Vec<u8>,
-    /// For each segment in the buffer, the offset of its first byte in the buffer, and its location
-    /// in the capture.
+    /// Number of bytes at the beginning of `bytes` that are already split. They are removed
+    /// together: a removal moves all bytes after it.
+    done: usize,
+    /// For each segment in the buffer, the offset of its first byte in the [rest](Self::rest), and
+    /// its location in the capture.
     marks: VecDeque<(usize, CapturePosition)>,
-    /// Offset of the first byte of the buffer, from the beginning of the direction.
+    /// Offset of the first byte of the rest, from the beginning of the direction.
     offset: u64,
     /// Whether the start of the next frame is unknown, so that a frame may begin at any offset.
     is_lost: bool,
@@ -48,6 +51,12 @@ impl Frames {
         self.marks.push_back((self.bytes.len(), mark));
         self.bytes.extend_from_slice(bytes);
         while self.step(direction, out) {}
+        self.bytes.drain(..std::mem::take(&mut self.done));
+    }
+
+    /// The bytes that are not yet split.
+    fn rest(&self) -> &[u8] {
+        self.bytes.get(self.done..).unwrap_or_default()
     }
 
     /// Handles `length` bytes that were not captured: the current frame remains incomplete.
@@ -87,29 +96,32 @@ impl Frames {
         if self.is_lost {
             return self.find(out);
         }
-        let router = self.bytes.get(..AMS_TCP_HEADER_LEN).and_then(router);
+        let router = self.rest().get(..AMS_TCP_HEADER_LEN).and_then(router);
         if let Some(length) = router {
-            if self.bytes.len() < length {
+            if self.rest().len() < length {
                 return false;
             }
             self.drop(length);
-            out.push(ConnectionEvent::Router);
+            match out.last_mut() {
+                Some(ConnectionEvent::Router(count)) => *count = count.saturating_add(1),
+                _ => out.push(ConnectionEvent::Router(1)),
+            }
             return true;
         }
-        match FrameRef::split(&self.bytes, u32::MAX) {
+        match FrameRef::split(self.rest(), u32::MAX) {
             Ok(None) => false,
             Ok(Some((_, length))) => {
                 if let Some(span) = self.span(length) {
-                    let frame = self.bytes.get(..length).unwrap_or_default().to_vec();
+                    let frame = self.rest().get(..length).unwrap_or_default().to_vec();
                     self.drop(length);
                     out.push(ConnectionEvent::Frame(frame, direction, span));
                 }
                 true
             }
             Err(error) => {
-                let shown = self.bytes.len().min(SHOWN);
+                let shown = self.rest().len().min(SHOWN);
                 if let Some(span) = self.span(shown) {
-                    let bytes = self.bytes.get(..shown).unwrap_or_default().to_vec();
+                    let bytes = self.rest().get(..shown).unwrap_or_default().to_vec();
                     out.push(ConnectionEvent::Broken(error, bytes, direction, span));
                 }
                 self.skip(1);
@@ -122,11 +134,12 @@ impl Frames {
     /// Skips to the next offset at which a frame may begin; returns whether there is such an
     /// offset.
     fn find(&mut self, out: &mut Vec<ConnectionEvent>) -> bool {
-        let last = self.bytes.len().saturating_sub(FrameRef::HEADERS_LEN);
-        if self.bytes.len() < FrameRef::HEADERS_LEN {
+        let rest = self.rest();
+        let last = rest.len().saturating_sub(FrameRef::HEADERS_LEN);
+        if rest.len() < FrameRef::HEADERS_LEN {
             return false;
         }
-        let offset = (0..=last).find(|&offset| self.bytes.get(offset..).is_some_and(is_plausible));
+        let offset = (0..=last).find(|&offset| rest.get(offset..).is_some_and(is_plausible));
         match offset {
             Some(offset) => {
                 self.skip(offset);
@@ -155,8 +168,8 @@ impl Frames {
     }
 
     fn drop(&mut self, length: usize) {
-        let length = length.min(self.bytes.len());
-        self.bytes.drain(..length);
+        let length = length.min(self.rest().len());
+        self.done = self.done.saturating_add(length);
         self.offset = self.offset.saturating_add(u64::try_from(length).unwrap_or(u64::MAX));
         for (offset, _) in &mut self.marks {
             *offset = offset.saturating_sub(length);
@@ -166,8 +179,9 @@ impl Frames {
             self.marks.pop_front();
         }
         // Free the memory of an idle connection.
-        if self.bytes.is_empty() {
+        if self.rest().is_empty() {
             self.bytes = Vec::new();
+            self.done = 0;
             self.marks = VecDeque::new();
         }
     }

@@ -157,7 +157,7 @@ impl CapturePiece {
             }
             ConnectionEvent::Skipped(length) => Self::Rest(length),
             ConnectionEvent::Unfinished => Self::Rest(0),
-            ConnectionEvent::Router
+            ConnectionEvent::Router(_)
             | ConnectionEvent::Joined(_)
             | ConnectionEvent::Running(_)
             | ConnectionEvent::Ended(_) => return None,

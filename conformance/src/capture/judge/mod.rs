@@ -137,7 +137,9 @@ impl TrafficJudge {
             ConnectionEvent::Frame(frame, direction, span) => {
                 self.frame(frame, direction, span, table)
             }
-            ConnectionEvent::Router => count(&mut self.tally.router),
+            ConnectionEvent::Router(count) => {
+                self.tally.router = self.tally.router.saturating_add(count);
+            }
             ConnectionEvent::Broken(error, bytes, direction, span) => {
                 self.broken(error, &bytes, &direction, span)
             }

@@ -103,3 +103,28 @@ fn captures_are_checked_in_linear_time() {
         assert!(ended.time < usual * 6 + Duration::from_secs(2), "{what}: {:?}", ended.time);
     }
 }
+
+/// A packet of 4 MiB with many short messages takes no time that grows with the square of their
+/// number.
+#[test]
+fn a_long_packet_is_split_in_linear_time() {
+    let header = request(Command::READ_STATE, 1);
+    for message in [vec![0, 0x10, 0, 0, 0, 0], frame(header, &[])] {
+        // A pcap file of IP packets: a SYN, and then the messages. An IP length of 0 is that of the
+        // rest of the record.
+        let mut file = b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\0\0\x80\0\x65\0\0\0".to_vec();
+        let messages = message.repeat((4 << 20) / message.len());
+        for (sequence, flags, payload) in [(0_u8, 2_u8, &[][..]), (1, 0x10, &messages)] {
+            let length = u32::try_from(40 + payload.len()).unwrap().to_le_bytes();
+            file.extend([&[0; 8], &length[..], &length].concat());
+            file.extend(b"\x45\0\0\0\0\0\0\0\x40\x06\0\0\x0a\0\0\x01\x0a\0\0\x02");
+            file.extend([0xC3, 0x50, 0xBF, 2, 0, 0, 0, sequence, 0, 0, 0, 0, 0x50, flags]);
+            file.extend([0xFF, 0xFF, 0, 0, 0, 0]);
+            file.extend(payload);
+        }
+        let file = TestFile::new(".pcap", &file);
+        let ended = run(&["check", file.path()]);
+        assert!(ended.code.is_some_and(|code| code < 6), "{}", ended.stderr);
+        assert!(ended.time < Duration::from_secs(10), "{:?}", ended.time);
+    }
+}

@@ -198,7 +198,7 @@ fn hostile_files_are_read() {
     }
 }
 
-/// A block of process information that is shorter than its own fields ends the file, in both byte
+/// A pcapng block that is shorter than its fields, or than its data, ends the file, in both byte
 /// orders.
 #[test]
 fn a_block_shorter_than_its_fields_ends_a_file() {
@@ -207,13 +207,20 @@ fn a_block_shorter_than_its_fields_ends_a_file() {
         // The major version 1 has two bytes.
         let version = if little { 1 } else { 0x1_0000 };
         let header = [0x0A0D_0D0A, 28, 0x1A2B_3C4D, version];
-        for length in [0, 4, 11] {
-            let block = [0x8000_0001, length, 0, 0];
-            let all = [&header[..], &[u32::MAX, u32::MAX, 28], &block].concat();
+        for block in [
+            &[0x8000_0001, 0, 0, 0, 0, 0, 0, 0][..],
+            &[0x8000_0001, 11, 0, 0, 0, 0, 0, 0],
+            &[0x8000_0001, 15, 0, 0, 0, 0, 0, 0],
+            // An enhanced packet and a decryption secret with more data than the block.
+            &[6, 32, 0, 0, 0, 1, 0, 32],
+            &[6, 32, 0, 0, 0, u32::MAX, 0, 32],
+            &[10, 20, 0, 1, 20, 0, 0, 0],
+        ] {
+            let all = [&header[..], &[u32::MAX, u32::MAX, 28], block].concat();
             let file: Vec<u8> = all.into_iter().flat_map(number).collect();
             let end = check(&file[..], CaptureOptions::default()).unwrap().tally.end.unwrap();
             let cut = "bytes that are not a record, after packet 0".to_owned();
-            assert_eq!(end, FileEnd::Cut(cut), "{length}");
+            assert_eq!(end, FileEnd::Cut(cut), "{block:x?}");
         }
     }
 }
