@@ -58,7 +58,7 @@ def elements(context, data):
     # `unpack` raises an error if the data does not have the length of the value.
     ads_cnc.unpack(kind, data, context.get("dimensions", []))
     size = len(data) // max(count, 1)
-    parts = [data[at * size :][:size] for at in range(count)]
+    parts = [data[at * size : (at + 1) * size] for at in range(count)]
     return [text(part) if kind == "STRING" else number(kind, part) for part in parts]
 
 

@@ -109,7 +109,8 @@ export function textToCp1252(text: string): Uint8Array;
 
 export type Scalar = number | bigint | boolean | string;
 export type Value = Scalar | Value[];
-/** Decodes a value by its type (a name, or a code from a description); an array to nested arrays. */
+/** Decodes a value by its type (a name, or a code from a description); an array to nested arrays. The result is an
+ * empty array if a dimension is 0. */
 export function unpack(type: string | number, data: Uint8Array, dimensions?: number[]): Value;
 /** Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes. */
 export function pack(type: string | number, value: Value | Uint8Array | Uint8Array[]): Uint8Array;
@@ -149,7 +150,7 @@ export interface Path {
 /** Parses the name of a variable. */
 export function path(name: string): Path;
 
-/** A NetId and a port: ['192.0.2.7.1.1', 552] */
+/** A NetId of six numbers from 0 to 255, and a port from 0 to 65535: ['192.0.2.7.1.1', 552] */
 export type Address = [netId: string, port: number];
 /** An AMS/TCP frame. */
 export interface Frame {
@@ -176,11 +177,12 @@ export const REJECTED: 2;
 
 /** Sends an NC program: returns packets to write by `writeProgramStream`, and accepts the results. */
 export class Sender {
+  /** Copies the program: later changes of the array have no effect. */
   constructor(program: Uint8Array);
   /** The packet to write now; null if no packet is left. */
   packet(): Uint8Array | null;
   /**
-   * Reports the ADS result of the write, or null if the reply was lost.
+   * Reports the ADS result of the write, a number of 32 bits, or null if the reply was lost.
    * Returns 0, BUSY (wait about half a second, then repeat) or REJECTED.
    */
   acknowledge(adsError: number | null): 0 | typeof BUSY | typeof REJECTED;

@@ -5,13 +5,22 @@
 const ABI = 2,
   NONE = 0xffffffff;
 const wasm = Uint8Array.from(atob(WASM_BASE64), (letter) => letter.charCodeAt(0));
-const { exports: codec } = new WebAssembly.Instance(new WebAssembly.Module(wasm), {});
+const compiled = new WebAssembly.Module(wasm);
+
+/** A new instance of the codec with memory of its own. `base` is the start of its scratch memory, which is after the
+ * memory of the codec. Each call reuses the scratch memory from its start, so nothing has to be freed. */
+function instance() {
+  const { exports } = new WebAssembly.Instance(compiled, {});
+  return { codec: exports, base: exports.memory.buffer.byteLength };
+}
+
+// The instance that all functions below use. A state machine replaces it by its own instance during a call.
+let { codec, base } = instance();
 if (codec.ads_cnc_abi() !== ABI)
   throw new Error(`the WebAssembly module has ABI ${codec.ads_cnc_abi()}, but this package needs ${ABI}`);
 
-// Scratch memory after that of the codec. Each call reuses it from its start, so nothing has to be freed.
-const BASE = codec.memory.buffer.byteLength;
-let top = BASE;
+// The end of the scratch memory in use.
+let top = base;
 
 function room(size) {
   const at = (top + 7) & ~7;
@@ -27,16 +36,32 @@ const bytes = (at, size) => new Uint8Array(codec.memory.buffer, at, size);
 const taken = (at, size) => bytes(at, size).slice();
 const numbers = (at, count) => Array.from({ length: count }, (_, n) => u32(at + 4 * n));
 
+/** Checks that data is bytes. An ArrayBuffer, for example, has no `length`, and would corrupt the scratch memory. */
+function checked(data) {
+  if (data instanceof Uint8Array) return data;
+  throw new TypeError(`Uint8Array expected, found ${data?.constructor?.name ?? data}`);
+}
+
+/** Checks a number of the caller, because WebAssembly and DataView wrap or truncate a number that does not fit. */
+function unsigned(name, value, bits = 32) {
+  if (typeof value !== 'number')
+    throw new TypeError(`${name}: number expected, found ${String(value)} (${typeof value})`);
+  if (Number.isInteger(value) && value >= 0 && value < 2 ** bits) return value;
+  throw new RangeError(`${name}: ${value} is not an unsigned number of ${bits} bits`);
+}
+
 /** Copies data to the scratch memory; returns the address, which is not null even if the data is empty. */
 function put(data) {
-  const at = room(data.length + 1);
+  const at = room(checked(data).length + 1);
   bytes(at, data.length).set(data);
   return at;
 }
 
-function putNumbers(...all) {
-  const at = room(4 * all.length);
-  all.forEach((number, n) => view().setUint32(at + 4 * n, number, true));
+/** Like `put`, for checked numbers in an array: the number of arguments of a function is limited. */
+function putNumbers(all) {
+  const at = room(4 * all.length),
+    memory = view();
+  all.forEach((number, n) => memory.setUint32(at + 4 * n, number, true));
   return at;
 }
 
@@ -83,7 +108,7 @@ function sized(size, name, ...given) {
 
 /** Frees the scratch memory, then runs a function, which may use all scratch memory. */
 function begin(work) {
-  top = BASE;
+  top = base;
   return work();
 }
 
@@ -204,7 +229,7 @@ export const join = (stream, parts) =>
       return [field < 0 ? NONE : field, 0, put(data), data.length];
     });
     const size = parts.reduce((sum, [, data]) => sum + data.length, 64);
-    return sized(size, 'build', it.number, putNumbers(...all), parts.length);
+    return sized(size, 'build', it.number, putNumbers(all), parts.length);
   });
 
 const little = (data) => data.reduceRight((sum, byte) => sum * 256 + byte, 0);
@@ -218,7 +243,20 @@ function read(row, data) {
   return row.kind === 5 ? data.join('.') : data;
 }
 
-const ended = (text) => Uint8Array.of(...textToCp1252(text), 0);
+function ended(text) {
+  const data = textToCp1252(text),
+    all = new Uint8Array(data.length + 1);
+  all.set(data);
+  return all;
+}
+
+/** The bytes of a NetId. Without the check, Uint8Array would wrap a number above 255. */
+function netIdToBytes(name, text) {
+  const parts = /^\d{1,3}(\.\d{1,3}){5}$/.test(text) ? text.split('.').map(Number) : [];
+  if (parts.length !== 6 || parts.some((part) => part > 255))
+    throw new RangeError(`${name}: six numbers from 0 to 255 expected, found ${text}`);
+  return Uint8Array.from(parts);
+}
 
 function write(row, value) {
   if (value instanceof Uint8Array) return value;
@@ -231,7 +269,7 @@ function write(row, value) {
   }
   if (row.kind === 3) return new Uint8Array(Float64Array.of(value).buffer);
   if (row.kind === 4) return textToCp1252(value).length === row.size ? textToCp1252(value) : ended(value);
-  return Uint8Array.from(value.split('.'));
+  return netIdToBytes(row.name, value);
 }
 
 const shown = (stream) => stream.fields.filter((row) => !row.isCount);
@@ -280,16 +318,11 @@ const TEXTS = ['kind', 'name', 'value'];
 /** Writes an AdsCncRequest; returns its address. The texts in `given` must be CP1252, because a conversion here
  * would overwrite the scratch memory. */
 function putRequest(number, given) {
-  const plain = NUMBERS.map((name) => {
-    const value = name === 'function' ? number : Number(given[name] ?? 0);
-    if (!Number.isInteger(value) || value < 0 || value > NONE) {
-      throw new RangeError(`${camel(name)}: ${given[name]} is not an unsigned number of 32 bits`);
-    }
-    return value;
-  });
+  const all = { ...given, function: number };
+  const plain = NUMBERS.map((name) => (name in all ? unsigned(camel(name), all[name]) : 0));
   const texts = TEXTS.flatMap((name) => (given[name] ? [put(given[name]), given[name].length] : [0, 0]));
-  const indices = Array.from(given.indices ?? []);
-  return putNumbers(...plain, ...texts, putNumbers(...indices), indices.length);
+  const indices = Array.from(given.indices ?? [], (index, n) => unsigned(`indices[${n}]`, index));
+  return putNumbers([...plain, ...texts, putNumbers(indices), indices.length]);
 }
 
 const CALL = ['port', 'command', 'indexGroup', 'indexOffset', 'readLength'];
@@ -297,7 +330,8 @@ const callAt = (at) => ({
   ...Object.fromEntries(numbers(at, 5).map((number, n) => [CALL[n], number])),
   data: lent(at + 20),
 });
-const putCall = (it) => putNumbers(...CALL.map((name) => it[name]), put(it.data), it.data.length);
+const putCall = (it) =>
+  putNumbers([...CALL.map((name) => unsigned(name, it[name])), put(it.data), it.data.length]);
 
 /** Creates the function of this module for a function of the CNC. */
 function operation(number) {
@@ -305,11 +339,11 @@ function operation(number) {
   return (...values) => {
     const options = values[it.arguments.length] ?? {};
     const given = Object.fromEntries(it.arguments.map((name, n) => [name, values[n]]));
-    if ('byIndex' in options) given.by_index = options.byIndex;
-    if ('axis' in options) given.axis = options.axis;
+    if ('byIndex' in options) given.by_index = options.byIndex ? 1 : 0;
+    if ('axis' in options) given.axis = options.axis ?? 0;
     for (const name of ['kind', 'name'])
       if (typeof given[name] === 'string') given[name] = textToCp1252(given[name]);
-    if (given.value && !(given.value instanceof Uint8Array))
+    if ('value' in given && !(given.value instanceof Uint8Array))
       throw new TypeError('value: bytes expected, see `pack`');
     const sent = begin(() => {
       const at = putRequest(number, given),
@@ -373,7 +407,7 @@ const GROUP = ['task', 'access', 'addressing', 'table', 'objectClass', 'attribut
 export const groupParts = (indexGroup) =>
   begin(() => {
     const at = room(52);
-    if (!codec.ads_cnc_group(indexGroup, at)) return null;
+    if (!codec.ads_cnc_group(unsigned('indexGroup', indexGroup), at)) return null;
     return {
       ...Object.fromEntries(GROUP.map((name, n) => [name, word(at + 8 * n)])),
       instance: u32(at + 48),
@@ -383,8 +417,9 @@ export const groupParts = (indexGroup) =>
 /** The index offset of an element of an axis; axis 0 is the channel itself. */
 export const axisOffset = (axis, element, stride = 0x10000) =>
   begin(() => {
-    const out = room(4);
-    call('offset', stride, axis, element, out);
+    const out = room(4),
+      given = Object.entries({ stride, axis, element });
+    call('offset', ...given.map(([name, value]) => unsigned(name, value)), out);
     return u32(out);
   });
 
@@ -392,7 +427,7 @@ export const axisOffset = (axis, element, stride = 0x10000) =>
 export const axisAndElement = (offset, stride = 0x10000) =>
   begin(() => {
     const out = room(8);
-    call('offset_parts', stride, offset, out, out + 4);
+    call('offset_parts', unsigned('stride', stride), unsigned('offset', offset), out, out + 4);
     return numbers(out, 2);
   });
 
@@ -417,13 +452,14 @@ export function path(name) {
 // AMS/TCP frames, for programs without an ADS library.
 
 function putFrame(it) {
-  const end = ([netId, port]) => Uint8Array.of(...netId.split('.'), port & 255, port >> 8);
-  const at = room(40),
-    data = put(it.data);
-  bytes(at, 16).set([...end(it.target), ...end(it.source)]);
-  [it.command, it.stateFlags, it.error, it.invokeId, data, it.data.length].forEach((number, n) =>
-    view().setUint32(at + 16 + 4 * n, number, true),
-  );
+  const ends = ['target', 'source'].flatMap((name) => {
+    const [netId, port] = it[name];
+    unsigned(`${name} port`, port, 16);
+    return [...netIdToBytes(`${name} NetId`, netId), port & 255, port >> 8];
+  });
+  const values = ['command', 'stateFlags', 'error', 'invokeId'].map((name) => unsigned(name, it[name]));
+  const at = putNumbers([0, 0, 0, 0, ...values, put(it.data), it.data.length]);
+  bytes(at, 16).set(ends);
   return at;
 }
 
@@ -454,10 +490,13 @@ export const encodeFrame = (frame) =>
 /** Decodes the first received frame, and returns its length; null if the frame is not complete yet. */
 export const readFrame = (received, maxData = 0x400000) =>
   begin(() => {
-    const at = put(received),
+    // Copies only the first frame, because many more may follow it. Its length is after two reserved bytes.
+    const isKnown = checked(received).length >= 6;
+    const first = isKnown ? received.subarray(0, 6 + dataView(received).getUint32(2, true)) : received;
+    const at = put(first),
       out = room(40),
       used = room(4);
-    call('frame_read', at, received.length, maxData, out, used);
+    call('frame_read', at, first.length, unsigned('maxData', maxData), out, used);
     if (!u32(used)) return null;
     const end = (from) => [bytes(from, 6).join('.'), view().getUint16(from + 6, true)];
     const [command, stateFlags, error, invokeId] = numbers(out + 16, 4);
@@ -498,25 +537,32 @@ function typeOf(type) {
   return it;
 }
 
+/** Nests the items, of which there is at least one, from the last dimension to the first. */
 function nested(items, dimensions) {
-  if (!dimensions.length) return items[0];
-  if (dimensions.length === 1) return items;
-  const step = dimensions.slice(1).reduce((product, one) => product * one, 1);
-  return Array.from({ length: dimensions[0] }, (_, at) =>
-    nested(items.slice(at * step, (at + 1) * step), dimensions.slice(1)),
-  );
+  let all = items;
+  for (const size of dimensions.slice(1).reverse()) {
+    const from = all;
+    all = Array.from({ length: from.length / size }, (_, at) => from.slice(at * size, (at + 1) * size));
+  }
+  return dimensions.length ? all : all[0];
 }
 
-/** Decodes a value by its type (a name, or a code from a description); an array to nested arrays. */
+/** Decodes a value by its type (a name, or a code from a description); an array to nested arrays. The result is an
+ * empty array if a dimension is 0. */
 export function unpack(type, data, dimensions = []) {
   const it = typeOf(type),
-    count = dimensions.reduce((product, one) => product * one, 1);
-  const size = it.size || (dimensions.length ? Math.floor(data.length / Math.max(count, 1)) : data.length);
-  if (size * count !== data.length || (count && !size && dimensions.length)) {
+    all = Array.from(dimensions, (one, n) => unsigned(`dimensions[${n}]`, one));
+  checked(data);
+  // With a dimension 0, the product of the others may be infinite, and that times 0 is not a number.
+  const count = all.includes(0) ? 0 : all.reduce((product, one) => product * one, 1);
+  const size = it.size || (all.length ? Math.floor(data.length / Math.max(count, 1)) : data.length);
+  if (size * count !== data.length || (count && !size && all.length)) {
     throw new RangeError(
       `${it.name}: expected ${count} elements of ${size} bytes, found ${data.length} bytes`,
     );
   }
+  // Without elements, the other dimensions are only numbers: they may stand for billions of empty arrays.
+  if (!count) return [];
   const get = `get${GETTERS[it.kind](size)}`;
   return nested(
     Array.from({ length: count }, (_, at) => {
@@ -525,7 +571,7 @@ export function unpack(type, data, dimensions = []) {
       const value = dataView(part)[get](0, true);
       return it.kind ? value : value !== 0;
     }),
-    dimensions,
+    all,
   );
 }
 
@@ -546,27 +592,31 @@ export function pack(type, value) {
   return data;
 }
 
-// The state machines. Every call copies the memory of a machine to the same address, and back afterwards.
+// The state machines. Each has an instance of the codec, whose memory holds the machine and a copy of the data that
+// the machine points to. So no call has to copy them.
 
 class Machine {
-  #memory;
+  #own = instance();
   #kept;
+  #at;
 
   constructor(kept, size) {
-    [this.#kept, this.#memory] = [kept, new Uint8Array(size)];
+    this.use(() => {
+      [this.#kept, this.#at] = [put(kept), put(new Uint8Array(size))];
+      // The scratch memory of later calls begins after both.
+      this.#own.base = top;
+    });
   }
 
   /** Calls a function with the address of the machine and of the data that the machine points to. */
   use(work) {
-    return begin(() => {
-      const kept = put(this.#kept),
-        at = put(this.#memory);
-      try {
-        return work(at, kept);
-      } finally {
-        this.#memory = taken(at, this.#memory.length);
-      }
-    });
+    const shared = { codec, base };
+    ({ codec, base } = this.#own);
+    try {
+      return begin(() => work(this.#at, this.#kept));
+    } finally {
+      ({ codec, base } = shared);
+    }
   }
 }
 
@@ -592,7 +642,8 @@ export class Sender {
 
   /** Reports the ADS result of the write, or null if the reply was lost. Returns 0, BUSY or REJECTED. */
   acknowledge(adsError) {
-    const number = adsError === null ? REJECTED : codec.ads_cnc_acknowledgement(adsError);
+    const number =
+      adsError === null ? REJECTED : codec.ads_cnc_acknowledgement(unsigned('adsError', adsError));
     if (!this.#it.use((at) => codec.ads_cnc_sender_acknowledge(at, number)))
       throw new Error('no packet is in flight');
     return number;
@@ -646,7 +697,7 @@ export class Host {
   /** Answers the request. The state must not be 0. */
   answer(response, state) {
     const data = textToCp1252(response);
-    this.#it.use((at) => call('host_answer', at, put(data), data.length, state));
+    this.#it.use((at) => call('host_answer', at, put(data), data.length, unsigned('state', state)));
   }
 
   #event(number) {

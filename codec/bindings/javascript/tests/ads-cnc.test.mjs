@@ -10,6 +10,22 @@ const ascii = (text) => Uint8Array.from(Buffer.from(text, 'latin1'));
 const operation = ({ operation: name }) => cnc[name[0].toLowerCase() + name.slice(1)];
 const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
 
+/** The number of bytes that a function copies into arrays, by `set`. */
+function copied(work) {
+  const { set } = Uint8Array.prototype;
+  let count = 0;
+  Uint8Array.prototype.set = function (data, at) {
+    count += data.length;
+    set.call(this, data, at);
+  };
+  try {
+    work();
+  } finally {
+    delete Uint8Array.prototype.set;
+  }
+  return count;
+}
+
 function given(row) {
   const isElement = row.name.includes('element');
   return {
@@ -92,6 +108,64 @@ test('wrong arguments are named', () => {
   );
   assert.throws(() => cnc.readByName(-1, 'a'), /channel: -1 is not an unsigned number of 32 bits/);
   assert.throws(() => cnc.writeByName(1, 'a', 1), /value: bytes expected/);
+  assert.throws(() => cnc.writeByName(1, 'a'), /value: bytes expected/);
+});
+
+test('a number that does not fit is an error', () => {
+  const call = { port: 552, command: 9, indexGroup: 0x122301, indexOffset: 0x46, readLength: 4, data: bytes() };
+  const frame = cnc.frameOfCall(call, '192.0.2.7.1.1', ['192.0.2.1.1.1', 1], 7);
+  const sender = new cnc.Sender(ascii('M30\n'));
+  sender.packet();
+  const host = new cnc.Host(['560AACBF-6335-44a9-895A-8B27F3ED5E47']);
+  for (const [name, work] of [
+    ['channel', (value) => cnc.readByName(value, 'V.E.a')],
+    ['axis', (value) => cnc.countObjects(1, { axis: value })],
+    ['indices\\[1\\]', (value) => cnc.readByHandle(1, 7, [0, value])],
+    ['readLength', (value) => cnc.dispatch({ ...call, readLength: value })],
+    ['invokeId', (value) => cnc.encodeFrame({ ...frame, invokeId: value })],
+    ['maxData', (value) => cnc.readFrame(bytes(), value)],
+    ['indexGroup', cnc.groupParts],
+    ['axis', (value) => cnc.axisOffset(value, 5)],
+    ['element', (value) => cnc.axisOffset(2, value)],
+    ['stride', (value) => cnc.axisOffset(2, 5, value)],
+    ['offset', (value) => cnc.axisAndElement(value)],
+    ['dimensions\\[1\\]', (value) => cnc.unpack('UNS08', bytes(1), [1, value])],
+    ['adsError', (value) => sender.acknowledge(value)],
+    ['state', (value) => host.answer('5', value)],
+  ]) {
+    for (const value of [-1, 1.5, NaN, 2 ** 32]) {
+      const message = new RegExp(`^${name}: ${value} is not an unsigned number of 32 bits$`);
+      assert.throws(() => work(value), { name: 'RangeError', message }, `${name}: ${value}`);
+    }
+    const message = new RegExp(`^${name}: number expected, found x \\(string\\)$`);
+    assert.throws(() => work('x'), { name: 'TypeError', message }, name);
+  }
+  assert.throws(() => sender.acknowledge(undefined), /adsError: number expected, found undefined/);
+  assert.throws(() => cnc.countObjects(), /channel: number expected, found undefined/);
+  assert.equal(sender.progress.state, 1);
+  assert.equal(sender.acknowledge(0xffffffff), cnc.BUSY);
+});
+
+test('only a Uint8Array is bytes', () => {
+  const buffer = new ArrayBuffer(8),
+    frame = cnc.frameOfCall(cnc.readByName(1, 'a'), '192.0.2.7.1.1', ['192.0.2.1.1.1', 1], 7);
+  for (const work of [
+    (data) => cnc.textFromCp1252(data),
+    (data) => cnc.fields('content', data),
+    (data) => cnc.join('content', [['content', data]]),
+    (data) => cnc.countObjects(1).decode(data),
+    (data) => cnc.readFrame(data),
+    (data) => cnc.encodeFrame({ ...frame, data }),
+    (data) => cnc.unpack('UNS08', data),
+    (data) => new cnc.Sender(data),
+  ]) {
+    assert.throws(() => work(buffer), {
+      name: 'TypeError',
+      message: 'Uint8Array expected, found ArrayBuffer',
+    });
+    assert.throws(() => work([1]), /Uint8Array expected, found Array/);
+    assert.throws(() => work(), TypeError);
+  }
 });
 
 test('an error has stream, field and offset', () => {
@@ -130,6 +204,13 @@ test('long lists and contents are not truncated', () => {
   const content = new Uint8Array(3_000_000).fill(7);
   assert.deepEqual(cnc.decode('content', content), content);
   assert.deepEqual(cnc.writeObject(0x120101, 3, content).data, content);
+  const descriptor = [...Array(16).fill(0), 1, 1, 0x12, 0, ...Array(64).fill(0)];
+  const descriptors = Uint8Array.from({ length: 5_000 * 84 }, (_, n) => descriptor[n % 84]);
+  const records = cnc.decode('object-descriptors', descriptors);
+  assert.equal(records.length, 5_000);
+  assert.ok(Buffer.from(descriptors).equals(cnc.encode('object-descriptors', records)));
+  const text = cnc.pack('STRING', 'a'.repeat(300_000));
+  assert.deepEqual([text.length, text[299_999], text[300_000]], [300_001, 97, 0]);
 });
 
 test('values are read by their types', () => {
@@ -153,6 +234,30 @@ test('values are read by their types', () => {
   }
   assert.throws(() => cnc.unpack('SGN16', bytes(0)), RangeError);
   assert.throws(() => cnc.unpack(77, bytes(0)), TypeError);
+});
+
+test('any number of dimensions is read', () => {
+  for (const dimensions of [
+    [0],
+    [2, 0],
+    [0xffffffff, 0],
+    [...Array(40).fill(0xffffffff), 0],
+  ]) {
+    for (const type of ['SGN16', 'STRING'])
+      assert.deepEqual(cnc.unpack(type, bytes(), dimensions), [], dimensions);
+    assert.throws(() => cnc.unpack('UNS08', bytes(1), dimensions), /expected 0 elements of 1 bytes, found 1/);
+  }
+  let value = cnc.unpack('UNS08', bytes(1, 2), [...Array(506).fill(1), 2]);
+  for (let depth = 0; depth < 506; depth += 1) {
+    assert.equal(value.length, 1);
+    [value] = value;
+  }
+  assert.deepEqual(value, [1, 2]);
+  const cube = [0, 4, 8].map((n) => [
+    [n, n + 1],
+    [n + 2, n + 3],
+  ]);
+  assert.deepEqual(cnc.unpack('UNS08', cnc.pack('UNS08', cube), [3, 2, 2]), cube);
 });
 
 test('addresses and names are parsed', () => {
@@ -193,6 +298,61 @@ test('frames carry calls', () => {
   assert.throws(() => cnc.readFrame(Uint8Array.of(1, ...data.slice(1))), /ams-tcp-header: reserved/);
 });
 
+test('only the first of many frames is copied', () => {
+  const frame = cnc.frameOfCall(cnc.readByName(1, 'V.E.a'), '192.0.2.7.1.1', ['192.0.2.1.1.1', 0x8001], 7);
+  const data = cnc.encodeFrame(frame),
+    received = new Uint8Array(1 + 1_000 * data.length).subarray(1);
+  for (let at = 0; at < received.length; at += data.length) received.set(data, at);
+  assert.equal(
+    copied(() => assert.deepEqual(cnc.readFrame(received), { frame, length: data.length })),
+    data.length,
+  );
+  for (let length = 0; length < data.length; length += 1)
+    assert.equal(cnc.readFrame(received.subarray(0, length)), null);
+  const wrong = (at, value) => Uint8Array.from(received, (byte, n) => (n === at ? value : byte));
+  for (const [at, value, error] of [
+    [0, 1, /ams-tcp-header: reserved at offset 0: mismatch, expected 0, found 1/],
+    [2, 31, /ams-tcp-header: length at offset 2: out of range, expected 32, found 31/],
+    [5, 255, /ams-tcp-header: length/],
+    [26, 1, /ams-header: data_length at offset 26: mismatch/],
+  ])
+    assert.throws(() => cnc.readFrame(wrong(at, value)), error);
+});
+
+test('a NetId has six numbers of one byte, and a port has two bytes', () => {
+  const frame = cnc.frameOfCall(cnc.readByName(1, 'a'), '192.0.2.7.1.1', ['192.0.2.1.1.1', 1], 7);
+  const header = cnc.decode('ams-header', bytes(...Array(32).fill(1)));
+  for (const netId of [
+    '',
+    '1.2.3.4.5',
+    '1.2.3.4.5.6.7',
+    '1.2.3.4.5.256',
+    '1.2.3.4.5.',
+    '1.2.3.4.5.x',
+    '1.2.3.4.5.-1',
+    '1.2.3.4.5. 6',
+    '1.2.3.4.5.0x6',
+    '1.2.3.4.5.0006',
+  ]) {
+    const message = (name) => `${name}: six numbers from 0 to 255 expected, found ${netId}`;
+    const wrong = { name: 'RangeError', message: message('target NetId') };
+    assert.throws(() => cnc.encodeFrame({ ...frame, target: [netId, 1] }), wrong, netId);
+    wrong.message = message('target_net_id');
+    assert.throws(() => cnc.encode('ams-header', { ...header, targetNetId: netId }), wrong, netId);
+  }
+  for (const port of [-1, 0x10000, 1.5]) {
+    assert.throws(() => cnc.encodeFrame({ ...frame, source: ['1.2.3.4.5.6', port] }), {
+      name: 'RangeError',
+      message: `source port: ${port} is not an unsigned number of 16 bits`,
+    });
+  }
+  const end = ['255.0.3.4.5.6', 0xffff];
+  assert.deepEqual(
+    cnc.encodeFrame({ ...frame, target: end }).slice(6, 14),
+    bytes(255, 0, 3, 4, 5, 6, 255, 255),
+  );
+});
+
 test('a program is sent', () => {
   const sender = new cnc.Sender(ascii('N10 G0 X0\nN20 M30')),
     sent = [];
@@ -208,6 +368,27 @@ test('a program is sent', () => {
     () => new cnc.Sender(ascii('N1\xe4')),
     /nc-text: line at offset 3: a byte that is not ASCII/,
   );
+});
+
+test('a sender has a copy of the program, and copies it once', () => {
+  for (const program of [ascii('N10 G0 X0\nN20 M30\n'), Buffer.from('N10 G0 X0\nN20 M30\n')]) {
+    const sender = new cnc.Sender(program);
+    program.fill(0);
+    assert.equal(Buffer.from(sender.packet()).toString(), 'N10 G0 X0\r\nN20 M30\r\n');
+  }
+  const program = ascii('N10 G0 X0\n'.repeat(10_000)),
+    [one, two] = [new cnc.Sender(program), new cnc.Sender(ascii('M30\n'))];
+  // Calls of other senders and of the codec in between must not change a sender.
+  const count = copied(() => {
+    for (let n = 1; one.packet(); n += 1) {
+      assert.equal(Buffer.from(two.packet()).toString(), 'M30\r\n');
+      assert.equal(cnc.readByName(1, 'V.E.a').data.length, 6);
+      one.acknowledge(0);
+      assert.equal(one.progress.packets, n);
+    }
+  });
+  assert.deepEqual([one.progress.state, one.progress.lines, two.progress.state], [4, 10_000, 1]);
+  assert.ok(count < program.length, `${count} bytes copied`);
 });
 
 test('a request is served', () => {

@@ -1,7 +1,10 @@
 """Tests of the package: requests, values, errors, and dispatch for servers."""
 
+import copy
+import ctypes
 import doctest
 import pathlib
+import pickle
 import re
 import unittest
 
@@ -9,6 +12,24 @@ import ads_cnc
 
 HERE = pathlib.Path(__file__).resolve().parent
 PLACE = {"index_group": 0x120101, "index_offset": 3}
+
+
+class Counted(bytes):
+    """Bytes that count how many bytes slices of them copy."""
+
+    copied = 0
+
+    def __getitem__(self, at):
+        part = super().__getitem__(at)
+        self.copied += len(part)
+        return part
+
+
+class Huge(bytes):
+    """Bytes whose length does not fit a number of 32 bits."""
+
+    def __len__(self):
+        return 2**32
 
 
 def arguments(function):
@@ -79,6 +100,50 @@ class Requests(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, error):
                 call()
 
+    def test_a_number_that_does_not_fit_is_an_error(self):
+        def call(value):
+            return ads_cnc.Call(552, 9, 0x122301, 0x46, value, b"")
+
+        ends = ("192.0.2.7.1.1", 552), ("192.0.2.1.1.1", 1)
+        sender = ads_cnc.Sender(b"M30\n")
+        next(iter(sender))
+        host = ads_cnc.Host(["560AACBF-6335-44a9-895A-8B27F3ED5E47"])
+        for name, work in (
+            ("channel", lambda value: ads_cnc.read_by_name(value, "V.E.a")),
+            ("axis", lambda value: ads_cnc.count_objects(1, axis=value)),
+            ("indices[1]", lambda value: ads_cnc.read_by_handle(1, 7, [0, value])),
+            ("read_length", lambda value: ads_cnc.dispatch(call(value))),
+            ("read_length", lambda value: ads_cnc.Frame.of_call(call(value), *ends[0], 1)),
+            ("invoke_id", lambda value: ads_cnc.Frame(*ends, 2, 4, 0, value, b"").encode()),
+            ("max_data", lambda value: ads_cnc.read_frame(b"", value)),
+            ("index_group", ads_cnc.group_parts),
+            ("axis", lambda value: ads_cnc.axis_offset(value, 5)),
+            ("element", lambda value: ads_cnc.axis_offset(2, value)),
+            ("stride", lambda value: ads_cnc.axis_offset(2, 5, value)),
+            ("offset", ads_cnc.axis_and_element),
+            ("dimensions[1]", lambda value: ads_cnc.unpack("UNS08", b"\1", [1, value])),
+            ("ads_error", sender.acknowledge),
+            ("state", lambda value: host.answer("5", value)),
+        ):
+            for value in (-1, 2**32):
+                error = re.escape(f"{name}: {value} is not an unsigned number of 32 bits")
+                with self.subTest(name, value=value), self.assertRaisesRegex(ValueError, error):
+                    work(value)
+            for value in (1.5, "x"):
+                error = re.escape(f"{name}: int expected, found {value!r}")
+                with self.subTest(name, value=value), self.assertRaisesRegex(TypeError, error):
+                    work(value)
+        self.assertEqual(sender.progress["state"], 1)
+        self.assertEqual(sender.acknowledge(0xFFFFFFFF), ads_cnc.BUSY)
+        for work in (
+            lambda: ads_cnc.fields("content", Huge()),
+            lambda: ads_cnc.join("content", [("content", Huge(b"a"))]),
+            lambda: ads_cnc.read_frame(Huge()),
+            lambda: host.read(Huge()),
+        ):
+            with self.assertRaisesRegex(ValueError, "length: 4294967296 is not an unsigned number of 32 bits"):
+                work()
+
 
 class Streams(unittest.TestCase):
     def test_an_error_has_stream_field_and_offset(self):
@@ -108,6 +173,8 @@ class Streams(unittest.TestCase):
         self.assertEqual(ads_cnc.encode("variable-handle-read", record)[4:8], b"\2\0\0\0")
         with self.assertRaisesRegex(ValueError, "flag: 256 does not fit a number of 1 bytes"):
             ads_cnc.encode("element-write-flag", 256)
+        with self.assertRaisesRegex(TypeError, "count: int expected, found 1.5"):
+            ads_cnc.encode("object-count", 1.5)
 
     def test_long_lists_are_not_truncated(self):
         data = ads_cnc.encode("variable-handle-read", {"handle": 4, "indices": list(range(510))})
@@ -115,6 +182,14 @@ class Streams(unittest.TestCase):
         content = bytes(100_000)
         self.assertEqual(ads_cnc.write_object(**PLACE, value=content).data, content)
         self.assertEqual(ads_cnc.decode("content", content), content)
+
+    def test_each_byte_is_copied_once(self):
+        data = Counted((bytes(16) + b"\1\1\x12\0" + bytes(64)) * 100)
+        self.assertEqual(len(ads_cnc.fields("object-descriptors", data)), 800)
+        self.assertEqual(data.copied, len(data))
+        data = Counted(1000)
+        self.assertEqual(ads_cnc.unpack("UNS08", data, [10, 100]), [[0] * 100] * 10)
+        self.assertEqual(data.copied, len(data))
 
     def test_values_are_read_by_their_types(self):
         self.assertEqual(
@@ -134,6 +209,22 @@ class Streams(unittest.TestCase):
         ):
             self.assertRaises(ValueError, wrong)
 
+    def test_any_number_of_dimensions_is_read(self):
+        for dimensions in ([0], [2, 0], [0xFFFFFFFF, 0], [0xFFFFFFFF] * 40 + [0]):
+            for kind in ("SGN16", "STRING"):
+                self.assertEqual(ads_cnc.unpack(kind, b"", dimensions), [])
+            with self.assertRaisesRegex(ValueError, "expected 0 elements of 1 bytes, found 1 bytes"):
+                ads_cnc.unpack("UNS08", b"\1", dimensions)
+        for dimensions in ([1] * 507, [1] * 2000):
+            value = ads_cnc.unpack("UNS08", b"\1", dimensions)
+            self.assertEqual(ads_cnc.pack("UNS08", value), b"\1")
+            for _ in dimensions:
+                self.assertEqual(len(value), 1)
+                value = value[0]
+            self.assertEqual(value, 1)
+        cube = [[[at, at + 1], [at + 2, at + 3]] for at in (0, 4, 8)]
+        self.assertEqual(ads_cnc.unpack("UNS08", ads_cnc.pack("UNS08", cube), (3, 2, 2)), cube)
+
 
 class Addresses(unittest.TestCase):
     def test_names_and_addresses_are_parsed(self):
@@ -147,6 +238,26 @@ class Addresses(unittest.TestCase):
         self.assertEqual(ads_cnc.path("V.G.NP[0].Länge[1][2]"), ("V.G", [("NP", [0]), ("Länge", [1, 2])]))
         with self.assertRaisesRegex(ads_cnc.AdsCncError, "variable-path: part"):
             ads_cnc.path("V.G..a")
+
+    def test_a_net_id_has_six_numbers_of_one_byte_and_a_port_has_two_bytes(self):
+        def encode(target):
+            return ads_cnc.Frame(target, ("192.0.2.1.1.1", 1), 2, 4, 0, 7, b"").encode()
+
+        header = vars(ads_cnc.decode("ams-header", b"\1" * 32))
+        for net_id in (
+            *("", "1.2.3.4.5", "1.2.3.4.5.6.7", "1.2.3.4.5.256", "1.2.3.4.5.", "1.2.3.4.5.x", "1.2.3.4.5.-1"),
+            *("1.2.3.4.5. 6", "1.2.3.4.5.6\n", "1.2.3.4.5.+6", "1.2.3.4.5.1_0", "1.2.3.4.5.0006", "1.2.3.4.5.\u0666"),
+        ):
+            error = re.escape(f"six numbers from 0 to 255 expected, found {net_id}")
+            with self.subTest(net_id), self.assertRaisesRegex(ValueError, "target NetId: " + error):
+                encode((net_id, 1))
+            with self.subTest(net_id), self.assertRaisesRegex(ValueError, "target_net_id: " + error):
+                ads_cnc.encode("ams-header", {**header, "target_net_id": net_id})
+        for port in (-1, 0x10000):
+            error = f"target port: {port} is not an unsigned number of 16 bits"
+            with self.assertRaisesRegex(ValueError, error):
+                encode(("192.0.2.7.1.1", port))
+        self.assertEqual(encode(("255.0.3.4.5.6", 0xFFFF))[6:14], b"\xff\0\3\4\5\6\xff\xff")
 
 
 class Servers(unittest.TestCase):
@@ -223,6 +334,20 @@ class Machines(unittest.TestCase):
         self.assertEqual(written[0], ("V.G.SERVICE.RESPONSE", b"5\0"))
         self.assertEqual(host.outcome, "answered")
         self.assertRaises(ads_cnc.AdsCncError, ads_cnc.Host, ["no UUID"])
+
+    def test_a_machine_is_not_copied(self):
+        for machine in (
+            ads_cnc.Sender(b"M30\n"),
+            ads_cnc.Host(["560AACBF-6335-44a9-895A-8B27F3ED5E47"]),
+        ):
+            for work in (copy.copy, copy.deepcopy, pickle.dumps):
+                error = f"a {type(machine).__name__} cannot be copied"
+                with self.subTest(error, work=work), self.assertRaisesRegex(TypeError, error):
+                    work(machine)
+
+    def test_threads_do_not_enter_a_machine_at_the_same_time(self):
+        # PyDLL holds the GIL during each call. A race is too rare to be tested by threads.
+        self.assertIsInstance(ads_cnc._abi.library, ctypes.PyDLL)
 
 
 class Documents(unittest.TestCase):

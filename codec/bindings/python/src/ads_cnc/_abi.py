@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 import pathlib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sized
 from typing import Any
 
 ABI = 2
@@ -14,7 +15,9 @@ UINT32 = ctypes.c_uint32
 
 _FILES = {"win32": "ads_cnc.dll", "darwin": "libads_cnc.dylib"}
 _file = pathlib.Path(__file__).parent / _FILES.get(sys.platform, "libads_cnc.so")
-library = ctypes.CDLL(str(_file))
+# PyDLL holds the GIL during a call, which CDLL releases: two threads that use one `Sender` or `Host` must not change
+# its memory at the same time. All calls are short, so other threads do not wait long.
+library = ctypes.PyDLL(str(_file))
 if library.ads_cnc_abi() != ABI:
     raise ImportError(f"{_file} has ABI {library.ads_cnc_abi()}, but this package needs {ABI}")
 
@@ -127,6 +130,29 @@ class HostStep(ctypes.Structure):
     _fields_ = [*_numbers("kind service request_state"), ("variable", Bytes), ("data", Bytes)]
 
 
+def integer(name: str, value: Any) -> int:
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: int expected, found {value!r}") from None
+
+
+def unsigned(name: str, value: Any, bits: int = 32) -> int:
+    """Checks a number of the caller, because ctypes wraps a number that does not fit."""
+    number = integer(name, value)
+    if not 0 <= number < 1 << bits:
+        raise ValueError(f"{name}: {value} is not an unsigned number of {bits} bits")
+    return number
+
+
+def uint32(name: str, value: Any) -> ctypes.c_uint32:
+    return UINT32(unsigned(name, value))
+
+
+def length(data: Sized) -> ctypes.c_uint32:
+    return uint32("length", len(data))
+
+
 def function(name: str, result: Any = ctypes.c_bool) -> Callable[..., Any]:
     it = getattr(library, "ads_cnc_" + name)
     it.restype = result
@@ -136,7 +162,7 @@ def function(name: str, result: Any = ctypes.c_bool) -> Callable[..., Any]:
 def lent(data: bytes) -> Bytes:
     """A struct that points to `data`, which the caller must keep alive."""
     at = ctypes.cast(ctypes.c_char_p(data), ctypes.c_void_p) if data else None
-    return Bytes(at, len(data))
+    return Bytes(at, length(data))
 
 
 def each(name: str, kind: type[Any], *before: int) -> Iterator[Any]:

@@ -6,8 +6,8 @@ import ctypes
 from typing import NamedTuple, Optional
 
 from . import _abi
-from ._abi import UINT32
-from ._codec import Call, call_of, invoke, sized, text_from_cp1252, text_to_cp1252
+from ._abi import UINT32, length, uint32, unsigned
+from ._codec import Call, call_of, invoke, net_id_to_bytes, sized, text_from_cp1252, text_to_cp1252
 
 
 class Group(NamedTuple):
@@ -25,7 +25,7 @@ class Group(NamedTuple):
 def group_parts(index_group: int) -> Optional[Group]:
     """Parses an index group; None if it is not documented."""
     it = _abi.Group()
-    if not _abi.function("group")(UINT32(index_group), ctypes.byref(it)):
+    if not _abi.function("group")(uint32("index_group", index_group), ctypes.byref(it)):
         return None
     words = (it.task, it.access, it.addressing, it.table, it.object_class, it.attribute)
     return Group._make([*(word.text() for word in words), it.instance])
@@ -34,14 +34,16 @@ def group_parts(index_group: int) -> Optional[Group]:
 def axis_offset(axis: int, element: int, stride: int = 0x10000) -> int:
     """The index offset of an element of an axis; axis 0 is the channel itself."""
     offset = UINT32()
-    invoke("offset", UINT32(stride), UINT32(axis), UINT32(element), ctypes.byref(offset))
+    given = (uint32("stride", stride), uint32("axis", axis), uint32("element", element))
+    invoke("offset", *given, ctypes.byref(offset))
     return offset.value
 
 
 def axis_and_element(offset: int, stride: int = 0x10000) -> tuple[int, int]:
     """The axis and the element of an index offset."""
     axis, element = UINT32(), UINT32()
-    invoke("offset_parts", UINT32(stride), UINT32(offset), ctypes.byref(axis), ctypes.byref(element))
+    given = (uint32("stride", stride), uint32("offset", offset))
+    invoke("offset_parts", *given, ctypes.byref(axis), ctypes.byref(element))
     return axis.value, element.value
 
 
@@ -56,13 +58,13 @@ def path(name: str) -> Path:
     """Parses the name of a variable."""
     data, room, count = text_to_cp1252(name), 256, UINT32()
     array = (_abi.Field * room)()
-    invoke("path", data, UINT32(len(data)), array, UINT32(room), ctypes.byref(count))
+    invoke("path", data, length(data), array, UINT32(room), ctypes.byref(count))
     parts: list[tuple[str, list[int]]] = []
     for it in array[1 : count.value]:
         if it.field == 2:
             parts[it.record][1].append(it.number)
         else:
-            parts.append((text_from_cp1252(data[it.offset :][: it.length]), []))
+            parts.append((text_from_cp1252(data[it.offset : it.offset + it.length]), []))
     return Path(text_from_cp1252(data[: array[0].length]), parts)
 
 
@@ -97,15 +99,16 @@ class Frame(NamedTuple):
 
     def c(self) -> _abi.Frame:
         ends = []
-        for net_id, port in (self.target, self.source):
-            ends.append(_abi.Address((ctypes.c_uint8 * 6)(*map(int, net_id.split("."))), port))
-        return _abi.Frame(*ends, *self[2:6], _abi.lent(self.data))
+        for name, (net_id, port) in (("target", self.target), ("source", self.source)):
+            numbers = (ctypes.c_uint8 * 6)(*net_id_to_bytes(f"{name} NetId", net_id))
+            ends.append(_abi.Address(numbers, unsigned(f"{name} port", port, 16)))
+        return _abi.Frame(*ends, *map(unsigned, self._fields[2:6], self[2:6]), _abi.lent(self.data))
 
 
 def read_frame(received: bytes, max_data: int = 0x40_0000) -> Optional[tuple[Frame, int]]:
     """Decodes the first received frame, and returns its length; None if the frame is not complete yet."""
     it, used = _abi.Frame(), UINT32()
-    limits = (received, UINT32(len(received)), UINT32(max_data))
+    limits = (received, length(received), uint32("max_data", max_data))
     invoke("frame_read", *limits, ctypes.byref(it), ctypes.byref(used))
     if not used.value:
         return None

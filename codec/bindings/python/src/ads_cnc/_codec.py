@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, Optional, TypeVar
 
 from . import _abi
-from ._abi import UINT32
+from ._abi import UINT32, integer, length, uint32, unsigned
 
 T = TypeVar("T")
 
@@ -47,9 +48,10 @@ def invoke(name: str, *arguments: Any) -> None:
 def sized(name: str, room: int, *arguments: Any) -> bytes:
     """Calls a function that fills a buffer. Repeats the call with a larger buffer if necessary."""
     while True:
-        buffer, length, error = (ctypes.c_uint8 * room)(), UINT32(), _abi.Error()
-        if _abi.function(name)(*arguments, buffer, UINT32(room), ctypes.byref(length), ctypes.byref(error)):
-            return bytes(memoryview(buffer)[: length.value])
+        size, used, error = uint32("length", room), UINT32(), _abi.Error()
+        buffer = (ctypes.c_uint8 * room)()
+        if _abi.function(name)(*arguments, buffer, size, ctypes.byref(used), ctypes.byref(error)):
+            return bytes(memoryview(buffer)[: used.value])
         if error.kind not in (15, 37) or error.expected <= room:
             raise AdsCncError(error)
         room = error.expected
@@ -57,13 +59,13 @@ def sized(name: str, room: int, *arguments: Any) -> bytes:
 
 def text_from_cp1252(data: bytes) -> str:
     """Converts CP1252 to text, up to the first NUL or the end."""
-    return sized("text_to_utf8", 3 * len(data), data, UINT32(len(data))).decode()
+    return sized("text_to_utf8", 3 * len(data), data, length(data)).decode()
 
 
 def text_to_cp1252(text: str) -> bytes:
     """Converts a text to CP1252, without a NUL."""
     data = text.encode()
-    return sized("text_from_utf8", len(data), data, UINT32(len(data)))
+    return sized("text_from_utf8", len(data), data, length(data))
 
 
 class FieldInfo(NamedTuple):
@@ -164,7 +166,7 @@ def _fields(stream: Stream, data: bytes, name: str, *before: Any) -> list[Field]
     room = 64
     while True:
         array, count, error = (_abi.Field * room)(), UINT32(), _abi.Error()
-        given = (data, UINT32(len(data)), array, UINT32(room), ctypes.byref(count), ctypes.byref(error))
+        given = (data, length(data), array, UINT32(room), ctypes.byref(count), ctypes.byref(error))
         if _abi.function(name)(*before, *given):
             return [
                 Field(
@@ -172,7 +174,7 @@ def _fields(stream: Stream, data: bytes, name: str, *before: Any) -> list[Field]
                     it.record,
                     it.item,
                     it.offset,
-                    data[it.offset :][: it.length],
+                    data[it.offset : it.offset + it.length],
                 )
                 for it in array[: count.value]
             ]
@@ -193,7 +195,7 @@ def join(stream: str, parts: Sequence[tuple[str, bytes]]) -> bytes:
     numbers = {row.name: at for at, row in enumerate(it.fields)}
     array = (_abi.Part * len(parts))(*(_abi.Part(numbers[name], 0, _some(data)) for name, data in parts))
     room = 64 + sum(len(data) for _, data in parts)
-    return sized("build", room, UINT32(it.number), array, UINT32(len(parts)))
+    return sized("build", room, UINT32(it.number), array, length(parts))
 
 
 _EMPTY = ctypes.create_string_buffer(1)
@@ -216,12 +218,20 @@ def _read(row: FieldInfo, data: bytes) -> Any:
     return ".".join(map(str, data)) if row.kind == 5 else data
 
 
+def net_id_to_bytes(name: str, text: str) -> bytes:
+    """The bytes of a NetId. Without the check, ctypes would wrap a number above 255."""
+    numbers = list(map(int, text.split("."))) if re.fullmatch(r"[0-9]{1,3}(\.[0-9]{1,3}){5}", text) else []
+    if len(numbers) != 6 or max(numbers) > 255:
+        raise ValueError(f"{name}: six numbers from 0 to 255 expected, found {text}")
+    return bytes(numbers)
+
+
 def _write(row: FieldInfo, value: Any) -> bytes:
     if isinstance(value, (bytes, bytearray)):
         return bytes(value)
     if row.kind in (1, 2):
         try:
-            return int(value).to_bytes(row.size or 4, "little")
+            return integer(row.name, value).to_bytes(row.size or 4, "little")
         except OverflowError:
             raise ValueError(f"{row.name}: {value} does not fit a number of {row.size or 4} bytes") from None
     if row.kind == 3:
@@ -229,7 +239,7 @@ def _write(row: FieldInfo, value: Any) -> bytes:
     if row.kind == 4:
         text = text_to_cp1252(value)
         return text if len(text) == row.size > 0 else text + b"\0"
-    return bytes(map(int, value.split(".")))
+    return net_id_to_bytes(row.name, value)
 
 
 # The classes of records, by the name of the stream, for the streams whose value is a record or a list of
@@ -293,8 +303,8 @@ class Call:
     data: bytes
 
     def c(self) -> _abi.Call:
-        numbers = (self.port, self.command, self.index_group, self.index_offset, self.read_length)
-        return _abi.Call(*numbers, _abi.lent(self.data))
+        names = ("port", "command", "index_group", "index_offset", "read_length")
+        return _abi.Call(*(unsigned(name, getattr(self, name)) for name in names), _abi.lent(self.data))
 
 
 def call_of(it: _abi.Call) -> tuple[int, int, int, int, int, bytes]:
@@ -315,11 +325,12 @@ class _Arguments:
                 value = _abi.lent(bytes(value))
                 self.kept.append(value)
             elif name == "indices":
-                self.it.indices_count = len(value)
-                value = (UINT32 * len(value))(*value)
+                self.it.indices_count = length(value)
+                indices = (unsigned(f"indices[{at}]", index) for at, index in enumerate(value))
+                value = (UINT32 * len(value))(*indices)
                 self.kept.append(value)
-            elif not 0 <= int(value) <= _abi.NONE:
-                raise ValueError(f"{name}: {value} is not an unsigned number of 32 bits")
+            else:
+                value = unsigned(name, value)
             setattr(self.it, name, value)
 
 
@@ -344,7 +355,7 @@ def request(number: int, **arguments: Any) -> Request[Any]:
     given, call = _Arguments(number, arguments), _abi.Call()
     room = 4096 + len(arguments.get("value", b""))
     buffer = (ctypes.c_uint8 * room)()
-    invoke("encode", ctypes.byref(given.it), buffer, UINT32(room), ctypes.byref(call))
+    invoke("encode", ctypes.byref(given.it), buffer, uint32("length", room), ctypes.byref(call))
     return Request(*call_of(call), FUNCTIONS[number], arguments)
 
 

@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple, Optional
+from typing import NamedTuple, NoReturn, Optional
 
 from . import _abi
-from ._abi import UINT32
+from ._abi import UINT32, length, uint32
 from ._codec import invoke, text_from_cp1252, text_to_cp1252
 
 
 BUSY, REJECTED = 1, 2
 
 
-class Sender:
+class _Machine:
+    """A state machine in memory of the library, which points to data of this object."""
+
+    def __reduce__(self) -> NoReturn:
+        # The module `copy` and pickle call this. A copy would point to the data of the original, which may be freed.
+        raise TypeError(f"a {type(self).__name__} cannot be copied")
+
+
+class Sender(_Machine):
     """Sends an NC program: returns packets to write, and accepts the results.
 
     >>> sender = Sender(b"N10 G0 X0\\nN20 M30")
@@ -24,7 +32,7 @@ class Sender:
 
     def __init__(self, program: bytes) -> None:
         self._program, self._it = bytes(program), _abi.Sender()
-        invoke("sender_start", ctypes.byref(self._it), self._program, UINT32(len(self._program)))
+        invoke("sender_start", ctypes.byref(self._it), self._program, length(self._program))
 
     def __iter__(self) -> Iterator[bytes]:
         packet = _abi.Bytes()
@@ -40,7 +48,7 @@ class Sender:
         """
         number = REJECTED
         if ads_error is not None:
-            number = _abi.function("acknowledgement", UINT32)(UINT32(ads_error))
+            number = _abi.function("acknowledgement", UINT32)(uint32("ads_error", ads_error))
         if not _abi.function("sender_acknowledge")(ctypes.byref(self._it), UINT32(number)):
             raise RuntimeError("no packet is in flight")
         return number
@@ -65,15 +73,15 @@ class Step(NamedTuple):
     request_state: int
 
 
-class Host:
+class Host(_Machine):
     """Hosts the services of a channel: returns the variable to read or write next."""
 
     def __init__(self, services: Sequence[str]) -> None:
         self._it, self._ids = _abi.Host(), (ctypes.c_uint8 * (36 * len(services)))()
         for at, service in enumerate(services):
             text = service.encode()
-            invoke("service_id", text, UINT32(len(text)), ctypes.byref(self._ids, 36 * at))
-        invoke("host_start", ctypes.byref(self._it), self._ids, UINT32(len(services)))
+            invoke("service_id", text, length(text), ctypes.byref(self._ids, 36 * at))
+        invoke("host_start", ctypes.byref(self._it), self._ids, length(services))
 
     def step(self) -> Step:
         """The next step. Returns the same step until a read value, an answer or an event is reported."""
@@ -85,12 +93,12 @@ class Host:
 
     def read(self, value: bytes) -> None:
         """Reports the value that was read."""
-        invoke("host_read", ctypes.byref(self._it), value, UINT32(len(value)))
+        invoke("host_read", ctypes.byref(self._it), value, length(value))
 
     def answer(self, response: str, state: int) -> None:
         """Answers the request. The state must not be 0."""
         data = text_to_cp1252(response)
-        invoke("host_answer", ctypes.byref(self._it), data, UINT32(len(data)), UINT32(state))
+        invoke("host_answer", ctypes.byref(self._it), data, length(data), uint32("state", state))
 
     def _event(self, number: int) -> None:
         _abi.function("host_event")(ctypes.byref(self._it), UINT32(number))

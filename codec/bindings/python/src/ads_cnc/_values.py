@@ -38,21 +38,28 @@ def _type_of(type: Union[str, int]) -> Type:
 
 
 def _nested(items: list[Any], dimensions: Sequence[int]) -> Any:
-    if not dimensions:
-        return items[0]
-    if len(dimensions) == 1:
-        return items
-    step = math.prod(dimensions[1:])
-    return [_nested(items[at * step :][:step], dimensions[1:]) for at in range(dimensions[0])]
+    """Nests the items, of which there is at least one, from the last dimension to the first. This is not recursive,
+    because a value may have more dimensions than Python allows nested calls."""
+    for size in reversed(dimensions[1:]):
+        items = [items[at : at + size] for at in range(0, len(items), size)]
+    return items if dimensions else items[0]
 
 
 def unpack(type: Union[str, int], data: bytes, dimensions: Sequence[int] = ()) -> Any:
-    """Decodes a value by its type (a name, or a code from a description); an array to nested lists."""
-    it, count = _type_of(type), math.prod(dimensions)
+    """Decodes a value by its type (a name, or a code from a description); an array to nested lists.
+
+    The result is an empty list if a dimension is 0.
+    """
+    it = _type_of(type)
+    dimensions = [_abi.unsigned(f"dimensions[{at}]", one) for at, one in enumerate(dimensions)]
+    count = math.prod(dimensions)
     size = it.size or (len(data) if not dimensions else len(data) // max(count, 1))
     if size * count != len(data) or (count and not size and dimensions):
         raise ValueError(f"{it.name}: expected {count} elements of {size} bytes, found {len(data)} bytes")
-    parts = [data[at * size :][:size] for at in range(count)]
+    if not count:
+        # Without elements, the other dimensions are only numbers: they may stand for billions of empty lists.
+        return []
+    parts = [data[at : at + size] for at in range(0, len(data), size)] if size else [data]
     if it.format == "s":
         return _nested([text_from_cp1252(part) for part in parts], dimensions)
     return _nested([struct.unpack("<" + it.format, part)[0] for part in parts], dimensions)
@@ -60,9 +67,18 @@ def unpack(type: Union[str, int], data: bytes, dimensions: Sequence[int] = ()) -
 
 def pack(type: Union[str, int], value: Any) -> bytes:
     """Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes."""
-    it = _type_of(type)
-    if isinstance(value, (list, tuple)):
-        return b"".join(pack(type, one) for one in value)
+    it, parts, left = _type_of(type), [], [value]
+    # Not recursive, as in `_nested`.
+    while left:
+        one = left.pop()
+        if isinstance(one, (list, tuple)):
+            left.extend(reversed(one))
+        else:
+            parts.append(_packed(it, one))
+    return b"".join(parts)
+
+
+def _packed(it: Type, value: Any) -> bytes:
     if isinstance(value, bytes):
         return value
     if it.format == "s":
