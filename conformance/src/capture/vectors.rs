@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
-use std::io;
+use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use ads_cnc::Encode as _;
@@ -241,12 +241,10 @@ impl Collector {
                 "version": VERSION,
                 "vectors": vectors,
             });
-            let mut out = OpenOptions::new()
-                .write(true)
-                .create_new(true)
-                .open(file)
-                .map_err(|error| named(file, error))?;
-            json_text::write(&document, &mut out).map_err(|error| named(file, error))?;
+            let out = OpenOptions::new().write(true).create_new(true).open(file);
+            let mut out = BufWriter::new(out.map_err(|error| named(file, error))?);
+            let written = json_text::write(&document, &mut out);
+            written.and_then(|()| out.flush()).map_err(|error| named(file, error))?;
         }
         Ok(files.into_keys().collect())
     }

@@ -1,7 +1,7 @@
 //! Runs a client through its scenarios and judges it.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Instant;
@@ -368,8 +368,11 @@ impl ProgramFile {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
         let path = std::env::temp_dir().join(format!("ads-cnc-client-{process}-{count}.nc"));
-        fs::write(&path, text)?;
-        Ok(Self(path))
+        // Another user may have created a file or a link with this name.
+        let mut file = fs::OpenOptions::new().write(true).create_new(true).open(&path)?;
+        let program = Self(path);
+        file.write_all(text)?;
+        Ok(program)
     }
 }
 

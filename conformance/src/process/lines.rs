@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::{RunningCommand, interrupt};
 use crate::mutex::lock;
-use crate::text::{escape_lines, json_error, plural};
+use crate::text::{escape_lines, json_error, plural, shorten};
 
 /// Maximum length of a line in bytes. The longest answer that a golden vector requires has about
 /// 16,000 bytes if its JSON has no blanks between the tokens.
@@ -268,11 +268,15 @@ fn wait(
     }
 }
 
+/// Maximum number of characters of an error of the JSON parser in a message.
+const ERROR_MAX: usize = 400;
+
 /// The error message for a line that is not a JSON message of the protocol.
 pub(crate) fn not_json(line: &str, error: &serde_json::Error) -> String {
     let shown = cut(line);
     if serde_json::from_str::<serde::de::IgnoredAny>(line).is_ok() || line.starts_with('{') {
-        format!("{}: {shown}", json_error(line, error))
+        // The error contains texts of the line, escaped.
+        format!("{}: {shown}", shorten(&json_error(line, error), ERROR_MAX))
     } else {
         format!("the line is not JSON: {shown}; print only answers to stdout, the rest to stderr")
     }

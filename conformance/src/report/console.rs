@@ -175,7 +175,7 @@ fn cases(report: &Report, judged_subject: CaseSubject, out: &mut dyn Write) -> i
             streams.entry(stream).or_default().push(case);
         }
     }
-    let width = streams.keys().map(|stream| stream.len()).max().unwrap_or_default();
+    let width = streams.keys().map(|stream| stream.len()).max().unwrap_or_default().min(WIDTH_MAX);
     for (stream, cases) in streams {
         let waived = cases.iter().filter(|case| case.waived).count();
         writeln!(out, "  {stream:<width$}  {}", counts(&of_cases(&cases), waived))?;
@@ -257,10 +257,14 @@ fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
+/// Maximum width of the first column, whose names may be those of a foreign report.
+const WIDTH_MAX: usize = 40;
+
 fn areas(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     for subject in &report.subjects {
         writeln!(out, "Requirements by area, the {}", subject.subject)?;
-        let width = subject.areas.iter().map(|area| area.area.len()).max().unwrap_or_default();
+        let width = subject.areas.iter().map(|area| area.area.len()).max();
+        let width = width.unwrap_or_default().min(WIDTH_MAX);
         for area in &subject.areas {
             let total: usize = area.totals.values().sum();
             let waived = area.requirements.iter().filter(|one| one.waived).count();

@@ -162,9 +162,6 @@ fn end_line(text: &str) -> String {
 
 /// A fence that does not occur in the text.
 fn fence(text: &str) -> String {
-    let mut fence = "```".to_owned();
-    while text.contains(&fence) {
-        fence.push('`');
-    }
-    fence
+    let longest = text.split(|one| one != '`').map(str::len).max().unwrap_or_default();
+    "`".repeat(longest.saturating_add(1).max(3))
 }
