@@ -156,13 +156,16 @@ pub struct Wire {
 }
 
 impl Wire {
-    /// Connects to an address within `timeout`, without Nagle's algorithm.
+    /// Connects to an address within `timeout`, without Nagle's algorithm. Sending waits for at most
+    /// `timeout`, too.
     ///
     /// # Errors
     /// An error of the system, or [`io::ErrorKind::TimedOut`].
     pub fn connect(addr: SocketAddr, timeout: Duration) -> io::Result<Self> {
         let stream = TcpStream::connect_timeout(&addr, timeout)?;
         stream.set_nodelay(true)?;
+        // A device that reads nothing must not block the client.
+        stream.set_write_timeout(Some(timeout))?;
         let local = stream.local_addr()?;
         Ok(Self { peer: Box::new(stream), local })
     }

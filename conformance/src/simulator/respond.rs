@@ -39,7 +39,7 @@ pub(crate) fn respond(
     let header = frame.header();
     if header.state_flags.0 & RESPONSE_BIT != 0 {
         let flags = header.state_flags.0;
-        tracing::warn!("ignored, not a request: state_flags {flags:#06x} from {}", header.source);
+        tracing::debug!("ignored, not a request: state_flags {flags:#06x} from {}", header.source);
         return;
     }
     let start = answers.len();

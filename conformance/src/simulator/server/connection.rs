@@ -57,7 +57,8 @@ impl ReceiveBuffer {
         Self {
             bytes: vec![0; RECEIVED_MAX],
             buffered: 0,
-            answers: Vec::with_capacity(GATHERED_MAX),
+            // The room that the answers may need; a growing buffer would double beyond it.
+            answers: Vec::with_capacity(GATHERED_MAX.saturating_add(FRAME_MAX)),
         }
     }
 
