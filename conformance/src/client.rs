@@ -272,6 +272,9 @@ impl Client {
         }
         let mut strays = 0;
         let mut came = self.exchange(permit, header, received, violations, &mut strays);
+        if matches!(came, Err(ExchangeError::NotPermitted(_))) {
+            return came.map(Ok);
+        }
         if !matches!(came, Err(ExchangeError::Disconnected(_))) {
             sent.extend(bytes);
         }
@@ -354,6 +357,11 @@ impl Client {
             }
         };
         let wire = self.wire.insert(wire);
+        // The file for `--allow-write` may have expired while the client waited for the pace or the
+        // connection.
+        let permit = self.gate.check(permit.frame(), Moment::now());
+        let permit =
+            permit.map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))?;
         let sent_all = match self.piece {
             Some(piece) => wire.send_in_pieces(permit, piece, PAUSE),
             None => wire.send(permit),

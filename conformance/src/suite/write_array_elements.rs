@@ -59,7 +59,8 @@ fn elements(
             let name = format!("{}{brackets}", variable.name.text);
             let number = number_of(&indices, &variable.dimensions);
             let Some(place) = place_of(probe, channel, variable, indices)? else { continue };
-            if !probe.may_write(&place, &variable.name.text.to_string())? {
+            let is_left = probe.target.profile.leaves(&name);
+            if is_left || !probe.may_write(&place, &variable.name.text.to_string())? {
                 continue;
             }
             let before = probe.value_at(&whole)?.unwrap_or_default();

@@ -301,6 +301,49 @@ fn a_lost_connection_leaves_nothing_changed() {
     assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
 }
 
+/// After a lost connection, and after an error of a router, the handle belongs to another variable that has
+/// the original value: the run restores the value by its name.
+#[test]
+fn a_reassigned_handle_is_not_used_to_restore() {
+    for is_router in [false, true] {
+        let cnc = Logged::start(&[]);
+        let (mut writes, mut is_lost, mut original) = (0, false, None::<Vec<u8>>);
+        let addr = lying(&cnc.serve.addr, move |request, reply| {
+            if is_asked(request, 0x12_2301, 0x47) {
+                let value = &mut reply[DATA..];
+                match &original {
+                    Some(original) if is_lost => value.copy_from_slice(original),
+                    None => original = Some(value.to_vec()),
+                    _ => {}
+                }
+            }
+            if is_lost && [0x46, 0x4C].iter().any(|&at| is_asked(request, 0x12_2301, at)) {
+                put(reply, DATA, OTHER);
+            }
+            let is_write = is_asked(request, 0x12_2301, 0x49);
+            writes += u32::from(is_write);
+            // The second write writes another value.
+            if is_write && writes == 2 {
+                is_lost = true;
+                // The error of the AMS header.
+                put(reply, 30, 7);
+                return is_router;
+            }
+            true
+        });
+        let value = || {
+            let target = ["--target", &cnc.serve.addr, "--net-id", "127.0.0.1.1.1"];
+            let mut get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+            get.args(["get", "V.E.Variable_1"]).args(target).output().unwrap().stdout
+        };
+        let before = value();
+        let file = TestFile::allowing(VARIABLE.table);
+        let output = run(&addr, &file, &["write-by-handle"]);
+        assert!(!before.is_empty() && value() == before, "{is_router}: {output:?}");
+        assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]), "{is_router}");
+    }
+}
+
 /// After a lost connection, the list gives the changed object the address of another one: the run
 /// does not restore the value, and the last line of stderr contains the reason.
 #[test]

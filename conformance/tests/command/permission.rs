@@ -136,6 +136,20 @@ fn the_time_to_restore_is_that_of_all_changed_values() {
     assert_eq!(ended.status.code(), Some(4), "{shown}");
 }
 
+/// A write that waits for its turn until the file has expired is not sent.
+#[test]
+fn a_write_that_waited_for_too_long_is_not_sent() {
+    let (cnc, file) = (Serve::start(&[]), expiring(VARIABLE, 3));
+    let get = || text(&against(&cnc.addr, &["get", "V.E.vartest"]).stdout);
+    let before = get();
+    let set = ["set", "V.E.vartest", "77", "--type", "SGN16", "--rate", "0.2"];
+    let ended = against(&cnc.addr, &[&set[..], &["--allow-write", file.path()]].concat());
+    let stderr_text = text(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(4), "{stderr_text}");
+    assert!(stderr_text.contains("the file of --allow-write expired at "), "{stderr_text}");
+    assert!(!before.is_empty() && get() == before, "{before}");
+}
+
 const STREAM: &str = "[[stream]]\nchannel = 1\n";
 
 /// No value is changed if the time until the expiry may not suffice to restore it.

@@ -51,6 +51,15 @@ pub(super) struct Change {
     pub(super) given_up: bool,
 }
 
+impl Change {
+    /// Uses the address by name, if it is known, from now on.
+    pub(super) fn use_name(&mut self) {
+        if let Some(by_name) = self.by_name.take() {
+            self.address = by_name;
+        }
+    }
+}
+
 impl Changes {
     /// The values that have not been restored, including those that were given up, the first change
     /// first.

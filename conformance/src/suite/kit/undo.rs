@@ -128,8 +128,13 @@ impl Probe<'_> {
                 let pause = PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8));
                 self.target.client.wait(pause);
                 // The handle may have become invalid, or unconfirmed.
-                if let Some(by_name) = change.by_name.take() {
-                    change.address = by_name;
+                change.use_name();
+            } else if change.by_name.is_some() && !self.may_write_back(&change) {
+                // On a new connection, the handle may belong to another variable, even if the value
+                // there is the original one.
+                self.request_again(&mut change);
+                if !self.may_write_back(&change) {
+                    change.use_name();
                 }
             }
             // The value is read first, because a write without a reply may have been executed.
@@ -159,6 +164,13 @@ impl Probe<'_> {
     fn present_value(&mut self, change: &Change) -> Option<Vec<u8>> {
         let exchange = self.send_anyway(change.address.read().ok()?)?;
         exchange.success().map(<[u8]>::to_vec)
+    }
+
+    /// Whether the gate allows a write of the original value.
+    fn may_write_back(&self, change: &Change) -> bool {
+        let write = change.address.write(&change.was).ok();
+        let write = write.and_then(|write| RawCall::new(write).ok());
+        write.is_some_and(|write| self.target.client.check(&write.call()).is_ok())
     }
 
     /// Writes the original value; returns whether the write was accepted.

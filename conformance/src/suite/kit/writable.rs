@@ -37,6 +37,12 @@ pub(crate) fn each_of_access(
     probe.finish(NOTHING_WRITABLE)
 }
 
+/// Whether a variable is an array of texts. It is not written as a whole: no document states how
+/// the texts follow each other, and a device that keeps only the first one would lose the others.
+pub(crate) fn is_text_array(variable: &Description) -> bool {
+    variable.var_type == VariableType::STRING && !variable.dimensions.is_empty()
+}
+
 pub(crate) fn write_check<'t>(
     variable: &'t Description,
     what: &'t str,

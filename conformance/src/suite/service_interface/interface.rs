@@ -54,7 +54,8 @@ pub(super) fn in_each_channel(
     for channel in service_channels(probe)? {
         let mut may = true;
         for variable in variables {
-            may &= probe.may(WriteByName::new(channel, variable.name(), &b"\0"[..])?)?;
+            may &= !probe.target.profile.leaves(variable.name())
+                && probe.may(WriteByName::new(channel, variable.name(), &b"\0"[..])?)?;
         }
         if !may {
             continue;

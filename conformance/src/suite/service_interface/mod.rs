@@ -77,10 +77,10 @@ fn variables(probe: &mut Probe<'_>) -> Step {
 }
 
 fn response(probe: &mut Probe<'_>) -> Step {
-    use ServiceVariable::{Response, ResponseState};
+    use ServiceVariable::{RequestState, Response, ResponseState};
     // The response is restored before the response state, because a response state other than 0
     // tells an NC program that a response exists.
-    in_each_channel(probe, &[ResponseState, Response], answer)
+    in_each_channel(probe, &[ResponseState, Response, RequestState], answer)
 }
 
 /// Writes a response like a service, although no request exists, and checks the effects.

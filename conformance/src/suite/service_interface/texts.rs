@@ -93,9 +93,11 @@ const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0";
 /// Requests a service with a UUID that no service should have, and checks that REQUEST and
 /// REQUEST_STATE keep the written values.
 pub(super) fn request(probe: &mut Probe<'_>) -> Step {
-    use ServiceVariable::{Request, RequestState, Uuid};
+    use ServiceVariable::{Request, RequestState, ResponseState, Uuid};
     const NO_SERVICE: &[u8] = b"00000000-0000-0000-0000-000000000000\0";
-    in_each_channel(probe, &[Uuid, Request, RequestState], |probe, channel| {
+    // A write of REQUEST_STATE changes RESPONSE_STATE, too.
+    let variables = [ResponseState, Uuid, Request, RequestState];
+    in_each_channel(probe, &variables, |probe, channel| {
         write_variable(probe, channel, Uuid, NO_SERVICE)?;
         write_variable(probe, channel, Request, b"a request\0")?;
         let written = read_variable(probe, channel, Request)?;
