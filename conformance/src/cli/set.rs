@@ -112,7 +112,10 @@ impl Set {
         let new = match session.read(&object.address) {
             Ok(new) => Some(new),
             Err(ToolError::Ads { .. }) => None,
-            Err(error) => return Err(error),
+            Err(error) => {
+                print_error("the value was written, but could not be read back");
+                return Err(error);
+            }
         };
         self.show(&object, &ty, old.as_deref(), new.as_deref())?;
         if session.is_simulated() {

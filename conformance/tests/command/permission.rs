@@ -150,6 +150,24 @@ fn a_write_that_waited_for_too_long_is_not_sent() {
     assert!(!before.is_empty() && get() == before, "{before}");
 }
 
+/// If the value cannot be read back after the write, `set` prints that the value was written.
+#[test]
+fn a_written_value_that_cannot_be_read_back_is_reported() {
+    let (cnc, file) = (Serve::start(&[]), TestFile::allowing(VARIABLE));
+    let mut is_written = false;
+    let addr = proxy(cnc.addr.parse().unwrap(), move |frame| {
+        let handling = if is_written { FrameHandling::LoseAnswer } else { FrameHandling::Pass };
+        is_written |= is_write(frame);
+        handling
+    });
+    let set = ["set", "V.E.vartest", "77", "--timeout", "300", "--allow-write", file.path()];
+    let ended = against(&addr.to_string(), &set);
+    let stderr_text = text(&ended.stderr);
+    let told = "the value was written, but could not be read back";
+    assert!(stderr_text.contains(told), "{stderr_text}");
+    assert_eq!(ended.status.code(), Some(3), "{stderr_text}");
+}
+
 const STREAM: &str = "[[stream]]\nchannel = 1\n";
 
 /// No value is changed if the time until the expiry may not suffice to restore it.

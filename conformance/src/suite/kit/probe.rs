@@ -22,13 +22,18 @@ use crate::evidence::{Describe, Evidence};
 use crate::exchange::{Exchange, ExchangeError, Violation};
 use crate::gate::Reason;
 use crate::judge::{Checks, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict, applicable};
+use crate::number::to_usize;
 use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::suite::kit::{RawCall, TargetState};
+use crate::text::plural;
 
 /// Number of consecutive requests without a reply after which only requests that restore values are
 /// sent.
 const SILENCES_MAX: usize = 8;
+
+/// Number of bytes by which a reply may exceed the read length without ending the case.
+const EXCESS_MAX: usize = 4096;
 
 /// Maximum number of requests that a case sends with [`Probe::call`], because a target may return
 /// endless lists.
@@ -221,6 +226,14 @@ impl<'s> Probe<'s> {
         }
         if exchange.contradicts_itself() {
             return Err(Stop::Inconclusive(format!("{exchange}: an error before a success")));
+        }
+        let given = exchange.success().map_or(0, <[u8]>::len);
+        if given > to_usize(call.read_length).saturating_add(EXCESS_MAX) {
+            // The case `ads-every-frame` judges the reply. Cases may keep many replies, and compare
+            // them in quadratic time.
+            let given = plural(given, "byte");
+            let read = call.read_length;
+            return Err(Stop::Inconclusive(format!("{exchange}: {given} for a length of {read}")));
         }
         if let Some(reply) = exchange.reply() {
             let has_data = reply.data.as_ref().is_some_and(|data| !data.is_empty());
