@@ -215,8 +215,11 @@ impl Probe<'_> {
                     let count = count.success();
                     let count = count.and_then(|data| ObjectCount::decode(data).ok());
                     for first in 1..=count.map_or(0, |count| count.0.min(OBJECTS_MAX)) {
-                        if let Ok(one) = ReadDescriptors::new(list, first, 1) {
-                            self.send_anyway(one);
+                        let Ok(one) = ReadDescriptors::new(list, first, 1) else { break };
+                        // A device that no longer answers could delay the end by the timeout of
+                        // each descriptor; an incomplete list allows no write.
+                        if self.send_anyway(one).is_none_or(|sent| sent.outcome.is_err()) {
+                            break;
                         }
                     }
                 }
