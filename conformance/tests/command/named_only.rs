@@ -9,10 +9,10 @@ use std::process::{Command, Output};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 
-use crate::common::Serve;
 use crate::common::file::{HEAD, MemoryFile, TestFile};
 use crate::common::harmless::number;
 use crate::common::proxy::{frame, proxy_by};
+use crate::common::{Serve, ads_cnc};
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::faults::{self, Faulty, SeededDefect};
 use ads_cnc_conformance::gate::{Allowed, Gate};
@@ -40,6 +40,19 @@ impl Logged {
         let log =
             thread::spawn(move || stderr.lines().map_while(Result::ok).filter(writes).collect());
         Self { serve, log }
+    }
+
+    /// The value of V.E.Variable_1 as `get` prints it.
+    fn value(&self) -> Vec<u8> {
+        ads_cnc(&[
+            "get",
+            "V.E.Variable_1",
+            "--target",
+            &self.serve.addr,
+            "--net-id",
+            "127.0.0.1.1.1",
+        ])
+        .stdout
     }
 
     /// Ends the CNC; returns the number of writes to each variable, parameter and content.
@@ -288,16 +301,11 @@ fn a_lost_connection_leaves_nothing_changed() {
         // The second write writes another value.
         !(is_write && writes == 2)
     });
-    let value = || {
-        let target = ["--target", &cnc.serve.addr, "--net-id", "127.0.0.1.1.1"];
-        let mut get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-        get.args(["get", "V.E.Variable_1"]).args(target).output().unwrap().stdout
-    };
-    let before = value();
+    let before = cnc.value();
     let file = TestFile::allowing(VARIABLE.table);
     let output = run(&addr, &file, &["write-by-handle"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
-    assert!(!before.is_empty() && value() == before);
+    assert!(!before.is_empty() && cnc.value() == before);
     assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
 }
 
@@ -331,15 +339,10 @@ fn a_reassigned_handle_is_not_used_to_restore() {
             }
             true
         });
-        let value = || {
-            let target = ["--target", &cnc.serve.addr, "--net-id", "127.0.0.1.1.1"];
-            let mut get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-            get.args(["get", "V.E.Variable_1"]).args(target).output().unwrap().stdout
-        };
-        let before = value();
+        let before = cnc.value();
         let file = TestFile::allowing(VARIABLE.table);
         let output = run(&addr, &file, &["write-by-handle"]);
-        assert!(!before.is_empty() && value() == before, "{is_router}: {output:?}");
+        assert!(!before.is_empty() && cnc.value() == before, "{is_router}: {output:?}");
         assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]), "{is_router}");
     }
 }
