@@ -112,7 +112,8 @@ export type Value = Scalar | Value[];
 /** Decodes a value by its type (a name, or a code from a description); an array to nested arrays. The result is an
  * empty array if a dimension is 0. */
 export function unpack(type: string | number, data: Uint8Array, dimensions?: number[]): Value;
-/** Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes. */
+/** Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes. Throws a
+ * `RangeError` for a number that the type cannot represent, and a `TypeError` for a value of another type. */
 export function pack(type: string | number, value: Value | Uint8Array | Uint8Array[]): Uint8Array;
 
 /** A dispatched call: its function and arguments. */

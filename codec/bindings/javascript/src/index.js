@@ -34,7 +34,10 @@ const view = () => new DataView(codec.memory.buffer);
 const u32 = (at) => view().getUint32(at, true);
 const bytes = (at, size) => new Uint8Array(codec.memory.buffer, at, size);
 const taken = (at, size) => bytes(at, size).slice();
-const numbers = (at, count) => Array.from({ length: count }, (_, n) => u32(at + 4 * n));
+const numbers = (at, count) => {
+  const memory = view();
+  return Array.from({ length: count }, (_, n) => memory.getUint32(at + 4 * n, true));
+};
 
 /** Checks that data is bytes. An ArrayBuffer, for example, has no `length`, and would corrupt the scratch memory. */
 function checked(data) {
@@ -42,10 +45,18 @@ function checked(data) {
   throw new TypeError(`Uint8Array expected, found ${data?.constructor?.name ?? data}`);
 }
 
+const wrong = (name, expected, value) =>
+  new TypeError(`${name}: ${expected} expected, found ${String(value)} (${typeof value})`);
+
+/** Copies an array. Without the check, Array.from would return an empty array for a number or another object. */
+function listed(name, value) {
+  if (typeof value !== 'object' || typeof value?.length !== 'number') throw wrong(name, 'array', value);
+  return Array.from(value);
+}
+
 /** Checks a number of the caller, because WebAssembly and DataView wrap or truncate a number that does not fit. */
 function unsigned(name, value, bits = 32) {
-  if (typeof value !== 'number')
-    throw new TypeError(`${name}: number expected, found ${String(value)} (${typeof value})`);
+  if (typeof value !== 'number') throw wrong(name, 'number', value);
   if (Number.isInteger(value) && value >= 0 && value < 2 ** bits) return value;
   throw new RangeError(`${name}: ${value} is not an unsigned number of ${bits} bits`);
 }
@@ -182,6 +193,7 @@ export const textFromCp1252 = (data) =>
 /** Converts a text to CP1252, without a NUL. */
 export const textToCp1252 = (text) =>
   begin(() => {
+    if (typeof text !== 'string') throw wrong('text', 'string', text);
     const utf8 = new TextEncoder().encode(text);
     return sized(utf8.length, 'text_from_utf8', put(utf8), utf8.length);
   });
@@ -261,15 +273,18 @@ function netIdToBytes(name, text) {
 function write(row, value) {
   if (value instanceof Uint8Array) return value;
   if (row.kind <= 2) {
-    const [number, size] = [Number(value), row.size || 4];
-    if (!Number.isInteger(number) || number < 0 || number >= 256 ** size) {
-      throw new RangeError(`${row.name}: ${value} does not fit a number of ${size} bytes`);
-    }
+    const size = row.size || 4,
+      isBoolean = row.kind === 2 && typeof value === 'boolean';
+    const number = unsigned(row.name, isBoolean ? Number(value) : value, 8 * size);
     return Uint8Array.from({ length: size }, (_, at) => Math.floor(number / 256 ** at) % 256);
   }
-  if (row.kind === 3) return new Uint8Array(Float64Array.of(value).buffer);
+  if (row.kind === 3) {
+    if (typeof value !== 'number') throw wrong(row.name, 'number', value);
+    return new Uint8Array(Float64Array.of(value).buffer);
+  }
   if (row.kind === 4) return textToCp1252(value).length === row.size ? textToCp1252(value) : ended(value);
-  return netIdToBytes(row.name, value);
+  if (row.kind === 5) return netIdToBytes(row.name, value);
+  throw wrong(row.name, 'Uint8Array', value);
 }
 
 const shown = (stream) => stream.fields.filter((row) => !row.isCount);
@@ -304,7 +319,7 @@ export function encode(stream, value) {
       rows.flatMap((row) => {
         const one = rows.length > 1 ? record[camel(row.name)] : record;
         if (one === null || one === undefined) return [];
-        return (row.isList ? Array.from(one) : [one]).map((item) => [row.name, write(row, item)]);
+        return (row.isList ? listed(camel(row.name), one) : [one]).map((item) => [row.name, write(row, item)]);
       }),
     ),
   );
@@ -317,11 +332,10 @@ const TEXTS = ['kind', 'name', 'value'];
 
 /** Writes an AdsCncRequest; returns its address. The texts in `given` must be CP1252, because a conversion here
  * would overwrite the scratch memory. */
-function putRequest(number, given) {
-  const all = { ...given, function: number };
-  const plain = NUMBERS.map((name) => (name in all ? unsigned(camel(name), all[name]) : 0));
+function putRequest(given) {
+  const plain = NUMBERS.map((name) => (name in given ? unsigned(camel(name), given[name]) : 0));
   const texts = TEXTS.flatMap((name) => (given[name] ? [put(given[name]), given[name].length] : [0, 0]));
-  const indices = Array.from(given.indices ?? [], (index, n) => unsigned(`indices[${n}]`, index));
+  const indices = given.indices ?? [];
   return putNumbers([...plain, ...texts, putNumbers(indices), indices.length]);
 }
 
@@ -339,14 +353,19 @@ function operation(number) {
   return (...values) => {
     const options = values[it.arguments.length] ?? {};
     const given = Object.fromEntries(it.arguments.map((name, n) => [name, values[n]]));
+    given.function = number;
     if ('byIndex' in options) given.by_index = options.byIndex ? 1 : 0;
     if ('axis' in options) given.axis = options.axis ?? 0;
     for (const name of ['kind', 'name'])
       if (typeof given[name] === 'string') given[name] = textToCp1252(given[name]);
+      else if (name in given && !(given[name] instanceof Uint8Array))
+        throw wrong(name, 'string or Uint8Array', given[name]);
+    if ('indices' in given)
+      given.indices = listed('indices', given.indices).map((one, n) => unsigned(`indices[${n}]`, one));
     if ('value' in given && !(given.value instanceof Uint8Array))
       throw new TypeError('value: bytes expected, see `pack`');
     const sent = begin(() => {
-      const at = putRequest(number, given),
+      const at = putRequest(given),
         out = room(28),
         size = 4096 + (given.value?.length ?? 0);
       call('encode', at, room(size), size, out);
@@ -357,7 +376,7 @@ function operation(number) {
       function: it,
       decode(reply) {
         const stream = it.reply && STREAMS[it.reply];
-        const parts = begin(() => found(stream, reply, 'decode_reply', putRequest(number, given)));
+        const parts = begin(() => found(stream, reply, 'decode_reply', putRequest(given)));
         return stream ? valueOf(stream, parts) : undefined;
       },
     };
@@ -551,7 +570,7 @@ function nested(items, dimensions) {
  * empty array if a dimension is 0. */
 export function unpack(type, data, dimensions = []) {
   const it = typeOf(type),
-    all = Array.from(dimensions, (one, n) => unsigned(`dimensions[${n}]`, one));
+    all = listed('dimensions', dimensions).map((one, n) => unsigned(`dimensions[${n}]`, one));
   checked(data);
   // With a dimension 0, the product of the others may be infinite, and that times 0 is not a number.
   const count = all.includes(0) ? 0 : all.reduce((product, one) => product * one, 1);
@@ -563,12 +582,12 @@ export function unpack(type, data, dimensions = []) {
   }
   // Without elements, the other dimensions are only numbers: they may stand for billions of empty arrays.
   if (!count) return [];
-  const get = `get${GETTERS[it.kind](size)}`;
+  const get = `get${GETTERS[it.kind](size)}`,
+    memory = dataView(data);
   return nested(
     Array.from({ length: count }, (_, at) => {
-      const part = data.subarray(at * size, (at + 1) * size);
-      if (it.kind === 4) return textFromCp1252(part);
-      const value = dataView(part)[get](0, true);
+      if (it.kind === 4) return textFromCp1252(data.subarray(at * size, (at + 1) * size));
+      const value = memory[get](at * size, true);
       return it.kind ? value : value !== 0;
     }),
     all,
@@ -577,18 +596,50 @@ export function unpack(type, data, dimensions = []) {
 
 /** Encodes a value, the inverse of `unpack`. A text gets a NUL; pass the texts of an array as bytes. */
 export function pack(type, value) {
-  const it = typeOf(type);
+  const it = typeOf(type),
+    parts = [],
+    left = [value];
+  // Not recursive, because a value may have more dimensions than the stack has room for.
+  while (left.length) {
+    const one = left.pop();
+    if (Array.isArray(one)) for (let n = one.length - 1; n >= 0; n -= 1) left.push(one[n]);
+    else parts.push(packed(it, one));
+  }
+  if (parts.length === 1) return parts[0];
+  const data = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
+  let at = 0;
+  for (const part of parts) {
+    data.set(part, at);
+    at += part.length;
+  }
+  return data;
+}
+
+// What `packed` accepts, by the kind of the type.
+const ACCEPTED = [['boolean', 'number'], ['number', 'bigint'], ['number', 'bigint'], ['number'], ['string']];
+
+function packed(it, value) {
   if (value instanceof Uint8Array) return value;
-  if (Array.isArray(value)) return Uint8Array.from(value.flatMap((one) => Array.from(pack(type, one))));
+  if (!ACCEPTED[it.kind].includes(typeof value))
+    throw wrong(it.name, ACCEPTED[it.kind].join(' or '), value);
   if (it.kind === 4) return ended(value);
+  const bits = 8 * it.size;
+  const [low, end, meaning] = [
+    [0, 2, 'true, false, 0 or 1'],
+    [0, 2 ** bits, `an unsigned number of ${bits} bits`],
+    [-(2 ** (bits - 1)), 2 ** (bits - 1), `a signed number of ${bits} bits`],
+    [0, 0, `a float of ${bits} bits`],
+  ][it.kind];
+  const isWhole = typeof value === 'bigint' || Number.isInteger(Number(value));
+  // A float may be rounded, but a finite number must not become infinite.
+  const fits =
+    it.kind === 3
+      ? bits > 32 || !Number.isFinite(value) || Number.isFinite(Math.fround(value))
+      : isWhole && value >= low && value < end;
+  if (!fits) throw new RangeError(`${it.name}: ${value} is not ${meaning}`);
   const data = new Uint8Array(it.size),
     name = GETTERS[it.kind](it.size);
-  dataView(data)[`set${name}`](0, it.size > 4 && it.kind < 3 ? BigInt(value) : Number(value), true);
-  const back = dataView(data)[`get${name}`](0, true);
-  // A float may be rounded; any other value must be unchanged when it is read back.
-  if (it.kind < 3 && String(back) !== String(it.kind ? value : Number(value))) {
-    throw new RangeError(`${it.name}: ${value} does not fit`);
-  }
+  dataView(data)[`set${name}`](0, name.startsWith('Big') ? BigInt(value) : Number(value), true);
   return data;
 }
 

@@ -146,6 +146,60 @@ test('a number that does not fit is an error', () => {
   assert.equal(sender.acknowledge(0xffffffff), cnc.BUSY);
 });
 
+test('an argument of a wrong type is named', () => {
+  const host = new cnc.Host(['560AACBF-6335-44a9-895A-8B27F3ED5E47']);
+  for (const value of [undefined, null, 5, {}, '', () => 1, new ArrayBuffer(4)]) {
+    const message = new RegExp(`^indices: array expected, found .* \\(${typeof value}\\)$`);
+    const isArray = { name: 'TypeError', message };
+    assert.throws(() => cnc.readByHandle(1, 7, value), isArray);
+    assert.throws(() => cnc.writeByHandle(1, 7, value, bytes(1)), isArray);
+    if (value !== undefined && value !== null)
+      assert.throws(() => cnc.encode('variable-handle-read', { handle: 4, indices: value }), isArray);
+  }
+  assert.throws(() => cnc.unpack('UNS08', bytes(1), 5), /^TypeError: dimensions: array expected, found 5/);
+  for (const value of [undefined, null, 0, 1, {}, ['a']]) {
+    const isText = (name) => new RegExp(`^TypeError: ${name}: string or Uint8Array expected, found`);
+    assert.throws(() => cnc.readByName(1, value), isText('name'));
+    assert.throws(() => cnc.countDynamic(1, value), isText('kind'));
+    for (const work of [cnc.textToCp1252, cnc.path, (text) => host.answer(text, 1)])
+      assert.throws(() => work(value), /^TypeError: text: string expected, found/);
+  }
+  assert.deepEqual(cnc.readByName(1, ascii('V.E.a')).data, ascii('V.E.a\0'));
+  for (const data of ['192.0.2.7.1.1', 'x', 1, []])
+    assert.throws(() => cnc.encode('content', data), /^TypeError: content: Uint8Array expected, found/);
+  for (const value of ['', [], '5', 5n, true])
+    assert.throws(() => cnc.encode('object-count', value), /^TypeError: count: number expected, found/);
+  for (const value of ['', 'x', [], true])
+    assert.throws(() => cnc.encode('dynamic-value', value), /^TypeError: value: number expected, found/);
+  assert.deepEqual(cnc.encode('element-write-flag', true), bytes(1));
+});
+
+test('the indices are copied', () => {
+  const indices = [4, 5],
+    request = cnc.readByHandle(1, 7, indices);
+  indices[0] = -1;
+  assert.deepEqual(request.decode(bytes(1)), bytes(1));
+  assert.deepEqual(cnc.dispatch(cnc.readByHandle(1, 7, Uint16Array.of(4, 5))).arguments.indices, [4, 5]);
+});
+
+test('numbers are read by one DataView', () => {
+  const { DataView } = globalThis;
+  let count = 0;
+  globalThis.DataView = class extends DataView {
+    constructor(...given) {
+      super(...given);
+      count += 1;
+    }
+  };
+  try {
+    cnc.dispatch(cnc.readByHandle(1, 7, Array(500).fill(1)));
+    cnc.unpack('UNS16', new Uint8Array(1_000), [500]);
+  } finally {
+    globalThis.DataView = DataView;
+  }
+  assert.ok(count < 100, `${count} views`);
+});
+
 test('only a Uint8Array is bytes', () => {
   const buffer = new ArrayBuffer(8),
     frame = cnc.frameOfCall(cnc.readByName(1, 'a'), '192.0.2.7.1.1', ['192.0.2.1.1.1', 1], 7);
@@ -194,7 +248,7 @@ test('values are encoded as they were decoded', () => {
   ]) {
     assert.deepEqual(cnc.encode(stream, cnc.decode(stream, data)), data, stream);
   }
-  assert.throws(() => cnc.encode('element-write-flag', 256), /flag: 256 does not fit a number of 1 bytes/);
+  assert.throws(() => cnc.encode('element-write-flag', 256), /flag: 256 is not an unsigned number of 8 bits/);
 });
 
 test('long lists and contents are not truncated', () => {
@@ -225,13 +279,43 @@ test('values are read by their types', () => {
   assert.deepEqual(cnc.pack('LREAL', [1.5, 0]), bytes(0, 0, 0, 0, 0, 0, 0xf8, 0x3f, ...Array(8).fill(0)));
   assert.deepEqual(cnc.pack('LWORD', 258), bytes(2, 1, 0, 0, 0, 0, 0, 0));
   assert.deepEqual(cnc.pack('STRING', 'Länge'), ascii('L\xe4nge\0'));
-  for (const [type, value] of [
-    ['SGN08', 200],
-    ['UNS32', -1],
-    ['SGN16', 1.5],
+  for (const [type, value, meaning] of [
+    ['SGN08', 200, 'a signed number of 8 bits'],
+    ['SGN08', -129, 'a signed number of 8 bits'],
+    ['UNS32', -1, 'an unsigned number of 32 bits'],
+    ['UNS32', 2n ** 32n, 'an unsigned number of 32 bits'],
+    ['SGN16', 1.5, 'a signed number of 16 bits'],
+    ['UNS32', NaN, 'an unsigned number of 32 bits'],
+    ['LWORD', 0.5, 'an unsigned number of 64 bits'],
+    ['LWORD', Infinity, 'an unsigned number of 64 bits'],
+    ['LINT', 2 ** 63, 'a signed number of 64 bits'],
+    ['BOOLEAN', 2, 'true, false, 0 or 1'],
+    ['REAL32', 1e300, 'a float of 32 bits'],
   ]) {
-    assert.throws(() => cnc.pack(type, value), RangeError);
+    const message = `${type}: ${value} is not ${meaning}`;
+    assert.throws(() => cnc.pack(type, value), { name: 'RangeError', message });
   }
+  for (const [type, value, expected] of [
+    ['REAL64', 'x', 'number'],
+    ['REAL64', undefined, 'number'],
+    ['REAL32', 1n, 'number'],
+    ['SGN32', '', 'number or bigint'],
+    ['UNS08', true, 'number or bigint'],
+    ['LWORD', '5', 'number or bigint'],
+    ['BOOLEAN', 'false', 'boolean or number'],
+    ['STRING', 5, 'string'],
+  ]) {
+    const message = `${type}: ${expected} expected, found ${value} (${typeof value})`;
+    assert.throws(() => cnc.pack(type, value), { name: 'TypeError', message });
+    assert.throws(() => cnc.pack(type, [[value]]), { name: 'TypeError', message });
+  }
+  assert.throws(() => cnc.pack('UNS08', new Array(2)), /UNS08: number or bigint expected, found undefined/);
+  assert.deepEqual(cnc.pack('BOOLEAN', [true, false, 1, 0]), bytes(1, 0, 1, 0));
+  assert.deepEqual(cnc.pack('LWORD', 2 ** 63), bytes(0, 0, 0, 0, 0, 0, 0, 128));
+  assert.deepEqual(cnc.pack('LINT', [-1n, -(2 ** 63)]), bytes(...Array(8).fill(255), ...Array(7).fill(0), 128));
+  assert.deepEqual(cnc.pack('SGN08', [-128, 127, 0]), bytes(128, 127, 0));
+  assert.equal(cnc.unpack('REAL32', cnc.pack('REAL32', -Infinity)), -Infinity);
+  assert.deepEqual(cnc.pack('UNS08', []), bytes());
   assert.throws(() => cnc.unpack('SGN16', bytes(0)), RangeError);
   assert.throws(() => cnc.unpack(77, bytes(0)), TypeError);
 });
@@ -258,6 +342,13 @@ test('any number of dimensions is read', () => {
     [n + 2, n + 3],
   ]);
   assert.deepEqual(cnc.unpack('UNS08', cnc.pack('UNS08', cube), [3, 2, 2]), cube);
+  let deep = [1, 2];
+  for (let depth = 0; depth < 100_000; depth += 1) deep = [deep];
+  assert.deepEqual(cnc.pack('UNS08', deep), bytes(1, 2));
+  assert.equal(
+    copied(() => cnc.pack('STRING', [[[ascii('a\0')], [ascii('b\0')]]])),
+    4,
+  );
 });
 
 test('addresses and names are parsed', () => {

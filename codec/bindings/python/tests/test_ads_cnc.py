@@ -144,6 +144,57 @@ class Requests(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "length: 4294967296 is not an unsigned number of 32 bits"):
                 work()
 
+    def test_only_bytes_are_bytes(self):
+        host = ads_cnc.Host(["560AACBF-6335-44a9-895A-8B27F3ED5E47"])
+        host.step()
+        ends = ("192.0.2.7.1.1", 552), ("192.0.2.1.1.1", 1)
+        for work in (
+            lambda data: ads_cnc.fields("content", data),
+            lambda data: ads_cnc.join("content", [("content", data)]),
+            lambda data: ads_cnc.text_from_cp1252(data),
+            lambda data: ads_cnc.unpack("STRING", data),
+            lambda data: ads_cnc.read_frame(data),
+            lambda data: host.read(data),
+            lambda data: ads_cnc.dispatch(ads_cnc.Call(552, 9, 0x122301, 0x46, 4, data)),
+            lambda data: ads_cnc.Frame(*ends, 2, 4, 0, 1, data).encode(),
+            lambda data: ads_cnc.Sender(data),
+            lambda data: ads_cnc.count_objects(1).decode(data),
+            lambda data: ads_cnc.write_by_name(1, "V.E.a", data),
+        ):
+            for value in (4, "M30\n", [77], None):
+                error = f"^bytes expected, found {type(value).__name__}$"
+                with self.subTest(value=value), self.assertRaisesRegex(TypeError, error):
+                    work(value)
+        for value in (4, [77], None):
+            for work in (
+                lambda: ads_cnc.read_by_name(1, value),
+                lambda: ads_cnc.count_dynamic(1, value),
+                lambda: ads_cnc.pack("STRING", value or 0),
+                lambda: ads_cnc.text_to_cp1252(value),
+            ):
+                with self.subTest(value=value), self.assertRaises(TypeError):
+                    work()
+
+    def test_a_bytearray_and_a_memoryview_are_bytes(self):
+        ends = ("192.0.2.7.1.1", 552), ("192.0.2.1.1.1", 1)
+        data = b"V.E.a\0" * 300
+        for kind in (bytearray, memoryview):
+            request = ads_cnc.write_by_name(1, "V.E.a", kind(data))
+            self.assertEqual(ads_cnc.dispatch(request).arguments["value"], data)
+            frame = ads_cnc.Frame(*ends, 2, 4, 0, 1, kind(data)).encode()
+            self.assertEqual(ads_cnc.read_frame(kind(frame))[0].data, data)
+            call = ads_cnc.Call(552, 9, 0x122301, 0x46, 4, kind(b"V.E.a\0"))
+            self.assertEqual(ads_cnc.dispatch(call).arguments["name"], "V.E.a")
+            self.assertEqual(ads_cnc.count_objects(1).decode(kind(b"\5\0\0\0")), 5)
+            self.assertEqual(ads_cnc.join("content", [("content", kind(data))]), data)
+            self.assertEqual(ads_cnc.encode("content", kind(data)), data)
+            self.assertEqual(ads_cnc.pack("UNS08", [kind(b"\1"), 2]), b"\1\2")
+            self.assertEqual(list(ads_cnc.Sender(kind(b"")).progress.values())[:1], [4])
+        # A struct of the library keeps the bytes that it points to.
+        kept = ads_cnc.Call(1, 2, 3, 4, 5, bytearray(data)).c()
+        self.assertEqual([bytes(1800) for _ in range(9)], [bytes(1800)] * 9)
+        self.assertEqual(kept.data.get(), data)
+
 
 class Streams(unittest.TestCase):
     def test_an_error_has_stream_field_and_offset(self):
@@ -171,10 +222,16 @@ class Streams(unittest.TestCase):
             self.assertEqual(ads_cnc.encode(stream, ads_cnc.decode(stream, data)), data, stream)
         record = {"handle": 4, "indices": [1, 2]}
         self.assertEqual(ads_cnc.encode("variable-handle-read", record)[4:8], b"\2\0\0\0")
-        with self.assertRaisesRegex(ValueError, "flag: 256 does not fit a number of 1 bytes"):
+        with self.assertRaisesRegex(ValueError, "flag: 256 is not an unsigned number of 8 bits"):
             ads_cnc.encode("element-write-flag", 256)
-        with self.assertRaisesRegex(TypeError, "count: int expected, found 1.5"):
-            ads_cnc.encode("object-count", 1.5)
+        for stream, value, error in (
+            ("object-count", 1.5, "count: int expected, found 1.5"),
+            ("dynamic-value", "x", "value: float expected, found 'x'"),
+            ("content", "192.0.2.7.1.1", "content: bytes expected, found str"),
+            ("content", 4, "content: bytes expected, found int"),
+        ):
+            with self.subTest(error), self.assertRaisesRegex(TypeError, error):
+                ads_cnc.encode(stream, value)
 
     def test_long_lists_are_not_truncated(self):
         data = ads_cnc.encode("variable-handle-read", {"handle": 4, "indices": list(range(510))})
@@ -189,6 +246,8 @@ class Streams(unittest.TestCase):
         self.assertEqual(data.copied, len(data))
         data = Counted(1000)
         self.assertEqual(ads_cnc.unpack("UNS08", data, [10, 100]), [[0] * 100] * 10)
+        self.assertEqual(data.copied, 0)
+        self.assertEqual(ads_cnc.unpack("STRING", data, [100]), [""] * 100)
         self.assertEqual(data.copied, len(data))
 
     def test_values_are_read_by_their_types(self):
@@ -201,9 +260,17 @@ class Streams(unittest.TestCase):
         self.assertEqual(ads_cnc.unpack("BOOL", b"\1"), True)
         self.assertEqual(ads_cnc.pack("LREAL", [1.5, 0]), bytes(6) + b"\xf8\x3f" + bytes(8))
         self.assertEqual(ads_cnc.pack("STRING", "Länge"), b"L\xe4nge\0")
+        self.assertEqual(ads_cnc.unpack("BOOL", b"\0\2", [2]), [False, True])
+        self.assertEqual(ads_cnc.pack("BOOL", [True, 0]), b"\1\0")
+        self.assertEqual(ads_cnc.pack("REAL32", float("-inf")), b"\0\0\x80\xff")
         for wrong in (
             lambda: ads_cnc.unpack("SGN16", b"\0"),
             lambda: ads_cnc.pack("SGN08", 200),
+            lambda: ads_cnc.pack("BOOL", 2),
+            lambda: ads_cnc.pack("BOOL", "x"),
+            lambda: ads_cnc.pack("REAL32", 1e300),
+            lambda: ads_cnc.pack("REAL64", 10**400),
+            lambda: ads_cnc.pack("REAL64", "x"),
             lambda: ads_cnc.unpack(77, b"\0"),
             lambda: ads_cnc.unpack(0, b"\0"),
         ):

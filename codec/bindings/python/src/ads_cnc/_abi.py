@@ -16,7 +16,8 @@ UINT32 = ctypes.c_uint32
 _FILES = {"win32": "ads_cnc.dll", "darwin": "libads_cnc.dylib"}
 _file = pathlib.Path(__file__).parent / _FILES.get(sys.platform, "libads_cnc.so")
 # PyDLL holds the GIL during a call, which CDLL releases: two threads that use one `Sender` or `Host` must not change
-# its memory at the same time. All calls are short, so other threads do not wait long.
+# its memory at the same time. All calls are short, so other threads do not wait long; a build of Python
+# without the GIL has no such protection.
 library = ctypes.PyDLL(str(_file))
 if library.ads_cnc_abi() != ABI:
     raise ImportError(f"{_file} has ABI {library.ads_cnc_abi()}, but this package needs {ABI}")
@@ -130,16 +131,12 @@ class HostStep(ctypes.Structure):
     _fields_ = [*_numbers("kind service request_state"), ("variable", Bytes), ("data", Bytes)]
 
 
-def integer(name: str, value: Any) -> int:
-    try:
-        return operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name}: int expected, found {value!r}") from None
-
-
 def unsigned(name: str, value: Any, bits: int = 32) -> int:
     """Checks a number of the caller, because ctypes wraps a number that does not fit."""
-    number = integer(name, value)
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: int expected, found {value!r}") from None
     if not 0 <= number < 1 << bits:
         raise ValueError(f"{name}: {value} is not an unsigned number of {bits} bits")
     return number
@@ -147,6 +144,15 @@ def unsigned(name: str, value: Any, bits: int = 32) -> int:
 
 def uint32(name: str, value: Any) -> ctypes.c_uint32:
     return UINT32(unsigned(name, value))
+
+
+def checked(data: Any) -> bytes:
+    """Checks that data is bytes, because `bytes` makes zeros of an int, and ctypes passes a str as wide characters."""
+    if isinstance(data, bytes):
+        return data
+    if isinstance(data, (bytearray, memoryview)):
+        return bytes(data)
+    raise TypeError(f"bytes expected, found {type(data).__name__}")
 
 
 def length(data: Sized) -> ctypes.c_uint32:
@@ -160,7 +166,7 @@ def function(name: str, result: Any = ctypes.c_bool) -> Callable[..., Any]:
 
 
 def lent(data: bytes) -> Bytes:
-    """A struct that points to `data`, which the caller must keep alive."""
+    """A struct that points to `data`. ctypes keeps `data` alive as long as the struct, or a struct that contains it."""
     at = ctypes.cast(ctypes.c_char_p(data), ctypes.c_void_p) if data else None
     return Bytes(at, length(data))
 

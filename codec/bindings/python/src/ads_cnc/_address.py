@@ -6,7 +6,7 @@ import ctypes
 from typing import NamedTuple, Optional
 
 from . import _abi
-from ._abi import UINT32, length, uint32, unsigned
+from ._abi import UINT32, checked, length, uint32, unsigned
 from ._codec import Call, call_of, invoke, net_id_to_bytes, sized, text_from_cp1252, text_to_cp1252
 
 
@@ -100,14 +100,15 @@ class Frame(NamedTuple):
     def c(self) -> _abi.Frame:
         ends = []
         for name, (net_id, port) in (("target", self.target), ("source", self.source)):
-            numbers = (ctypes.c_uint8 * 6)(*net_id_to_bytes(f"{name} NetId", net_id))
-            ends.append(_abi.Address(numbers, unsigned(f"{name} port", port, 16)))
-        return _abi.Frame(*ends, *map(unsigned, self._fields[2:6], self[2:6]), _abi.lent(self.data))
+            six = (ctypes.c_uint8 * 6)(*net_id_to_bytes(f"{name} NetId", net_id))
+            ends.append(_abi.Address(six, unsigned(f"{name} port", port, 16)))
+        numbers = map(unsigned, self._fields[2:6], self[2:6])
+        return _abi.Frame(*ends, *numbers, _abi.lent(checked(self.data)))
 
 
 def read_frame(received: bytes, max_data: int = 0x40_0000) -> Optional[tuple[Frame, int]]:
     """Decodes the first received frame, and returns its length; None if the frame is not complete yet."""
-    it, used = _abi.Frame(), UINT32()
+    it, used, received = _abi.Frame(), UINT32(), checked(received)
     limits = (received, length(received), uint32("max_data", max_data))
     invoke("frame_read", *limits, ctypes.byref(it), ctypes.byref(used))
     if not used.value:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, Optional, TypeVar
 
 from . import _abi
-from ._abi import UINT32, integer, length, uint32, unsigned
+from ._abi import UINT32, checked, length, uint32, unsigned
 
 T = TypeVar("T")
 
@@ -59,11 +59,14 @@ def sized(name: str, room: int, *arguments: Any) -> bytes:
 
 def text_from_cp1252(data: bytes) -> str:
     """Converts CP1252 to text, up to the first NUL or the end."""
+    data = checked(data)
     return sized("text_to_utf8", 3 * len(data), data, length(data)).decode()
 
 
 def text_to_cp1252(text: str) -> bytes:
     """Converts a text to CP1252, without a NUL."""
+    if not isinstance(text, str):
+        raise TypeError(f"str expected, found {type(text).__name__}")
     data = text.encode()
     return sized("text_from_utf8", len(data), data, length(data))
 
@@ -163,7 +166,7 @@ class Field(NamedTuple):
 
 
 def _fields(stream: Stream, data: bytes, name: str, *before: Any) -> list[Field]:
-    room = 64
+    room, data = 64, checked(data)
     while True:
         array, count, error = (_abi.Field * room)(), UINT32(), _abi.Error()
         given = (data, length(data), array, UINT32(room), ctypes.byref(count), ctypes.byref(error))
@@ -193,6 +196,7 @@ def join(stream: str, parts: Sequence[tuple[str, bytes]]) -> bytes:
     """Builds a stream from the bytes of its fields, the inverse of `fields`. Counts may be omitted."""
     it = STREAMS[stream]
     numbers = {row.name: at for at, row in enumerate(it.fields)}
+    parts = [(name, checked(data)) for name, data in parts]
     array = (_abi.Part * len(parts))(*(_abi.Part(numbers[name], 0, _some(data)) for name, data in parts))
     room = 64 + sum(len(data) for _, data in parts)
     return sized("build", room, UINT32(it.number), array, length(parts))
@@ -227,19 +231,22 @@ def net_id_to_bytes(name: str, text: str) -> bytes:
 
 
 def _write(row: FieldInfo, value: Any) -> bytes:
-    if isinstance(value, (bytes, bytearray)):
-        return bytes(value)
+    if isinstance(value, (bytes, bytearray, memoryview)):
+        return checked(value)
     if row.kind in (1, 2):
-        try:
-            return integer(row.name, value).to_bytes(row.size or 4, "little")
-        except OverflowError:
-            raise ValueError(f"{row.name}: {value} does not fit a number of {row.size or 4} bytes") from None
+        size = row.size or 4
+        return unsigned(row.name, value, 8 * size).to_bytes(size, "little")
     if row.kind == 3:
-        return struct.pack("<d", value)
+        try:
+            return struct.pack("<d", value)
+        except struct.error:
+            raise TypeError(f"{row.name}: float expected, found {value!r}") from None
     if row.kind == 4:
         text = text_to_cp1252(value)
         return text if len(text) == row.size > 0 else text + b"\0"
-    return net_id_to_bytes(row.name, value)
+    if row.kind == 5:
+        return net_id_to_bytes(row.name, value)
+    raise TypeError(f"{row.name}: bytes expected, found {type(value).__name__}")
 
 
 # The classes of records, by the name of the stream, for the streams whose value is a record or a list of
@@ -304,7 +311,8 @@ class Call:
 
     def c(self) -> _abi.Call:
         names = ("port", "command", "index_group", "index_offset", "read_length")
-        return _abi.Call(*(unsigned(name, getattr(self, name)) for name in names), _abi.lent(self.data))
+        numbers = (unsigned(name, getattr(self, name)) for name in names)
+        return _abi.Call(*numbers, _abi.lent(checked(self.data)))
 
 
 def call_of(it: _abi.Call) -> tuple[int, int, int, int, int, bytes]:
@@ -318,11 +326,10 @@ class _Arguments:
         self.it = _abi.Request(function=function)
         self.kept: list[Any] = []
         for name, value in given.items():
-            if name in ("name", "kind"):
-                value = text_to_cp1252(value) if isinstance(value, str) else value
+            if name in ("name", "kind") and isinstance(value, str):
+                value = text_to_cp1252(value)
             if name in ("name", "kind", "value"):
-                self.kept.append(value)
-                value = _abi.lent(bytes(value))
+                value = _abi.lent(checked(value))
                 self.kept.append(value)
             elif name == "indices":
                 self.it.indices_count = length(value)
@@ -345,7 +352,7 @@ class Request(Call, Generic[T]):
         """Decodes a reply. Pass the received bytes only, not a buffer of `read_length` bytes."""
         given = _Arguments(self.function.number, self.arguments)
         stream = STREAMS.get(self.function.reply or "")
-        found = _fields(stream or _STREAMS[0], bytes(reply), "decode_reply", ctypes.byref(given.it))
+        found = _fields(stream or _STREAMS[0], reply, "decode_reply", ctypes.byref(given.it))
         value: T = _value(stream, found) if stream else None  # type: ignore[assignment]
         return value
 
@@ -353,7 +360,7 @@ class Request(Call, Generic[T]):
 def request(number: int, **arguments: Any) -> Request[Any]:
     """Creates the request of a function with these arguments."""
     given, call = _Arguments(number, arguments), _abi.Call()
-    room = 4096 + len(arguments.get("value", b""))
+    room = 4096 + given.it.value.length
     buffer = (ctypes.c_uint8 * room)()
     invoke("encode", ctypes.byref(given.it), buffer, uint32("length", room), ctypes.byref(call))
     return Request(*call_of(call), FUNCTIONS[number], arguments)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple, NoReturn, Optional
 
 from . import _abi
-from ._abi import UINT32, length, uint32
+from ._abi import UINT32, checked, length, uint32
 from ._codec import invoke, text_from_cp1252, text_to_cp1252
 
 
@@ -31,7 +31,7 @@ class Sender(_Machine):
     """
 
     def __init__(self, program: bytes) -> None:
-        self._program, self._it = bytes(program), _abi.Sender()
+        self._program, self._it = checked(program), _abi.Sender()
         invoke("sender_start", ctypes.byref(self._it), self._program, length(self._program))
 
     def __iter__(self) -> Iterator[bytes]:
@@ -93,6 +93,7 @@ class Host(_Machine):
 
     def read(self, value: bytes) -> None:
         """Reports the value that was read."""
+        value = checked(value)
         invoke("host_read", ctypes.byref(self._it), value, length(value))
 
     def answer(self, response: str, state: int) -> None:

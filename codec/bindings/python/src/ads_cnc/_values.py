@@ -50,7 +50,7 @@ def unpack(type: Union[str, int], data: bytes, dimensions: Sequence[int] = ()) -
 
     The result is an empty list if a dimension is 0.
     """
-    it = _type_of(type)
+    it, data = _type_of(type), _abi.checked(data)
     dimensions = [_abi.unsigned(f"dimensions[{at}]", one) for at, one in enumerate(dimensions)]
     count = math.prod(dimensions)
     size = it.size or (len(data) if not dimensions else len(data) // max(count, 1))
@@ -59,10 +59,10 @@ def unpack(type: Union[str, int], data: bytes, dimensions: Sequence[int] = ()) -
     if not count:
         # Without elements, the other dimensions are only numbers: they may stand for billions of empty lists.
         return []
+    if it.format != "s":
+        return _nested(list(struct.unpack(f"<{count}{it.format}", data)), dimensions)
     parts = [data[at : at + size] for at in range(0, len(data), size)] if size else [data]
-    if it.format == "s":
-        return _nested([text_from_cp1252(part) for part in parts], dimensions)
-    return _nested([struct.unpack("<" + it.format, part)[0] for part in parts], dimensions)
+    return _nested([text_from_cp1252(part) for part in parts], dimensions)
 
 
 def pack(type: Union[str, int], value: Any) -> bytes:
@@ -79,11 +79,14 @@ def pack(type: Union[str, int], value: Any) -> bytes:
 
 
 def _packed(it: Type, value: Any) -> bytes:
-    if isinstance(value, bytes):
-        return value
+    if isinstance(value, (bytes, bytearray, memoryview)):
+        return _abi.checked(value)
     if it.format == "s":
         return text_to_cp1252(value) + b"\0"
+    # struct accepts any object for a BOOLEAN.
+    if it.format == "?" and value not in (0, 1):
+        raise ValueError(f"{it.name}: {value!r} is not True, False, 0 or 1")
     try:
         return struct.pack("<" + it.format, value)
-    except struct.error as error:
+    except (struct.error, OverflowError) as error:
         raise ValueError(f"{it.name}: {value}: {error}") from None
