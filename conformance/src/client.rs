@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::Encode;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
-use ads_cnc::operation::{AdsService, Call};
+use ads_cnc::operation::{AdsService, Call, Task};
 use ads_cnc_vectors::ids::*;
 
 use crate::ads_service::{decode_reply, service_of};
@@ -206,8 +206,8 @@ impl Client {
     /// [`ExchangeError::NotPermitted`] or [`ExchangeError::Unsendable`].
     pub fn check(&self, call: &Call<'_>) -> Result<(), ExchangeError> {
         let bytes = frame(self.header(call.port, call.service.command()), call)?;
-        let permit = self.gate.check(&bytes, Moment::now());
-        permit.map(drop).map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))
+        self.gate.check(&bytes, Moment::now())?;
+        Ok(())
     }
 
     /// Sends a call and waits for its reply. Sends nothing for example if the gate rejects the call
@@ -264,9 +264,7 @@ impl Client {
         received: &mut Vec<u8>,
         violations: &mut Vec<Violation>,
     ) -> Result<Result<AmsHeader, ExchangeError>, ExchangeError> {
-        let permit = self.gate.check(bytes, Moment::now());
-        let permit =
-            permit.map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))?;
+        let permit = self.gate.check(bytes, Moment::now())?;
         if self.dry {
             return Err(ExchangeError::NotSent);
         }
@@ -301,6 +299,12 @@ impl Client {
                 plural(more, "more reply")
             );
             violations.push(Violation { requirement: ADS_5, what });
+        }
+        if let Ok(reply) = &came
+            && is_of_router(reply.error, header.target.port)
+        {
+            // Another CNC may answer after the router has connected again.
+            self.gate.forget();
         }
         Ok(came)
     }
@@ -359,18 +363,21 @@ impl Client {
         let wire = self.wire.insert(wire);
         // The file for `--allow-write` may have expired while the client waited for the pace or the
         // connection.
-        let permit = self.gate.check(permit.frame(), Moment::now());
-        let permit =
-            permit.map_err(|rejection| ExchangeError::NotPermitted(Box::new(rejection)))?;
+        let permit = if permit.is_repeatable() {
+            permit
+        } else {
+            self.gate.check(permit.frame(), Moment::now())?
+        };
         let sent_all = match self.piece {
             Some(piece) => wire.send_in_pieces(permit, piece, PAUSE),
             None => wire.send(permit),
         };
-        sent_all.map_err(ExchangeError::io)?;
+        let timeout = self.target.timeout;
+        sent_all.map_err(|error| of_wire(error, timeout))?;
         if let Some(capture) = &mut self.capture {
             capture.sent(permit.frame());
         }
-        let (started, mut timeout) = (Instant::now(), self.target.timeout);
+        let (started, mut timeout) = (Instant::now(), timeout);
         let mut chunk = [0; 4096];
         loop {
             let split = FrameRef::split(received, u32::MAX).map_err(ExchangeError::Malformed)?;
@@ -424,19 +431,28 @@ impl Client {
                         capture.received(came);
                     }
                 }
-                Err(error)
-                    if matches!(
-                        error.kind(),
-                        io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut
-                    ) =>
-                {
-                    return Err(ExchangeError::Silence(timeout));
-                }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(ExchangeError::io(error)),
+                Err(error) => return Err(of_wire(error, timeout)),
             }
         }
     }
+}
+
+/// The error of sending or receiving within `timeout`.
+fn of_wire(error: io::Error, timeout: Duration) -> ExchangeError {
+    match error.kind() {
+        io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut => ExchangeError::Silence(timeout),
+        _ => ExchangeError::io(error),
+    }
+}
+
+/// Whether an AMS router returned the error in reply to a request at this port, because it does not
+/// reach the CNC, for example. The errors of ADS devices are 0x700 or higher. A CNC may have no
+/// task at the port of GEO, where the gate observes nothing.
+fn is_of_router(error: AdsError, port: AmsPort) -> bool {
+    matches!(error.0, 1..0x700)
+        && Task::from_port(port).is_some()
+        && (error, port) != (AdsError::TARGET_PORT_NOT_FOUND, AmsPort::GEO)
 }
 
 /// Whether the bytes are whole frames.

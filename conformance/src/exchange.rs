@@ -105,6 +105,12 @@ impl ExchangeError {
     }
 }
 
+impl From<GateRejection> for ExchangeError {
+    fn from(rejection: GateRejection) -> Self {
+        Self::NotPermitted(Box::new(rejection))
+    }
+}
+
 impl fmt::Display for ExchangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,7 +1,7 @@
 //! Checks the headers of a received frame, and the lengths in its reply.
 
-use ads_cnc::ads::{AdsError, AmsHeader, FrameRef};
-use ads_cnc::operation::{AdsService, Task};
+use ads_cnc::ads::{AmsHeader, FrameRef};
+use ads_cnc::operation::AdsService;
 use ads_cnc_vectors::ids::*;
 
 use super::Client;
@@ -19,12 +19,6 @@ fn is_narrow(service: AdsService, payload: &[u8]) -> bool {
     })
 }
 
-/// Whether an AMS router returned the error, because it does not reach the CNC, for example:
-/// the errors of ADS devices are 0x700 or higher.
-const fn is_of_router(error: AdsError) -> bool {
-    error.0 > 0 && error.0 < 0x700
-}
-
 impl Client {
     /// Adds the violations in the received frame to the exchange. Without a valid reply, also
     /// closes the connection.
@@ -32,10 +26,6 @@ impl Client {
         let mut broken = Vec::new();
         match &exchange.outcome {
             Ok((answer, header)) => {
-                if is_of_router(answer.ams_error) && Task::from_port(asked.target.port).is_some() {
-                    // Another CNC may answer after the router has connected again.
-                    self.gate.forget();
-                }
                 broken.extend(violations(asked, header));
                 let mut add = |requirement, what: String| {
                     broken.push(Violation { requirement, what });

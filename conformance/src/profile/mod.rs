@@ -201,7 +201,10 @@ impl Profile {
 
     /// Whether the suite must not write a value with this name.
     pub fn leaves(&self, name: &str) -> bool {
-        self.unwritten.iter().any(|one| one == name)
+        let is_in = |one: &str, all: &str| {
+            one.strip_prefix(all).is_some_and(|indices| indices.starts_with('['))
+        };
+        self.unwritten.iter().any(|one| one == name || is_in(one, name) || is_in(name, one))
     }
 }
 

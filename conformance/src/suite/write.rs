@@ -7,7 +7,7 @@ use ads_cnc_vectors::{ClauseId, Hex};
 
 use super::kit::{
     NOTHING_WRITABLE, Probe, WriteCheck, axis_address, dynamic_among_variables, each_of_access,
-    handle_of, is_text_array, same, write_check,
+    handle_of, may_write_whole, same, write_check,
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, Needs, Rule, Step, assumed};
@@ -34,7 +34,7 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
         let handle = handle_of(probe, channel, variable)?;
         let address = ValueAddress::of_handle(channel, handle);
         let name = variable.name.text.to_string();
-        if is_text_array(variable) || !probe.may_write(&address, &name)? {
+        if !may_write_whole(probe, &address, variable)? {
             return Ok(());
         }
         let rules = [VAR_12, VAR_17, VAR_6, VAR_10].map(Rule::from);
@@ -47,7 +47,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let address = ValueAddress::Name { channel, name: variable.name.text.clone() };
         let name = variable.name.text.to_string();
-        if is_text_array(variable) || !probe.may_write(&address, &name)? {
+        if !may_write_whole(probe, &address, variable)? {
             return Ok(());
         }
         let handle = variable.handle;
@@ -81,8 +81,7 @@ fn each_of_axes(
     each_of_access(probe, access, |probe, channel, variable| {
         let Some(at) = axis_address(probe, channel, variable)? else { return Ok(()) };
         let what = format!("{} on the axis interface", variable.name.text);
-        let name = variable.name.text.to_string();
-        if is_text_array(variable) || !probe.may_write(&at, &name)? {
+        if !may_write_whole(probe, &at, variable)? {
             return Ok(());
         }
         judge(probe, channel, variable, &at, &what)?;

@@ -59,8 +59,7 @@ fn elements(
             let name = format!("{}{brackets}", variable.name.text);
             let number = number_of(&indices, &variable.dimensions);
             let Some(place) = place_of(probe, channel, variable, indices)? else { continue };
-            let is_left = probe.target.profile.leaves(&name);
-            if is_left || !probe.may_write(&place, &variable.name.text.to_string())? {
+            if !probe.may_write(&place, &name)? {
                 continue;
             }
             let before = probe.value_at(&whole)?.unwrap_or_default();

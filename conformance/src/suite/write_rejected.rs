@@ -10,7 +10,7 @@ use ads_cnc_vectors::{ClauseId, Hex};
 use super::kit::{
     IntoRawCall, NOTHING_WRITABLE, Probe, RawCall, WritableNumber, WriteCheck, axis_address,
     changed_value, each_of_access, elements_with_flag, handle_of, in_channel, is_sendable,
-    is_text_array, require_taken, writable_numbers, write_check,
+    may_write_whole, require_taken, writable_numbers, write_check,
 };
 use super::row::{CaseRow, case};
 use crate::judge::{Checks as _, IfPresent as _, Needs, OrStop as _, Rule, Step, Stop, applicable};
@@ -52,7 +52,7 @@ fn each_read_only(
             ValueAddress::Name { channel, name: variable.name.text.clone() },
             ValueAddress::of_handle(channel, handle),
         ] {
-            if !is_text_array(variable) && probe.may_write(&address, &name)? {
+            if may_write_whole(probe, &address, variable)? {
                 let rules = [Rule::from(VAR_6)];
                 judge(probe, &write_check(variable, &name, &rules), &address)?;
             }

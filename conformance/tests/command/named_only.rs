@@ -2,6 +2,7 @@
 //! the device returns. The log of the simulated CNC contains the writes that the CNC executes, after the
 //! defect has changed them.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::net::{SocketAddr, TcpStream};
@@ -102,13 +103,23 @@ const OBJECT: Named = Named {
 
 impl Named {
     fn plan(&self) -> Vec<Case> {
-        let only = self.cases.iter().map(|case| (*case).to_owned()).collect();
-        Selection { only, ..Selection::default() }.plan(suite::cases(), 1).unwrap().cases
+        plan(self.cases)
     }
 }
 
+fn plan(cases: &[&str]) -> Vec<Case> {
+    let only = cases.iter().map(|case| (*case).to_owned()).collect();
+    Selection { only, ..Selection::default() }.plan(suite::cases(), 1).unwrap().cases
+}
+
 /// The writes in the log of a simulated CNC in this process with this defect.
-fn written(model: Model, defect: &SeededDefect, table: &str, cases: Vec<Case>) -> BTreeSet<String> {
+fn written(
+    model: Model,
+    defect: Option<&SeededDefect>,
+    table: &str,
+    profile: Profile,
+    cases: Vec<Case>,
+) -> BTreeSet<String> {
     let lines = MemoryFile::default();
     let writer = lines.clone();
     // The writes are in the log of the simulated CNC; the log of the client would be most of the
@@ -118,12 +129,12 @@ fn written(model: Model, defect: &SeededDefect, table: &str, cases: Vec<Case>) -
     let log = tracing_subscriber::registry().with(lines_of_log).with(simulator);
     tracing::subscriber::with_default(log, || {
         let cnc = Cnc::new(model).with_stopped_clock();
-        let cnc = Arc::new(Faulty::new(cnc, Some(defect)));
+        let cnc = Arc::new(Faulty::new(cnc, defect));
         let allowed = Allowed::from_toml(&format!("{HEAD}{table}")).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed));
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
         let client = Client::in_process(target, gate, LocalCnc::new(cnc, NET_ID)).unwrap();
-        let mut session = suite::TargetState::new(client, Profile::DEVICE);
+        let mut session = suite::TargetState::new(client, profile);
         suite::run(cases, Some(&mut session), None, 1);
     });
     let lines = String::from_utf8(lines.0.lock().unwrap().clone()).unwrap();
@@ -155,7 +166,9 @@ fn defects_of_the_cnc_write_nothing_else() {
                     let next = queue.lock().unwrap().next();
                     let Some(defect) = next else { break };
                     for (plan, named) in &values {
-                        let mut writes = written(model.clone(), defect, named.table, plan.clone());
+                        let (model, plan) = (model.clone(), plan.clone());
+                        let mut writes =
+                            written(model, Some(defect), named.table, Profile::DEVICE, plan);
                         let is_written = writes.remove(named.log);
                         let mut found = found.lock().unwrap();
                         found.1 += usize::from(is_written);
@@ -170,6 +183,53 @@ fn defects_of_the_cnc_write_nothing_else() {
     let (others, written) = found.into_inner().unwrap();
     assert_eq!(others.keys().copied().collect::<Vec<_>>(), MISREAD, "{others:#?}");
     assert!(written > 3000, "{written}");
+}
+
+/// The names of the variables that these cases write, if a file allows the variables below and the
+/// profile excludes `unwritten`.
+fn written_with(unwritten: &[&'static str], cases: &[&str]) -> BTreeSet<String> {
+    let names =
+        ["V.E.Variable_1", "V.E.texts", "V.E.test", "V.G.SERVICE.UUID", "V.G.SERVICE.REQUEST"];
+    let entry = |name| format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n");
+    let mut table: String = names.into_iter().map(entry).collect();
+    table += "[[variable]]\nchannel = 1\naxis = 1\nname = \"V.A.WCS\"\n[[service]]\nchannel = 1\n";
+    let unwritten = unwritten.iter().map(|&name| Cow::Borrowed(name)).collect();
+    let profile = Profile { unwritten: Cow::Owned(unwritten), ..Profile::DEVICE };
+    let lines = written(Model::default_model().unwrap(), None, &table, profile, plan(cases));
+    lines.iter().map(|line| line.split_once("name=").unwrap().1.to_owned()).collect()
+}
+
+/// The suite writes arrays of texts only element by element.
+#[test]
+fn arrays_of_texts_are_not_written_as_a_whole() {
+    let whole = written_with(&[], &["write-by-handle", "write-by-name", "ads-write"]);
+    assert_eq!(whole, ["V.E.Variable_1", "V.E.test"].map(str::to_owned).into());
+    assert!(written_with(&[], &["write-elements-by-name"]).contains("V.E.texts"));
+}
+
+/// The suite writes no value that the profile excludes: elements, arrays with an excluded element,
+/// variables of the axis interface and of the Service Interface.
+#[test]
+fn values_that_the_profile_excludes_are_not_written() {
+    let cases = [
+        "write-by-handle",
+        "write-by-name",
+        "ads-write",
+        "write-axis-variable",
+        "write-elements-by-name",
+        "service-request",
+        "service-response",
+    ];
+    let all = written_with(&[], &cases);
+    for name in ["V.E.texts", "V.A.WCS.X", "V.G.SERVICE.REQUEST", "V.G.SERVICE.RESPONSE"] {
+        assert!(all.contains(name), "{all:?}");
+    }
+    let unwritten =
+        ["V.E.texts", "V.E.test[0]", "V.A.WCS.X", "V.G.SERVICE.REQUEST", "V.G.SERVICE.RESPONSE"];
+    let only = ["V.E.Variable_1".to_owned()].into();
+    assert_eq!(written_with(&unwritten, &cases[..4]), only);
+    assert_eq!(written_with(&unwritten, &cases[5..]), BTreeSet::new());
+    assert_eq!(written_with(&["V.E.texts", "V.E.test"], &cases[4..5]), BTreeSet::new());
 }
 
 /// Tries some of the defects with the command over TCP.

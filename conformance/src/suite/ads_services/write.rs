@@ -6,7 +6,7 @@ use ads_cnc_vectors::{ClauseId, Hex};
 
 use crate::judge::{Checks as _, Rule, Step, applicable};
 use crate::objects::ValueAddress;
-use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service, is_text_array};
+use crate::suite::kit::{NOTHING_WRITABLE, Probe, WriteCheck, is_of_service, may_write_whole};
 
 /// Maximum number of variables of a channel that are written, and maximum number of objects.
 const ITEMS_MAX: usize = 3;
@@ -21,10 +21,10 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
         let Ok(variables) = probe.variables(channel) else { continue };
         let written = variables.iter().filter(|one| one.access == VariableAccess::READ_WRITE);
         let mut tried: Vec<(ValueAddress, CncString)> = Vec::new();
-        for variable in written.filter(|one| !is_of_service(one) && !is_text_array(one)) {
+        for variable in written.filter(|one| !is_of_service(one)) {
             let name = variable.name.text.clone();
             let address = ValueAddress::Name { channel, name: name.clone() };
-            if tried.len() >= ITEMS_MAX || !probe.may_write(&address, &name.to_string())? {
+            if tried.len() >= ITEMS_MAX || !may_write_whole(probe, &address, variable)? {
                 continue;
             }
             let is_text = variable.var_type == VariableType::STRING;

@@ -52,5 +52,5 @@ pub use target_state::TargetState;
 pub(crate) use try_write::{NOTHING_WRITABLE, WriteCheck, changed_value, is_sendable, same};
 pub(crate) use writable::{
     WritableElement, WritableNumber, each_of_access, elements_with_flag, handle_of, is_of_service,
-    is_taken, is_text_array, require_taken, writable_numbers, write_check,
+    is_taken, may_write_whole, require_taken, writable_numbers, write_check,
 };

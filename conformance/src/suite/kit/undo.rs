@@ -14,7 +14,7 @@ use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescrip
 use ads_cnc::{Decode as _, ObjectCount};
 
 use crate::exchange::{Exchange, ExchangeError};
-use crate::gate::Entry;
+use crate::gate::{Entry, Reason};
 use crate::judge::{Step, Stop};
 use crate::number::to_u32;
 use crate::objects::ValueAddress;
@@ -129,16 +129,18 @@ impl Probe<'_> {
                 self.target.client.wait(pause);
                 // The handle may have become invalid, or unconfirmed.
                 change.use_name();
-            } else if change.by_name.is_some() && !self.may_write_back(&change) {
-                // On a new connection, the handle may belong to another variable, even if the value
-                // there is the original one.
-                self.request_again(&mut change);
-                if !self.may_write_back(&change) {
-                    change.use_name();
-                }
             }
             // The value is read first, because a write without a reply may have been executed.
-            let now = self.present_value(&change);
+            let mut now = self.present_value(&change);
+            if !self.is_confirmed(&change) {
+                // On a new connection, the handle or address may belong to another value, even if
+                // that value is equal to the original one.
+                self.request_again(&mut change);
+                if !self.is_confirmed(&change) {
+                    change.use_name();
+                }
+                now = self.is_confirmed(&change).then(|| self.present_value(&change)).flatten();
+            }
             changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
             // After an accepted write, a value that changes by itself may never equal the original
@@ -166,11 +168,15 @@ impl Probe<'_> {
         exchange.success().map(<[u8]>::to_vec)
     }
 
-    /// Whether the gate allows a write of the original value.
-    fn may_write_back(&self, change: &Change) -> bool {
+    /// Whether the gate allows a write of the original value, or would allow it if the file of
+    /// `--allow-write` had not expired.
+    fn is_confirmed(&self, change: &Change) -> bool {
         let write = change.address.write(&change.was).ok();
-        let write = write.and_then(|write| RawCall::new(write).ok());
-        write.is_some_and(|write| self.target.client.check(&write.call()).is_ok())
+        let Some(write) = write.and_then(|write| RawCall::new(write).ok()) else { return false };
+        match self.target.client.check(&write.call()) {
+            Err(ExchangeError::NotPermitted(why)) => matches!(why.reason, Reason::Expired(_)),
+            checked => checked.is_ok(),
+        }
     }
 
     /// Writes the original value; returns whether the write was accepted.
@@ -218,7 +224,7 @@ impl Probe<'_> {
                         let Ok(one) = ReadDescriptors::new(list, first, 1) else { break };
                         // A device that no longer answers could delay the end by the timeout of
                         // each descriptor; an incomplete list allows no write.
-                        if self.send_anyway(one).is_none_or(|sent| sent.outcome.is_err()) {
+                        if self.send_anyway(one).is_none_or(|sent| sent.success().is_none()) {
                             break;
                         }
                     }

@@ -37,10 +37,17 @@ pub(crate) fn each_of_access(
     probe.finish(NOTHING_WRITABLE)
 }
 
-/// Whether a variable is an array of texts. It is not written as a whole: no document states how
-/// the texts follow each other, and a device that keeps only the first one would lose the others.
-pub(crate) fn is_text_array(variable: &Description) -> bool {
-    variable.var_type == VariableType::STRING && !variable.dimensions.is_empty()
+/// Whether the gate and the profile permit a write of a whole variable at this address. An array of
+/// texts is not written as a whole: no document states how the texts follow each other, and a
+/// device that keeps only the first one would lose the others.
+pub(crate) fn may_write_whole(
+    probe: &mut Probe<'_>,
+    address: &ValueAddress,
+    variable: &Description,
+) -> Step<bool> {
+    let is_text_array =
+        variable.var_type == VariableType::STRING && !variable.dimensions.is_empty();
+    Ok(!is_text_array && probe.may_write(address, &variable.name.text.to_string())?)
 }
 
 pub(crate) fn write_check<'t>(

@@ -54,8 +54,8 @@ pub(super) fn in_each_channel(
     for channel in service_channels(probe)? {
         let mut may = true;
         for variable in variables {
-            may &= !probe.target.profile.leaves(variable.name())
-                && probe.may(WriteByName::new(channel, variable.name(), &b"\0"[..])?)?;
+            let address = ValueAddress::Name { channel, name: variable.name().parse()? };
+            may &= probe.may_write(&address, variable.name())?;
         }
         if !may {
             continue;
