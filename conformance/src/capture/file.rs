@@ -8,7 +8,7 @@ use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
 
 use super::time::Time;
 use super::writer::SUITE;
-use crate::number::to_usize;
+use crate::number::{to_usize, u32_at};
 use crate::text::plural;
 
 /// Initial size of the read buffer in bytes.
@@ -80,31 +80,15 @@ struct Interfaces {
     big_endian: bool,
 }
 
-/// Whether a pcapng block is shorter than its fields, or than the data whose length it contains.
-/// For such blocks, pcap-parser 0.17 waits for bytes after the block, or panics if overflow is
-/// checked.
-fn is_too_short(block: &[u8], big_endian: bool) -> bool {
-    let number = |offset: usize| number_at(block, offset, big_endian);
-    let (Some(kind), Some(length)) = (number(0), number(4)) else { return false };
-    let exceeds = |offset: usize, fields: u32| {
-        number(offset).is_some_and(|inner| inner > length.saturating_sub(fields))
-    };
-    match kind {
-        ENHANCED_PACKET => exceeds(20, 32),
-        DECRYPTION_SECRETS => exceeds(12, 20),
-        PROCESS_INFORMATION => length < 16,
-        _ => false,
-    }
+/// Length of the pcapng block at the beginning of the data; `None` for the header of a section,
+/// which may have another byte order than the section before it.
+fn block_length(data: &[u8], big_endian: bool) -> Option<u32> {
+    let number =
+        |at| u32_at(data, at).map(|number| if big_endian { number.swap_bytes() } else { number });
+    number(4).filter(|_| !data.starts_with(SECTION_HEADER))
 }
 
-const ENHANCED_PACKET: u32 = 6;
-const DECRYPTION_SECRETS: u32 = 10;
-const PROCESS_INFORMATION: u32 = 0x8000_0001;
-
-fn number_at(bytes: &[u8], offset: usize, big_endian: bool) -> Option<u32> {
-    let number = *bytes.get(offset..)?.first_chunk()?;
-    Some(if big_endian { u32::from_be_bytes(number) } else { u32::from_le_bytes(number) })
-}
+const SECTION_HEADER: &[u8] = b"\n\r\r\n";
 
 /// Units of time per second, from the option `if_tsresol`: the negative exponent of 10 or, with the
 /// upper bit, of 2. Microseconds if it is too large.
@@ -126,13 +110,16 @@ pub(super) fn packets(
         PcapError::ReadError => FileError::Io(std::io::Error::other("read error")),
         _ => FileError::Format,
     })?;
-    let is_pcapng = reader.data().starts_with(b"\n\r\r\n");
+    let is_pcapng = reader.data().starts_with(SECTION_HEADER);
     let mut interfaces = Interfaces::default();
     let mut capacity = BUFFER;
     loop {
-        if is_pcapng && is_too_short(reader.data(), interfaces.big_endian) {
+        let length = block_length(reader.data(), interfaces.big_endian).filter(|_| is_pcapng);
+        // For a block of process information, pcap-parser 0.17 subtracts 12 without a check.
+        if length.is_some_and(|length| length < 12) {
             return Ok(interfaces.cut("bytes that are not a record"));
         }
+        let is_whole = length.is_some_and(|length| to_usize(length) <= reader.data().len());
         let more = match reader.next() {
             Ok((length, block)) => {
                 interfaces.read(block, &mut each);
@@ -140,6 +127,12 @@ pub(super) fn packets(
                 continue;
             }
             Err(PcapError::Eof) => return Ok(FileEnd::Whole),
+            // The fields of the block need more bytes than the block has.
+            Err(
+                PcapError::Incomplete(_) | PcapError::BufferTooSmall | PcapError::UnexpectedEof,
+            ) if is_whole => {
+                return Ok(interfaces.cut("bytes that are not a record"));
+            }
             Err(PcapError::Incomplete(_)) => false,
             Err(PcapError::BufferTooSmall) => true,
             Err(PcapError::UnexpectedEof) => {

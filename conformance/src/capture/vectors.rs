@@ -2,7 +2,7 @@
 //! default, the letters of texts are replaced, except in texts that the manual defines.
 
 use std::collections::BTreeMap;
-use std::fs::OpenOptions;
+use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -241,8 +241,8 @@ impl Collector {
                 "version": VERSION,
                 "vectors": vectors,
             });
-            let out = OpenOptions::new().write(true).create_new(true).open(file);
-            let mut out = BufWriter::new(out.map_err(|error| named(file, error))?);
+            let out = File::create_new(file).map_err(|error| named(file, error))?;
+            let mut out = BufWriter::new(out);
             let written = json_text::write(&document, &mut out);
             written.and_then(|()| out.flush()).map_err(|error| named(file, error))?;
         }

@@ -109,7 +109,11 @@ fn captures_are_checked_in_linear_time() {
 #[test]
 fn a_long_packet_is_split_in_linear_time() {
     let header = request(Command::READ_STATE, 1);
-    for message in [vec![0, 0x10, 0, 0, 0, 0], frame(header, &[])] {
+    let requests = "110376 frames, 0 requests with a reply";
+    for (message, told) in [
+        (vec![0, 0x10, 0, 0, 0, 0], "699050 messages to a local router"),
+        (frame(header, &[]), requests),
+    ] {
         // A pcap file of IP packets: a SYN, and then the messages. An IP length of 0 is that of the
         // rest of the record.
         let mut file = b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\0\0\x80\0\x65\0\0\0".to_vec();
@@ -125,6 +129,7 @@ fn a_long_packet_is_split_in_linear_time() {
         let file = TestFile::new(".pcap", &file);
         let ended = run(&["check", file.path()]);
         assert!(ended.code.is_some_and(|code| code < 6), "{}", ended.stderr);
+        assert!(ended.stdout.contains(told), "{}", ended.stdout);
         assert!(ended.time < Duration::from_secs(10), "{:?}", ended.time);
     }
 }

@@ -211,10 +211,12 @@ fn a_block_shorter_than_its_fields_ends_a_file() {
             &[0x8000_0001, 0, 0, 0, 0, 0, 0, 0][..],
             &[0x8000_0001, 11, 0, 0, 0, 0, 0, 0],
             &[0x8000_0001, 15, 0, 0, 0, 0, 0, 0],
-            // An enhanced packet and a decryption secret with more data than the block.
+            // An enhanced packet and a decryption secret with more data than the block, and name
+            // resolutions without an end.
             &[6, 32, 0, 0, 0, 1, 0, 32],
             &[6, 32, 0, 0, 0, u32::MAX, 0, 32],
             &[10, 20, 0, 1, 20, 0, 0, 0],
+            &[4, 12, 12, 0, 0, 0, 0, 0],
         ] {
             let all = [&header[..], &[u32::MAX, u32::MAX, 28], block].concat();
             let file: Vec<u8> = all.into_iter().flat_map(number).collect();
