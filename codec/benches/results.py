@@ -204,7 +204,7 @@ def sizes():
     put("size", "\n".join(lines))
 
 
-WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×", "over": "≤ {:g} more"}
+WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×"}
 
 
 def lines_of(case, counts, times):

@@ -86,8 +86,8 @@ fn remaining_lines_are_available_after_a_program_end() {
         seen.push((found.line(), is_end, checked.remaining()));
     }
     drop(checked);
-    let behind_end = &b"N40 X2\r\nN50 X3\r\n"[..];
-    assert!(seen.contains(&(4, true, behind_end)), "{seen:?}");
+    let after_end = &b"N40 X2\r\nN50 X3\r\n"[..];
+    assert!(seen.contains(&(4, true, after_end)), "{seen:?}");
     for (line, _, below) in seen {
         let first = 2 + lines.split_inclusive(|&byte| byte == b'\n').count() as u32;
         let left = below.split_inclusive(|&byte| byte == b'\n').count() as u32;

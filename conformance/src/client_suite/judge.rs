@@ -366,10 +366,16 @@ struct ProgramFile(PathBuf);
 impl ProgramFile {
     fn new(text: &[u8]) -> io::Result<Self> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
-        let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let path = std::env::temp_dir().join(format!("ads-cnc-client-{process}-{count}.nc"));
-        // Another user may have created a file or a link with this name.
-        let mut file = fs::OpenOptions::new().write(true).create_new(true).open(&path)?;
+        // Another user, or an ended process, may have created a file or a link with this name.
+        let (mut file, path) = loop {
+            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            let name = format!("ads-cnc-client-{}-{count}.nc", std::process::id());
+            let path = std::env::temp_dir().join(name);
+            match fs::File::create_new(&path) {
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                created => break (created?, path),
+            }
+        };
         let program = Self(path);
         file.write_all(text)?;
         Ok(program)

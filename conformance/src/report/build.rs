@@ -363,8 +363,8 @@ mod tests {
     use super::*;
     use crate::judge::RequirementVerdict;
 
-    /// A warning that is more severe than an inconclusive verdict does not hide it behind a waived
-    /// verdict.
+    /// A waived verdict does not hide an unwaived verdict that fails the run, even if a third
+    /// verdict is more severe than the unwaived one.
     #[test]
     fn a_verdict_that_fails_the_run_is_shown() {
         let verdicts =
