@@ -216,7 +216,7 @@ function found(stream, data, name, before) {
         record,
         item,
         offset,
-        data: data.slice(offset, offset + length),
+        data: taken(at + offset, length),
       };
     });
   }
@@ -605,7 +605,6 @@ export function pack(type, value) {
     if (Array.isArray(one)) for (let n = one.length - 1; n >= 0; n -= 1) left.push(one[n]);
     else parts.push(packed(it, one));
   }
-  if (parts.length === 1) return parts[0];
   const data = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
   let at = 0;
   for (const part of parts) {

@@ -222,6 +222,16 @@ test('only a Uint8Array is bytes', () => {
   }
 });
 
+test('results are copies of the passed bytes', () => {
+  const passed = Buffer.from([1, 2, 3, 4]);
+  const results = [cnc.decode('content', passed), cnc.fields('content', passed)[0].data, cnc.pack('UNS08', passed)];
+  passed.fill(0);
+  for (const result of results) {
+    assert.equal(result.constructor, Uint8Array);
+    assert.deepEqual([...result], [1, 2, 3, 4]);
+  }
+});
+
 test('an error has stream, field and offset', () => {
   const cut = () => cnc.handleByName(1, 'V.E.a').decode(bytes(0, 0));
   assert.throws(cut, {
