@@ -97,14 +97,10 @@ fn of_requirement(
     unjudged: Verdict,
 ) -> RequirementVerdict {
     let mine = || judgements.iter().filter(|judgement| judgement.requirement == requirement);
-    let judged = most_severe(mine().map(|judgement| judgement.verdict));
     // A case that ended as inconclusive, interrupted or with a harness error does not pass, even if
     // its first checks passed.
-    let verdict = match judged {
-        Some(Verdict::Pass) if unjudged.severity() > Verdict::Pass.severity() => unjudged,
-        Some(judged) => judged,
-        None => unjudged,
-    };
+    let judged = mine().map(|judgement| judgement.verdict);
+    let verdict = most_severe(judged.chain([unjudged])).unwrap_or(unjudged);
     let failed = mine().filter(|judgement| judgement.verdict != Verdict::Pass);
     RequirementVerdict { requirement, verdict, judgements: failed.cloned().collect() }
 }
@@ -122,4 +118,37 @@ pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
         let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         format!("the case panicked: {}", text.unwrap_or("without a message"))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A case that ended early does not pass, even if its first checks only deviated.
+    #[test]
+    fn the_end_of_a_case_is_not_hidden() {
+        use Verdict::*;
+        let verdict = |verdict, end| {
+            let judgement = Judgement {
+                requirement: "VAR-8",
+                level: None,
+                verdict,
+                expected: String::new(),
+                found: String::new(),
+                evidence: None,
+                more: 0,
+                together: Vec::new(),
+                follows: None,
+            };
+            of_requirement("VAR-8", &[judgement], end).verdict
+        };
+        for end in [Inconclusive, Interrupted, HarnessError] {
+            for judged in [Pass, Differs, Warning] {
+                assert_eq!(verdict(judged, end), end);
+            }
+        }
+        assert_eq!(verdict(Fail, Interrupted), Fail);
+        assert_eq!(verdict(Fail, HarnessError), HarnessError);
+        assert_eq!(verdict(Pass, NotObserved), Pass);
+    }
 }

@@ -82,14 +82,15 @@ impl Verdict {
     }
 
     /// The severity: the verdict of a group is the verdict with the greatest severity in the group.
+    /// The verdicts that fail the run are the most severe, so that no other verdict hides them.
     pub const fn severity(self) -> u8 {
         match self {
             Self::HarnessError => 10,
             Self::Fail => 9,
             Self::Vacuous => 8,
-            Self::Warning => 7,
-            Self::Inconclusive => 6,
-            Self::Interrupted => 5,
+            Self::Inconclusive => 7,
+            Self::Interrupted => 6,
+            Self::Warning => 5,
             Self::Differs => 4,
             Self::Pass => 3,
             Self::NotObserved => 2,

@@ -19,7 +19,7 @@ use crate::exit::Exit;
 use crate::explain;
 use crate::judge::{
     CLIENT, CaseOutcome, CaseSubject, Judgement, SkippedCase, TESTEE, UnrestoredValue, Verdict,
-    VerdictTally, WaiverReport, WaiverState, Waivers, most_severe, names,
+    VerdictTally, WaiverReport, WaiverState, Waivers, names,
 };
 use crate::profile::Profile;
 use crate::text::{Moment, hex};
@@ -221,19 +221,14 @@ fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> Requireme
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 
-/// The verdict of a group, and whether it is waived. It is the most severe verdict that fails the
-/// run and is not waived; without such a verdict, the most severe waived verdict; without a waived
-/// verdict, the most severe verdict.
-fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
-    let open = verdicts.clone().filter(|(verdict, waived)| !waived && verdict.fails_run());
-    let known = verdicts.clone().filter(|(_, waived)| *waived);
-    let open = most_severe(open.map(|(verdict, _)| verdict));
-    let known = most_severe(known.map(|(verdict, _)| verdict));
-    match (open, known) {
-        (Some(open), _) => Some((open, false)),
-        (None, Some(known)) => Some((known, true)),
-        (None, None) => most_severe(verdicts.map(|(verdict, _)| verdict)).map(|one| (one, false)),
-    }
+/// The verdict of a group, and whether it is waived: a verdict that fails the run, otherwise a
+/// warning or a difference, preferably one that is not waived; without these, the most severe
+/// verdict.
+fn together(verdicts: impl Iterator<Item = (Verdict, bool)>) -> Option<(Verdict, bool)> {
+    verdicts.max_by_key(|(verdict, waived)| {
+        let is_open = verdict.is_waivable() && !waived;
+        (verdict.fails_run() && !waived, verdict.fails_run(), is_open, verdict.severity())
+    })
 }
 
 fn milliseconds(time: Duration) -> u64 {
@@ -372,6 +367,12 @@ mod tests {
         assert_eq!(together(verdicts.into_iter()), Some((Verdict::Inconclusive, false)));
         let known = [(Verdict::Warning, false), (Verdict::Fail, true)];
         assert_eq!(together(known.into_iter()), Some((Verdict::Fail, true)));
+        for open in [Verdict::Warning, Verdict::Differs] {
+            let deviating = [(Verdict::Pass, false), (open, false), (Verdict::Warning, true)];
+            assert_eq!(together(deviating.into_iter()), Some((open, false)));
+        }
+        let passed = [(Verdict::Warning, true), (Verdict::Pass, false)];
+        assert_eq!(together(passed.into_iter()), Some((Verdict::Warning, true)));
     }
 
     /// A testee that follows the protocol, but claims no requirement, has not passed.
