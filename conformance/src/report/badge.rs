@@ -42,7 +42,7 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let numbers = [
         (of(Verdict::Fail), "requirement", " failed"),
         (of(Verdict::Warning), "warning", ""),
-        (waived, "failure", " waived"),
+        (waived, "verdict", " waived"),
     ];
     let numbers = numbers.into_iter().filter(|(number, ..)| *number > 0);
     let numbers = numbers.map(|(number, noun, what)| format!(", {}{what}", plural(number, noun)));

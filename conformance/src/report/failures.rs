@@ -25,6 +25,8 @@ const NOTES_MAX: usize = 3;
 /// first wrong byte.
 const BYTES_MAX: usize = 9;
 const BEFORE_MARK: usize = 2;
+/// Maximum number of cases that follow from a group, in normal detail.
+const FOLLOWERS_MAX: usize = 8;
 /// Maximum number of lines of a clause in normal detail.
 const CLAUSE_MAX: usize = 3;
 
@@ -81,7 +83,24 @@ fn brief(group: &Group<'_>, display: DisplayOptions, out: &mut dyn Write) -> io:
     let verdict = display.verdict(group.verdict, group.waived);
     let clauses = list(group.requirements.iter().copied(), NAMES_MAX);
     let sentence = sentence(failure, RESULT_MAX);
-    writeln!(out, "{verdict}  {clauses}  {}{}: {sentence}", case.id, alike(group))
+    writeln!(out, "{verdict}  {clauses}  {}{}: {sentence}", case.id, alike(group))?;
+    followers(group, display, out)
+}
+
+/// Prints the cases with checks that follow from a group, if there are such cases.
+fn followers(group: &Group<'_>, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
+    if group.followers.is_empty() {
+        return Ok(());
+    }
+    let names = group
+        .followers
+        .iter()
+        .map(|(case, clauses)| format!("{case} ({})", list(clauses.iter().copied(), usize::MAX)));
+    let names: Vec<String> = names.collect();
+    let most = if display.detail == Detail::Verbose { usize::MAX } else { FOLLOWERS_MAX };
+    let names = list(names.iter().map(String::as_str), most);
+    let text = wrap(&format!("follows from it: {names}"), WIDTH);
+    text.iter().try_for_each(|line| writeln!(out, "  {line}"))
 }
 
 /// The location of the example of a group in a capture: the last line of its call.
@@ -173,15 +192,7 @@ pub(super) fn block(
             text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
         }
     }
-    if !group.followers.is_empty() {
-        let names = group.followers.iter().map(|(case, clauses)| {
-            format!("{case} ({})", list(clauses.iter().copied(), usize::MAX))
-        });
-        let names: Vec<String> = names.collect();
-        let names = list(names.iter().map(String::as_str), if verbose { usize::MAX } else { 8 });
-        let text = wrap(&format!("follows from it: {names}"), WIDTH);
-        text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
-    }
+    followers(group, display, out)?;
     if let Some(again) = &report.again {
         // The cases of a protocol cannot be selected.
         let what = match failure.requirement.as_str() {

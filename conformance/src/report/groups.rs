@@ -104,10 +104,11 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
         group.requirements = sorted.into_iter().map(|(clause, _)| clause).collect();
     }
     for (cause, failure, case) in followers {
-        let group = all.iter_mut().filter(|group| group.is_failure());
+        let group = all.iter_mut().filter(|group| group.verdict.is_failure());
         let group = group.filter(|group| group.subject() == Some(case.subject));
-        let mut group = group.filter(|group| group.requirements.contains(&cause));
-        if let Some(group) = group.next() {
+        let group = group.filter(|group| group.requirements.contains(&cause));
+        // A waiver for the cause does not accept the checks that follow from it.
+        if let Some(group) = group.min_by_key(|group| group.waived) {
             group.add_follower(case, failure);
         }
     }
@@ -181,8 +182,7 @@ impl<'r> Group<'r> {
     /// Whether the group is a failure, of the product under test or of the suite, that is not
     /// waived.
     pub(super) const fn is_failure(&self) -> bool {
-        let fails = matches!(self.verdict, Verdict::Fail | Verdict::Vacuous);
-        (fails || matches!(self.verdict, Verdict::HarnessError)) && !self.waived
+        self.verdict.is_failure() && !self.waived
     }
 
     /// Whether the group is about the protocol with a testee or client. If the protocol is

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::FoundReport;
 use super::console::describe;
-use super::document::{ProfileReport, Report};
+use super::document::{ProfileReport, Report, SubjectReport};
 use crate::exit::Exit;
 use crate::judge::{Verdict, about};
 use cause::{CauseView, causes};
@@ -40,7 +40,8 @@ pub fn to_html(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// The meaning of the result of the run in words, and the failed requirements that are not waived.
+/// The meaning of the result of the run in words, unless the failed requirements say it, and the
+/// failed requirements that are not waived.
 fn meaning(report: &Report) -> (String, Vec<FailedView>) {
     let failed: Vec<FailedView> = report
         .subjects
@@ -55,7 +56,11 @@ fn meaning(report: &Report) -> (String, Vec<FailedView>) {
         })
         .collect();
     let words = match report.exit() {
-        Exit::Success => "All judged requirements are met.",
+        Exit::Success => match report.subjects.iter().all(is_clean) {
+            true => "All judged requirements are met.",
+            false => "No requirement fails, except those that are waived or only deviate.",
+        },
+        Exit::Failure if !failed.is_empty() => "",
         Exit::Failure => "A requirement is not met.",
         Exit::Usage => "The command line was invalid.",
         Exit::Nothing => {
@@ -70,6 +75,12 @@ fn meaning(report: &Report) -> (String, Vec<FailedView>) {
     };
     let ended = report.ended.as_ref().map(|why| format!(" The run ended early: {why}."));
     (words.to_owned() + ended.as_deref().unwrap_or_default(), failed)
+}
+
+/// Whether no requirement of the subject is waived or deviates.
+fn is_clean(subject: &SubjectReport) -> bool {
+    let deviating = [Verdict::Warning, Verdict::Differs];
+    subject.waived == 0 && !deviating.iter().any(|verdict| subject.totals.contains_key(verdict))
 }
 
 /// A requirement that fails.

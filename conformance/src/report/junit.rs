@@ -11,7 +11,7 @@ use super::console::describe;
 use super::display::RESULT_MAX;
 use super::document::{CaseReport, Report};
 use super::failures::{finding, sentence};
-use crate::judge::{Verdict, WaiverReport};
+use crate::judge::{Verdict, WaiverReport, WaiverState};
 
 /// Writes the report as JUnit XML.
 ///
@@ -173,7 +173,7 @@ fn properties(report: &Report) -> Vec<(&'static str, String)> {
 }
 
 /// A waiver on one line.
-fn in_words(waiver: &WaiverReport) -> String {
+pub(super) fn in_words(waiver: &WaiverReport) -> String {
     let WaiverReport { test, requirement, verdict, reason, expires, state, .. } = waiver;
     format!("{test} {requirement} {verdict} until {expires}, {}: {reason}", state.name())
 }
@@ -186,7 +186,9 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     put(&mut test, "assertions", &case.checks.to_string());
     put_time(&mut test, case.milliseconds);
     let findings = text(case)?;
-    let most_severe = case.failures.iter().rev().max_by_key(|failure| failure.verdict.severity());
+    let most_severe = case.failures.iter().rev().max_by_key(|failure| {
+        (failure.verdict.fails_run() && !failure.waived, failure.verdict.severity())
+    });
     let message = match (&case.note, most_severe) {
         (_, Some(failure)) => {
             let sentence = sentence(failure, RESULT_MAX);
@@ -203,10 +205,12 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
         JunitKind::Skipped => "skipped",
     };
     xml.write_event(Event::Start(test))?;
-    let message = match waiver(report, case) {
-        Some(waiver) => format!("waived until {}: {}", waiver.expires, waiver.reason),
-        None => message,
-    };
+    let waived =
+        waivers(report, case).map(|WaiverReport { requirement, expires, reason, .. }| {
+            format!("{requirement} waived until {expires}: {reason}")
+        });
+    let waived = waived.collect::<Vec<String>>().join("; ");
+    let message = if waived.is_empty() { message } else { waived };
     let mut inner = BytesStart::new(element);
     if element != "system-out" {
         put(&mut inner, "message", &message);
@@ -220,10 +224,10 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     end(xml, "testcase")
 }
 
-/// The waiver of a waived case.
-fn waiver<'r>(report: &'r Report, case: &CaseReport) -> Option<&'r WaiverReport> {
-    let used = report.waivers.iter().filter(|waiver| !waiver.state.is_stale());
-    used.filter(|_| case.waived).find(|waiver| waiver.test == case.id)
+/// The waivers of a waived case.
+fn waivers<'r>(report: &'r Report, case: &CaseReport) -> impl Iterator<Item = &'r WaiverReport> {
+    let used = report.waivers.iter().filter(|waiver| waiver.state == WaiverState::Used);
+    used.filter(|waiver| case.waived && waiver.test == case.id)
 }
 
 /// Writes a failed test that is not a case.

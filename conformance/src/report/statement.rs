@@ -10,6 +10,7 @@ use super::console::describe;
 use super::document::{AreaReport, Report, RequirementReport, SubjectReport};
 use super::failures::list;
 use super::html::claims;
+use super::junit::in_words;
 use super::markdown::plain;
 use super::{FoundReport, PROTOCOL_TITLE};
 use crate::exit::Exit;
@@ -62,8 +63,17 @@ impl Statement {
             ("Device", report.target.device.as_ref().map(ToString::to_string)),
             ("Profile", report.profile.as_ref().map(|profile| profile.name.clone())),
             ("Selection", Some(report.only.join(", ")).filter(|only| !only.is_empty())),
+            ("Found", report.found.as_ref().map(FoundReport::summary)),
+            ("Sampled", report.found.as_ref().and_then(FoundReport::sampled)),
+            ("Wrote", Some(report.written.join(", ")).filter(|written| !written.is_empty())),
+            ("Ended early", report.ended.clone()),
         ];
         facts.extend(more.into_iter().filter_map(|(name, fact)| Some((name.to_owned(), fact?))));
+        let left = report.left_changed.iter().map(ToString::to_string);
+        facts.extend(left.map(|left| ("Not restored".to_owned(), left)));
+        let rejected = report.rejected.iter().cloned();
+        facts.extend(rejected.map(|why| ("Rejected for safety".to_owned(), why)));
+        facts.extend(report.waivers.iter().map(|waiver| ("Waiver".to_owned(), in_words(waiver))));
         // If queries of the device determined what was judged, the device claims nothing.
         let word = if is_found(report) { "Judged" } else { "Claims" };
         for (name, claim) in report.profile.iter().flat_map(claims) {
@@ -108,7 +118,9 @@ fn result(report: &Report) -> String {
         ("not met", named(&failed, false, usize::MAX)),
         ("not met, waived", named(&failed, true, usize::MAX)),
         ("deviates", named(&deviating, false, usize::MAX)),
+        ("deviates, waived", named(&deviating, true, usize::MAX)),
         ("not verified", named(&open, false, NOT_VERIFIED_MAX)),
+        ("not verified, waived", named(&open, true, NOT_VERIFIED_MAX)),
     ];
     let parts = parts.iter().filter(|(_, ids)| !ids.is_empty());
     let parts: Vec<String> = parts.map(|(what, ids)| format!("{what}: {ids}")).collect();
@@ -138,16 +150,22 @@ fn clause(report: &Report, subject: &SubjectReport, one: &RequirementReport) -> 
         let mut all = judging.clone().filter(|case| case.verdict == wanted);
         all.find_map(|case| case.note.as_ref()).map_or_else(String::new, |why| format!(": {why}"))
     };
-    let has_case = judging.clone().next().is_some();
     let yes = if is_found(report) { "found" } else { "yes" };
     let (claimed, result) = match verdict {
         Verdict::Pass => (yes, "verified".to_owned()),
-        Verdict::Fail | Verdict::Vacuous if *waived => (yes, "not met, waived".to_owned()),
         Verdict::Fail | Verdict::Vacuous => (yes, "not met".to_owned()),
         Verdict::Warning => (yes, "deviates from the online help".to_owned()),
         Verdict::Differs => (yes, "undocumented, and not as assumed".to_owned()),
         Verdict::NotApplicable => ("no", format!("not claimed{}", note(*verdict))),
-        Verdict::NotObserved if !has_case => ("-", "not verifiable from outside".to_owned()),
+        Verdict::NotObserved if judging.clone().next().is_none() => {
+            let name = subject.subject.name();
+            let is_elsewhere = report
+                .cases
+                .iter()
+                .any(|case| case.requirements.iter().any(|one| one.requirement == *id));
+            let elsewhere = || format!("not verifiable with the {name} alone");
+            ("-", if is_elsewhere { elsewhere() } else { "not verifiable from outside".to_owned() })
+        }
         Verdict::NotObserved => (yes, "not verified: no case of this run tested it".to_owned()),
         Verdict::NotRun => (yes, format!("not verified{}", note(*verdict))),
         verdict => (yes, format!("not verified, {verdict}{}", note(*verdict))),
@@ -157,7 +175,7 @@ fn clause(report: &Report, subject: &SubjectReport, one: &RequirementReport) -> 
         title: known.map_or(PROTOCOL_TITLE, |known| known.title.as_str()).to_owned(),
         level: known.map_or_else(String::new, |known| format!("{:?}", known.level).to_lowercase()),
         claimed,
-        result,
+        result: if *waived { result + ", waived" } else { result },
         verdict: *verdict,
     }
 }

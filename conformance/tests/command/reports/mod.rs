@@ -200,7 +200,7 @@ fn junit_has_a_test_for_each_case() {
     let errors = errors.filter(|case| case["verdict"] == "inconclusive" && case["waived"] != true);
     assert_eq!(value(root, "errors"), errors.count().to_string());
     let skipped = at(&format!("{test}/skipped"));
-    let why = "waived until 9999-12-31: <known> | & \"so\"";
+    let why = "VAR-8 waived until 9999-12-31: <known> | & \"so\"";
     assert!(skipped.iter().any(|one| value(one, "message") == why));
     let property = "testsuites/testsuite/properties/property";
     let vectors = ("vectors", report.vectors.as_str());
@@ -280,6 +280,57 @@ fn a_comparison_with_fewer_verdicts_is_not_a_success() {
         "\nwarning  different selection: VAR-11 before, VAR now\n",
     ] {
         assert!(shown.contains(part), "{part:?}: {shown}");
+    }
+}
+
+/// Runs cases with a defect of the descriptors, and waives some of the verdicts.
+fn run_waived(only: &str, waived: &[[&str; 3]]) -> (Value, TestFolder) {
+    let folder = TestFolder::new();
+    let waivers = folder.file("waivers.toml");
+    let entry = |[test, requirement, verdict]: &[&str; 3]| {
+        format!(
+            "[[waiver]]\ntest = \"{test}\"\nrequirement = \"{requirement}\"\nverdict = \"{verdict}\"\n\
+             reason = \"known\"\nexpires = 9999-12-31\n"
+        )
+    };
+    fs::write(&waivers, waived.iter().map(entry).collect::<String>()).unwrap();
+    let defect = "object-descriptor.size.flip";
+    let document = run(&["--seed", "1", "--only", only, "--defect", defect, "--waivers", &waivers]);
+    fs::write(folder.file("run.json"), document.to_string()).unwrap();
+    (document, folder)
+}
+
+/// A waiver accepts one verdict: a check that follows from the waived failure still fails the run,
+/// and the report names it.
+#[test]
+fn a_waiver_does_not_accept_what_follows() {
+    let (document, folder) = run_waived(
+        "com-descriptors,printed-descriptor-printed",
+        &[["printed-descriptor-printed", "COM-2", "fail"]],
+    );
+    assert_eq!(document["exit_code"], 3);
+    let shown = ads_cnc(&["report", &folder.file("run.json")]).stdout;
+    let shown = String::from_utf8(shown).unwrap();
+    let cause = "FAIL, WAIVED  COM-2  printed-descriptor-printed: size: 0 where 1 is expected\n  \
+                 follows from it: com-descriptors (GEN-5)\n";
+    assert!(shown.contains(cause), "{shown}");
+}
+
+/// Forms that summarise the result say that a requirement is not met, or not verified, even if the
+/// verdict is waived.
+#[test]
+fn waived_verdicts_are_in_the_result() {
+    let case = "vec-descriptor-writable";
+    let (document, folder) =
+        run_waived(case, &[[case, "COM-2", "fail"], [case, "COM-5", "inconclusive"]]);
+    assert_eq!(document["exit_code"], 0);
+    for (form, part) in [
+        ("--statement", "| passed; not met, waived: COM-2; not verified, waived: COM-5 |"),
+        ("--html", "No requirement fails, except those that are waived or only deviate."),
+    ] {
+        let (report, file) = (folder.file("run.json"), folder.file("converted.md"));
+        assert_eq!(ads_cnc(&["report", &report, form, &file]).status.code(), Some(0));
+        assert!(folder.read("converted.md").contains(part), "{form}");
     }
 }
 
