@@ -176,8 +176,8 @@ fn after_long_help() -> String {
 
 Known failures, a file for --waivers:
 {WAIVER}
-  A waiver is invalid if it has expired, if no executed case matches it, or if the verdict is a
-  different one. An invalid waiver makes the run end with 5 unless a case fails. An unknown case is
+  A waiver is invalid if it has expired, if the case has no verdict on the requirement, or if the
+  verdict is a different one. An invalid waiver makes the run end with 5 unless a case fails. An unknown case is
   wrong usage. With --waivers or -v, the run prints such an entry for each failure.
 
 Signals:

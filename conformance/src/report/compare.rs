@@ -36,29 +36,26 @@ impl Change {
 
     /// The change from one verdict to another; `None` if it is irrelevant.
     fn of(before: Option<&RequirementReport>, now: Option<&RequirementReport>) -> Option<Self> {
-        let fails = |one: Option<&RequirementReport>| one.is_some_and(is_failing);
+        let fails =
+            |one: Option<&RequirementReport>| one.is_some_and(|one| one.verdict.is_failure());
+        let is_open =
+            |one: Option<&RequirementReport>| fails(one) && one.is_some_and(|one| !one.waived);
         let judged =
             |one: Option<&RequirementReport>| one.is_some_and(|one| one.verdict.is_judged());
         let is =
             |one: Option<&RequirementReport>, wanted| one.map(|one| one.verdict) == Some(wanted);
         let deviates = |one| is(one, Verdict::Warning) || is(one, Verdict::Differs);
         match (fails(before), fails(now)) {
-            (false, true) => Some(Self::NewlyFailing),
+            _ if is_open(now) && !is_open(before) => Some(Self::NewlyFailing),
             (true, false) if judged(now) => Some(Self::Fixed),
             (true, true) => None,
-            (false, false) if is(before, Verdict::Pass) && deviates(now) => {
-                Some(Self::NewlyDeviating)
-            }
-            (false, false) if deviates(before) && is(now, Verdict::Pass) => Some(Self::Fixed),
+            _ if is(before, Verdict::Pass) && deviates(now) => Some(Self::NewlyDeviating),
+            _ if deviates(before) && is(now, Verdict::Pass) => Some(Self::Fixed),
             _ if !judged(before) && judged(now) => Some(Self::NewlyJudged),
             _ if judged(before) && !judged(now) => Some(Self::NoLongerJudged),
             _ => None,
         }
     }
-}
-
-const fn is_failing(one: &RequirementReport) -> bool {
-    !one.waived && matches!(one.verdict, Verdict::Fail | Verdict::Vacuous | Verdict::HarnessError)
 }
 
 type Judged<'r> = BTreeMap<(CaseSubject, &'r str, &'r str), &'r RequirementReport>;
@@ -189,6 +186,7 @@ mod tests {
             waived,
         };
         let change = |before, now| Change::of(Some(&one(before, false)), Some(&one(now, false)));
+        let waived = one(Fail, true);
         assert_eq!(change(Pass, Fail), Some(Change::NewlyFailing));
         assert_eq!(change(NotRun, Fail), Some(Change::NewlyFailing));
         assert_eq!(change(Fail, Pass), Some(Change::Fixed));
@@ -201,7 +199,10 @@ mod tests {
         assert_eq!(change(Warning, Pass), Some(Change::Fixed));
         assert_eq!(change(Fail, Warning), Some(Change::Fixed));
         assert_eq!(change(Pass, Interrupted), Some(Change::NoLongerJudged));
-        assert_eq!(Change::of(None, Some(&one(Fail, true))), Some(Change::NewlyJudged));
+        assert_eq!(Change::of(None, Some(&waived)), Some(Change::NewlyJudged));
+        assert_eq!(Change::of(Some(&one(Fail, false)), Some(&waived)), None);
+        assert_eq!(Change::of(Some(&waived), Some(&one(Fail, false))), Some(Change::NewlyFailing));
+        assert_eq!(Change::of(Some(&waived), Some(&one(Pass, false))), Some(Change::Fixed));
         assert_eq!(Change::of(None, Some(&one(Fail, false))), Some(Change::NewlyFailing));
         assert_eq!(Change::of(Some(&one(Pass, false)), None), Some(Change::NoLongerJudged));
     }

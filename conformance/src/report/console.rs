@@ -41,14 +41,10 @@ pub fn print(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> i
     }
     parts(report, out)?;
     waivers(&report.waivers, out)?;
-    for number in report.found.iter().flat_map(|found| &found.silent_channels) {
-        writeln!(out, "profile: channel {number} is claimed, but does not reply")?;
-    }
     blocks(report, display, out)?;
     if verbose || !report.waivers.is_empty() {
         waivable(report, out)?;
     }
-    report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
     tail(report, display, out)
 }
 
@@ -364,9 +360,10 @@ fn tail(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Re
     last_line(report, display, out)
 }
 
-/// Writes the last line, after the stale waivers, the requirements whose cause this run does not
-/// judge, and the rejected requests.
+/// Writes the last line, after the values left changed, the stale waivers, the requirements whose
+/// cause this run does not judge, and the rejected requests.
 fn last_line(report: &Report, display: DisplayOptions, out: &mut dyn Write) -> io::Result<()> {
+    report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
     for waiver in report.waivers.iter().filter(|waiver| waiver.state.is_stale()) {
         let WaiverReport { test, requirement, state, .. } = waiver;
         let word = display.paint(AnsiColor::Red, "STALE WAIVER");

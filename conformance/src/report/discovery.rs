@@ -95,6 +95,10 @@ impl FoundReport {
                 .map(|one| format!("{} with {}", one.number, plural(one.axes, "axis index")));
             parts.push(format!("channel {}", joined(channels)));
         }
+        if !self.silent_channels.is_empty() {
+            let silent = joined(self.silent_channels.iter().map(ToString::to_string));
+            parts.push(format!("no reply from the claimed channel {silent}"));
+        }
         let axes = claimed(self.platform_axes, self.claimed_axes, "platform axis");
         // If `platform_axes` is 0, the number of axes may be unknown.
         let axes = axes.filter(|_| self.platform_axes > 0 || self.claimed_axes.is_some());
