@@ -368,12 +368,16 @@ impl Client {
         } else {
             self.gate.check(permit.frame(), Moment::now())?
         };
-        let sent_all = match self.piece {
-            Some(piece) => wire.send_in_pieces(permit, piece, PAUSE),
-            None => wire.send(permit),
-        };
         let timeout = self.target.timeout;
-        sent_all.map_err(|error| of_wire(error, timeout))?;
+        let sent_all = match self.piece {
+            Some(piece) => wire.send_in_pieces(permit, piece, PAUSE, timeout),
+            None => wire.send(permit, timeout),
+        };
+        if let Err(error) = sent_all {
+            // The device must not take the start of the next frame for the rest of this one.
+            self.disconnect();
+            return Err(of_wire(error, timeout));
+        }
         if let Some(capture) = &mut self.capture {
             capture.sent(permit.frame());
         }

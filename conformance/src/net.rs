@@ -9,7 +9,7 @@ use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::gate::Permit;
 
@@ -117,7 +117,12 @@ pub(crate) fn connect_ungated(addr: SocketAddr, timeout: Duration) -> io::Result
 
 /// The other end of a [`Wire`]: a socket, or a simulated CNC in this process.
 pub trait Peer: fmt::Debug + Send {
-    fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
+    /// Sends all bytes within `timeout`.
+    ///
+    /// # Errors
+    /// Those of the system; [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if
+    /// `timeout` has passed, after which only a part of the bytes may have been sent.
+    fn send(&mut self, bytes: &[u8], timeout: Duration) -> io::Result<()>;
 
     /// Receives bytes that have arrived, waiting for at most `timeout`. Returns the number of
     /// bytes, which is 0 at the end of the connection.
@@ -138,8 +143,23 @@ pub trait LocalPeers: fmt::Debug + Send + Sync {
 }
 
 impl Peer for TcpStream {
-    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.write_all(bytes)
+    fn send(&mut self, mut bytes: &[u8], timeout: Duration) -> io::Result<()> {
+        // The timeout of the socket limits only one write, which may accept a single byte.
+        let started = Instant::now();
+        while !bytes.is_empty() {
+            let left = timeout.saturating_sub(started.elapsed());
+            if left.is_zero() {
+                return Err(io::ErrorKind::TimedOut.into());
+            }
+            self.set_write_timeout(Some(left))?;
+            match self.write(bytes) {
+                Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+                Ok(len) => bytes = bytes.get(len..).unwrap_or_default(),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
     }
 
     fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
@@ -156,16 +176,13 @@ pub struct Wire {
 }
 
 impl Wire {
-    /// Connects to an address within `timeout`, without Nagle's algorithm. Sending waits for at most
-    /// `timeout`, too.
+    /// Connects to an address within `timeout`, without Nagle's algorithm.
     ///
     /// # Errors
     /// An error of the system, or [`io::ErrorKind::TimedOut`].
     pub fn connect(addr: SocketAddr, timeout: Duration) -> io::Result<Self> {
         let stream = TcpStream::connect_timeout(&addr, timeout)?;
         stream.set_nodelay(true)?;
-        // A device that reads nothing must not block the client.
-        stream.set_write_timeout(Some(timeout))?;
         let local = stream.local_addr()?;
         Ok(Self { peer: Box::new(stream), local })
     }
@@ -179,21 +196,24 @@ impl Wire {
         self.local
     }
 
-    /// Sends a frame that the gate has permitted.
-    pub fn send(&mut self, permit: Permit<'_>) -> io::Result<()> {
-        self.peer.send(permit.frame())
+    /// Sends a frame that the gate has permitted within `timeout`.
+    pub fn send(&mut self, permit: Permit<'_>, timeout: Duration) -> io::Result<()> {
+        self.peer.send(permit.frame(), timeout)
     }
 
     /// Like [`send`](Self::send), but in pieces of at most `piece` bytes, with a pause after each
-    /// piece.
+    /// piece. The pauses do not count towards `timeout`.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,
         piece: usize,
         pause: Duration,
+        mut timeout: Duration,
     ) -> io::Result<()> {
         for piece in permit.frame().chunks(piece.max(1)) {
-            self.peer.send(piece)?;
+            let started = Instant::now();
+            self.peer.send(piece, timeout)?;
+            timeout = timeout.saturating_sub(started.elapsed());
             thread::sleep(pause);
         }
         Ok(())
@@ -207,5 +227,29 @@ impl Wire {
     /// bytes arrived.
     pub fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
         self.peer.receive(buf, timeout)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A peer that reads slowly accepts a part of the bytes in every write, but not all of them
+    /// within the timeout.
+    #[test]
+    fn the_timeout_limits_sending_as_a_whole() {
+        let listener = listen(SocketAddr::from((Ipv4Addr::LOCALHOST, 0))).unwrap();
+        let addr = listener.local_addr().unwrap();
+        thread::spawn(move || {
+            let (mut stream, _) = listener.accept().unwrap();
+            let mut chunk = vec![0; 1 << 18];
+            while stream.read(&mut chunk).is_ok_and(|len| len > 0) {
+                thread::sleep(Duration::from_millis(20));
+            }
+        });
+        let mut stream = TcpStream::connect(addr).unwrap();
+        let sent = Peer::send(&mut stream, &vec![0; 48 << 20], Duration::from_millis(300));
+        let kind = sent.unwrap_err().kind();
+        assert!(matches!(kind, io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut), "{kind}");
     }
 }

@@ -61,7 +61,7 @@ impl InProcess {
 }
 
 impl Peer for InProcess {
-    fn send(&mut self, mut bytes: &[u8]) -> io::Result<()> {
+    fn send(&mut self, mut bytes: &[u8], _: Duration) -> io::Result<()> {
         let Self { cnc, net_id, received, answers, closed } = self;
         while !bytes.is_empty() && !*closed {
             let room = received.room();
