@@ -1,7 +1,8 @@
 //! Points in time. Only [`Moment::now`] reads a clock.
 
 use std::fmt;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::sync::LazyLock;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use toml::value::{Date, Datetime, Offset, Time};
 
@@ -24,11 +25,21 @@ impl Moment {
     /// The start of 1970.
     pub const EPOCH: Self = Self(0);
 
-    /// The current time of the system clock.
+    /// The current time of the system clock, even if it is set back after the first call.
     pub fn now() -> Self {
+        static START: LazyLock<(SystemTime, Instant)> =
+            LazyLock::new(|| (SystemTime::now(), Instant::now()));
+        let (start, monotonic) = *START;
+        Self::of_clock(SystemTime::now(), start, monotonic.elapsed())
+    }
+
+    /// The time of `clock`, but not earlier than `start` plus the time `passed` since then: a clock
+    /// that is set back must not make an expired permission valid again.
+    fn of_clock(clock: SystemTime, start: SystemTime, passed: Duration) -> Self {
+        let time = start.checked_add(passed).map_or(clock, |least| least.max(clock));
         // For a clock before 1970, the latest moment is returned, so that all permissions have
         // expired.
-        let since = SystemTime::now().duration_since(UNIX_EPOCH);
+        let since = time.duration_since(UNIX_EPOCH);
         Self(since.map_or(i64::MAX, |time| i64::try_from(time.as_secs()).unwrap_or(i64::MAX)))
     }
 
@@ -117,6 +128,15 @@ fn date(day: i64) -> Option<(i64, i64, i64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_clock_that_is_set_back_does_not_change_the_moment() {
+        let at = |seconds| UNIX_EPOCH + Duration::from_secs(seconds);
+        let now = |clock| Moment::of_clock(clock, at(1000), Duration::from_secs(60));
+        assert_eq!(now(at(1060)), Moment(1060));
+        assert_eq!(now(at(500)), Moment(1060));
+        assert_eq!(now(at(2000)), Moment(2000));
+    }
 
     #[test]
     fn dates_match_the_calendar() {
