@@ -2,13 +2,15 @@
 
 use std::net::SocketAddr;
 use std::sync::Arc;
+use std::time::Duration;
 
+use ads_cnc::operation::{Call, Request};
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::judge::{CaseOutcome, Needs, Selection, Verdict};
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{
-    Cnc, DEFAULT_MODEL, LocalCnc, Model, NET_ID, Responder, Settings,
+    Cnc, DEFAULT_MODEL, LocalCnc, Model, NET_ID, ReplyData, Responder, Settings,
 };
 use ads_cnc_conformance::suite::{self, ClaimsBy, Discovery, Sample, TargetState};
 
@@ -107,4 +109,38 @@ fn the_forecast_is_about_right() {
         // This number of requests takes ten minutes at 10 ms each.
         assert!(sent < 60_000, "{sent}");
     }
+}
+
+/// A CNC with 10,000 variables of each kind, whose descriptions have 2 kB each.
+#[derive(Debug)]
+struct LongDescriptions(Cnc);
+
+impl Responder for LongDescriptions {
+    fn answer(&self, call: &Call<'_>) -> ReplyData {
+        match call.dispatch() {
+            Ok(Request::CountVariables(_)) => Ok(10_000_u32.to_le_bytes().to_vec()),
+            Ok(Request::DescribeByIndex(op)) => {
+                let words = [vec![op.index, 1, 1, 1, 480], vec![1; 480]].concat();
+                let mut data: Vec<u8> = words.into_iter().flat_map(u32::to_le_bytes).collect();
+                data.extend(format!("V.E.long_{}\0", op.index).as_bytes());
+                Ok(data)
+            }
+            _ => self.0.answer(call),
+        }
+    }
+
+    fn pass(&self, time: Duration) {
+        self.0.pass(time);
+    }
+}
+
+/// The descriptions of all channels have a limit in total.
+#[test]
+fn the_stored_descriptions_are_limited() {
+    let cnc = Cnc::with_default_model().unwrap().with_stopped_clock();
+    let (mut target, _) = connected(LongDescriptions(cnc), Sample::All);
+    let outcomes = outcomes(&mut target, &["var-described-handle"]);
+    let [outcome] = outcomes.as_slice() else { panic!("{outcomes:?}") };
+    let why = outcome.note.as_deref().unwrap_or_default();
+    assert!(why.contains("need more than 16 MiB, which is the limit"), "{outcome:?}");
 }

@@ -2,6 +2,8 @@
 
 use ads_cnc::address::{Class, ElementAddress};
 
+use crate::suite::kit::Sample;
+
 /// An instance of a class, with the channel and the axis in the request for its address.
 #[derive(Clone, Debug)]
 pub(crate) struct Instance {
@@ -17,8 +19,8 @@ pub(crate) struct Instance {
     /// The number of the last element for which a name was found, at most `OBJECTS_MAX`; 0 if none
     /// was found.
     pub(crate) reached: u32,
-    /// The numbers of the elements that the cases read; the numbers start at 1.
-    pub(super) chosen: Vec<u32>,
+    /// The elements that the cases read, and their maximum number in a sample.
+    pub(super) sample: (Sample, u32),
 }
 
 impl Instance {
@@ -29,7 +31,9 @@ impl Instance {
 
     /// The elements that the cases read, without element 0.
     pub(crate) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
-        self.chosen.iter().map_while(|&number| self.first.nth(number).ok())
+        let (sample, most) = self.sample;
+        let numbers = sample.of(1..self.reached.saturating_add(1), most);
+        numbers.into_iter().map_while(|number| self.first.nth(number).ok())
     }
 }
 

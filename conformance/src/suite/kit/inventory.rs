@@ -207,18 +207,17 @@ impl Probe<'_> {
             && reached.saturating_add(1) == reported
             && (reached > 0 || self.is_named(first, 0)?);
         let count = if is_itself { reached } else { reported };
-        let chosen = self.sample(ItemKind::Element, 1..reached.saturating_add(1));
-        all.push(Instance { class, channel, axis, first, reported, count, reached, chosen });
+        let sample = (self.target.sample, self.target.sample_sizes.of(ItemKind::Element));
+        all.push(Instance { class, channel, axis, first, reported, count, reached, sample });
         Ok(true)
     }
 
     /// Chooses again the elements that the cases read of each known instance, after the sample
     /// sizes have changed.
     pub(crate) fn choose_elements(&mut self) {
-        let (sample, sizes) = (self.target.sample, self.target.sample_sizes);
+        let sample = (self.target.sample, self.target.sample_sizes.of(ItemKind::Element));
         for one in self.target.instances.iter_mut().flatten() {
-            let numbers = 1..one.reached.saturating_add(1);
-            one.chosen = sample.of(numbers, sizes.of(ItemKind::Element));
+            one.sample = sample;
         }
     }
 

@@ -89,6 +89,8 @@ pub(crate) struct DescribedList {
     /// The descriptions that were read, by index; `None` if the name of the variable is too long
     /// for a request.
     pub(crate) read: BTreeMap<u32, Option<Description>>,
+    /// Approximate number of bytes of the descriptions that were read.
+    pub(crate) bytes: usize,
 }
 
 /// How a target rejects the requests of [`Probe::rejects`](crate::suite::Probe::rejects) whose

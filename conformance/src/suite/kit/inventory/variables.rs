@@ -13,6 +13,10 @@ use crate::suite::kit::{DescribedList, ItemKind, Probe};
 /// Maximum number of variables of a kind in a channel that a case reads without sampling.
 pub(crate) const VARIABLES_MAX: u32 = 10_000;
 
+/// Maximum number of bytes of the stored descriptions of a target, because a target can report long
+/// descriptions in many channels.
+const DESCRIPTIONS_MAX: usize = 16 << 20;
+
 /// The name of a described variable, for a request.
 pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
     variable.name.text.as_cnc_str().into()
@@ -106,9 +110,38 @@ impl Probe<'_> {
                 self.read_unjudged(DescribeByIndex::new(channel, index, kind))?;
             let variable = requestable(variable);
             all.extend(variable.clone());
-            self.target.variables.entry(key).or_default().read.insert(index, variable);
+            self.store(key, index, variable)?;
         }
         Ok(all)
+    }
+
+    /// Stores a description; `None` for a variable whose name is too long for a request. Ends the
+    /// case as inconclusive if the descriptions of all channels exceed [`DESCRIPTIONS_MAX`].
+    fn store(
+        &mut self,
+        key: (u32, &'static str),
+        index: u32,
+        variable: Option<Description>,
+    ) -> Step {
+        let lists = self.target.variables.values();
+        let stored = lists.fold(0_usize, |sum, list| sum.saturating_add(list.bytes));
+        let more = variable.as_ref().map_or(0, |variable| {
+            let name = variable.name.text.as_bytes().len();
+            name.saturating_add(size_of_val(variable.dimensions.as_slice()))
+        });
+        let more = more.saturating_add(size_of::<Option<Description>>());
+        if stored.saturating_add(more) > DESCRIPTIONS_MAX {
+            let (channel, kind) = key;
+            return Err(Stop::Inconclusive(format!(
+                "{kind} channel {channel}, index {index}: the descriptions of all channels that \
+                 were read need more than {} MiB, which is the limit",
+                DESCRIPTIONS_MAX >> 20
+            )));
+        }
+        let list = self.target.variables.entry(key).or_default();
+        list.bytes = list.bytes.saturating_add(more);
+        list.read.insert(index, variable);
+        Ok(())
     }
 
     /// Returns a description that the case judges. A stored description is returned without a
@@ -126,8 +159,8 @@ impl Probe<'_> {
             return Ok(known.clone());
         }
         let variable: Description = self.read(rule, DescribeByIndex::new(channel, index, kind))?;
-        if let Some(list) = self.target.variables.get_mut(&key) {
-            list.read.insert(index, requestable(variable.clone()));
+        if self.target.variables.contains_key(&key) {
+            self.store(key, index, requestable(variable.clone()))?;
         }
         Ok(variable)
     }
