@@ -89,7 +89,7 @@ Examples:
   ads-cnc browse --variables --filter \"V.G.*\"
   ads-cnc browse --format csv --target 192.0.2.10 --net-id 192.0.2.10.1.1 --rate 200 > objects.csv
 
-Limits: 100000 objects with 8 MiB of names, 1000000 requests and 8 MiB of values.
+Limits: 100000 objects with 8 MiB of names and dimensions, 1000000 requests and 8 MiB of values.
 
 Exit codes: 0 listed; 2 wrong usage; 3 no reply, no match, a channel that does not exist, or a
 maximum or the deadline was reached; 4 rejected for safety; 70 internal error. Requests that the CNC
@@ -113,7 +113,8 @@ enum BrowseFormat {
     Json,
 }
 
-/// Number of bytes of all values together after which no more values are read.
+/// Size of all values together after which no more values are read, in bytes. A value counts once
+/// for each dimension, because each dimension multiplies the size of the value in JSON.
 const CONTENTS_MAX: usize = 8 << 20;
 
 /// The bytes of a value, or the reason why it was not read.
@@ -194,8 +195,7 @@ impl Browse {
                             None => ObjectReport::from(object),
                         }
                     });
-                let (objects, notes) = (objects.collect(), found.notes.clone());
-                let report = ObjectsReport::new(session, objects, notes);
+                let report = ObjectsReport::new(session, objects, found.notes.clone());
                 json::write(&report, out)
             }
             format => {
@@ -251,7 +251,8 @@ fn read_all(
         };
         contents.push(match content {
             Ok(content) => {
-                bytes += content.len();
+                let levels = object.ty.dimensions.len().max(1);
+                bytes = bytes.saturating_add(content.len().saturating_mul(levels));
                 if bytes > CONTENTS_MAX {
                     enough = Some(format!("limit of {} MiB reached", CONTENTS_MAX >> 20));
                 }

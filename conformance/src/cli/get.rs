@@ -12,8 +12,8 @@ use crate::named::find;
 use crate::number::to_u32;
 use crate::objects::{ListedValue, ObjectReport, ObjectsReport};
 use crate::session::ToolError;
-use crate::text::{hex, json};
-use crate::values::{lines, plain};
+use crate::text::{hex, json, plural};
+use crate::values::{lines, plain, printable};
 
 /// Read a variable, a parameter, an object or an element by its name
 ///
@@ -49,6 +49,10 @@ pub(super) struct Get {
     model: ModelArgs,
 }
 
+/// Maximum number of bytes of a value that is formatted, because a formatted element can need 60
+/// bytes of memory for each byte of the value.
+const FORMATTED_MAX: usize = 1 << 20;
+
 const EXAMPLES: &str = "\
 Examples:
   ads-cnc get V.E.Testvar
@@ -60,8 +64,9 @@ Examples:
   ads-cnc get mc_active_single_block_r --target 192.0.2.10 --net-id 192.0.2.10.1.1
   ads-cnc get example.enable --of \"HLD axis 1\"
 
-Exit codes: 0 read; 1 the name is unknown to the CNC, or the reply is not a value of the type;
-2 wrong usage, or an ambiguous name; 3 no reply; 4 rejected for safety; 70 internal error.";
+Exit codes: 0 read; 1 the name is unknown to the CNC, the reply is not a value of the type, or the
+value is larger than 1 MiB, which only --hex prints; 2 wrong usage, or an ambiguous name; 3 no
+reply; 4 rejected for safety; 70 internal error.";
 
 impl Get {
     pub(super) fn execute(&self) -> Exit {
@@ -72,11 +77,19 @@ impl Get {
         let mut session = self.model.open(&self.target)?.with_deadline(self.deadline.begin());
         let mut object = find(&mut session, &self.name.question())?;
         let bytes = session.read(&object.address)?;
+        if bytes.len() > FORMATTED_MAX && !self.hex {
+            return Err(ToolError::Unable(format!(
+                "{} has {}, and values are formatted only up to {FORMATTED_MAX} bytes; --hex \
+                 prints the bytes",
+                printable(&object.name.to_string()),
+                plural(bytes.len(), "byte")
+            )));
+        }
         object.ty = object.ty.fitted(to_u32(bytes.len()));
         print(|out| {
             if self.json {
                 let one = ObjectReport::read(&object, &Ok(bytes.clone()));
-                let report = ObjectsReport::new(&session, vec![one], Vec::new());
+                let report = ObjectsReport::new(&session, std::iter::once(one), Vec::new());
                 return json::write(&report, out);
             }
             if self.hex {

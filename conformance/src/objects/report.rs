@@ -1,16 +1,18 @@
 //! Objects as JSON.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::ListedValue;
 use crate::session::Session;
 use crate::text::hex;
-use crate::values::value_of;
+use crate::values::{JSON_DIMENSIONS_MAX, value_of};
 
-/// The objects of a target in the form of the JSON output; see `schema/objects.schema.json`.
+/// The objects of a target in the form of the JSON output; see `schema/objects.schema.json`. The
+/// objects are an iterator, so that the values of all objects are not in memory at the same time.
 #[derive(Clone, Debug, Serialize)]
-pub struct ObjectsReport {
+#[serde(bound = "I: Iterator<Item = ObjectReport> + Clone")]
+pub struct ObjectsReport<I> {
     pub format: u32,
     /// TCP address of the target.
     pub target: String,
@@ -19,14 +21,22 @@ pub struct ObjectsReport {
     /// Whether the target is a simulated CNC that this process started.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub simulated: bool,
-    pub objects: Vec<ObjectReport>,
+    #[serde(serialize_with = "in_sequence")]
+    pub objects: I,
     /// Notes, for example about objects that could not be read.
     pub notes: Vec<String>,
 }
 
-impl ObjectsReport {
+fn in_sequence<S: Serializer>(
+    objects: &(impl Iterator<Item = ObjectReport> + Clone),
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(objects.clone())
+}
+
+impl<I> ObjectsReport<I> {
     /// Creates the report for the target of a session.
-    pub fn new(session: &Session, objects: Vec<ObjectReport>, notes: Vec<String>) -> Self {
+    pub fn new(session: &Session, objects: I, notes: Vec<String>) -> Self {
         let (target, simulated) = (session.target(), session.is_simulated());
         let (target, net_id) = (target.addr.to_string(), target.net_id.to_string());
         Self { format: 1, target, net_id, simulated, objects, notes }
@@ -61,7 +71,7 @@ pub struct ObjectReport {
     /// The value, if it was read and its bytes match its type.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
-    /// The reason why the value could not be read.
+    /// The reason why the value could not be read, or is not in `value`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
 }
@@ -97,7 +107,14 @@ impl ObjectReport {
         match content {
             Ok(bytes) => {
                 let (hex, value) = (Some(hex::spaced(bytes)), value_of(&object.ty, bytes));
-                Self { hex, value, ..report }
+                let count = object.ty.dimensions.len();
+                let error = (count > JSON_DIMENSIONS_MAX).then(|| {
+                    format!(
+                        "the value has {count} dimensions; a value in JSON has at most \
+                         {JSON_DIMENSIONS_MAX}"
+                    )
+                });
+                Self { hex, value, error, ..report }
             }
             Err(error) => Self { error: Some(error.clone()), ..report },
         }

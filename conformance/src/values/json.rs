@@ -6,6 +6,10 @@ use serde_json::Value;
 use super::{Type, printable};
 use crate::number::to_usize;
 
+/// Maximum number of dimensions of a value as JSON: each dimension indents each element further,
+/// and many parsers of JSON accept at most about 100 levels.
+pub const JSON_DIMENSIONS_MAX: usize = 16;
+
 /// Converts a value to JSON: a number, a boolean, a string, or nested arrays of these with one
 /// level for each dimension (an array without elements may have fewer levels). A REAL that is not
 /// finite becomes a string such as `NaN`.
@@ -18,15 +22,24 @@ use crate::number::to_usize;
 /// assert_eq!(value_of(&matrix, &[1, 2, 3, 4]).unwrap().to_string(), "[[1,2],[3,4]]");
 /// ```
 ///
-/// Returns `None` if the type is unknown or the bytes do not match it.
+/// Returns `None` if the type is unknown, the bytes do not match it, or it has more than
+/// [`JSON_DIMENSIONS_MAX`] dimensions.
 pub fn value_of(ty: &Type, bytes: &[u8]) -> Option<Value> {
+    if ty.dimensions.len() > JSON_DIMENSIONS_MAX {
+        return None;
+    }
     let elements = ty.elements(bytes).ok().flatten()?;
     let mut values: Vec<Value> = elements.iter().map(element).collect();
     let mut dimensions = ty.dimensions.iter().rev();
     let Some(mut row) = dimensions.next().copied() else { return values.pop() };
     for &outer in dimensions {
         let len = to_usize(row).max(1);
-        values = values.chunks(len).map(|chunk| Value::Array(chunk.to_vec())).collect();
+        let mut rest = values.into_iter();
+        let rows = std::iter::from_fn(|| {
+            let row: Vec<Value> = rest.by_ref().take(len).collect();
+            (!row.is_empty()).then_some(Value::Array(row))
+        });
+        values = rows.collect();
         row = outer;
     }
     Some(Value::Array(values))
@@ -65,5 +78,14 @@ mod tests {
         assert_eq!(value_of(&none, &[]).unwrap().to_string(), "[]");
         let text = Type::hinted(DataType::String);
         assert_eq!(value_of(&text, b"L\xE4nge\0x").unwrap().to_string(), "\"Länge\"");
+    }
+
+    #[test]
+    fn a_value_with_too_many_dimensions_has_no_json() {
+        let ty = |count| Type::known(DataType::Boolean, vec![1; count]);
+        let most = JSON_DIMENSIONS_MAX;
+        let expected = format!("{}true{}", "[".repeat(most), "]".repeat(most));
+        assert_eq!(value_of(&ty(most), &[1]).unwrap().to_string(), expected);
+        assert_eq!(value_of(&ty(most + 1), &[1]), None);
     }
 }

@@ -5,7 +5,7 @@ mod json;
 mod parse;
 mod show;
 
-pub use json::value_of;
+pub use json::{JSON_DIMENSIONS_MAX, value_of};
 pub use parse::{InvalidValue, parse};
 pub(crate) use show::{element_label, number};
 pub use show::{lines, plain, printable};

@@ -26,7 +26,7 @@ pub const RANGE: u32 = 256;
 /// Maximum number of values that a walk lists. Also the maximum number of objects, variables or
 /// parameters that are read of one list.
 pub const OBJECTS_MAX: u32 = 100_000;
-/// Maximum number of bytes of the names and units of all listed values.
+/// Maximum number of bytes of the names, units and dimensions of all listed values.
 pub const NAMES_MAX: usize = 8 << 20;
 /// Maximum number of requests of a walk.
 pub const REQUESTS_MAX: u64 = 1_000_000;
@@ -138,7 +138,7 @@ struct Walk<'w> {
     found: WalkResult,
     /// The selected list that was begun last, if any.
     list: Option<ValueList>,
-    /// Number of bytes of all names and units so far.
+    /// Number of bytes of all names, units and dimensions so far.
     names: usize,
     /// The first elements of the instances found so far.
     instances: Vec<ElementAddress>,
@@ -227,9 +227,10 @@ impl<'w> Walk<'w> {
         }
         let unit = object.unit.as_ref().map_or(0, |unit| unit.as_bytes().len());
         let names = object.name.as_bytes().len().saturating_add(unit);
-        self.names = self.names.saturating_add(names);
+        let dimensions = size_of_val(object.ty.dimensions.as_slice());
+        self.names = self.names.saturating_add(names).saturating_add(dimensions);
         if self.names > NAMES_MAX {
-            let why = format!("the limit is {} MiB of names", NAMES_MAX >> 20);
+            let why = format!("the limit is {} MiB of names and dimensions", NAMES_MAX >> 20);
             return Err(ToolError::Enough(why));
         }
         self.found.objects.push(object);

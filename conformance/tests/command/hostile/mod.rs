@@ -283,6 +283,71 @@ fn a_device_on_which_everything_exists() {
     assert!(matches!(ended.code, Some(1 | 3)), "{}", ended.stderr);
 }
 
+/// A device with 1500 arrays of 2000 BOOLEAN, three of which have 480 dimensions. As JSON, an element
+/// needs much more memory than its byte.
+#[test]
+fn values_that_are_much_longer_as_json() {
+    let addr = serving(|frame, out| {
+        let Ok(Some(call)) = Call::from_frame(frame) else {
+            return out.write_all(&rejection(frame));
+        };
+        let words = |words: &[u32]| -> Vec<u8> {
+            words.iter().flat_map(|word| word.to_le_bytes()).collect()
+        };
+        let data = match call.dispatch() {
+            Ok(Request::CountObjects(_)) => words(&[1]),
+            Ok(Request::CountVariables(_)) => words(&[500]),
+            Ok(Request::DescribeByIndex(op)) => {
+                let mut dimensions = vec![1; if op.index == 0 { 480 } else { 1 }];
+                dimensions[0] = 2000;
+                let count = u32::try_from(dimensions.len()).unwrap();
+                let name = format!("V.E.array_{}\0", op.index);
+                let head = words(&[op.index, 1, 1, 2000, count]);
+                [head, words(&dimensions), name.into_bytes()].concat()
+            }
+            Ok(Request::ReadByName(_)) => vec![1; 2000],
+            _ => return out.write_all(&rejection(frame)),
+        };
+        out.write_all(&success(frame, &data))
+    });
+    let addr = addr.to_string();
+    let args = ["browse", "--variables", "--channel", "1", "--content", "--json"];
+    let ended = run(&against(&addr, &args));
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    let error = "the value has 480 dimensions; a value in JSON has at most 16";
+    assert_eq!(ended.stdout.matches(error).count(), 3);
+    assert!(ended.stdout.len() < 80 << 20, "{}", ended.stdout.len());
+}
+
+#[test]
+fn a_value_of_2_mib_is_not_formatted() {
+    const NAME: &str = "mc_active_single_block_r";
+    const SIZE: u32 = 2 << 20;
+    let cnc = Cnc::with_default_model().unwrap();
+    let addr = serving(move |frame, out| {
+        let call = Call::from_frame(frame).ok().flatten();
+        if call.is_some_and(|call| call.read_length == SIZE) {
+            return out.write_all(&success(frame, &vec![1; SIZE as usize]));
+        }
+        // In a descriptor, the size is 16 bytes before the name.
+        let mut reply = right(&cnc, frame);
+        if let Some(at) = reply.windows(NAME.len()).position(|part| part == NAME.as_bytes()) {
+            reply[at - 16..at - 12].copy_from_slice(&SIZE.to_le_bytes());
+        }
+        out.write_all(&reply)
+    });
+    let addr = addr.to_string();
+    let get = ["get", NAME, "--of", "COM channel 1"];
+    for format in ["--plain", "--json"] {
+        let ended = run(&against(&addr, &[&get[..], &[format]].concat()));
+        assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+        let why = "has 2097152 bytes, and values are formatted only up to 1048576 bytes";
+        assert!(ended.stderr.contains(why), "{}", ended.stderr);
+    }
+    let ended = run(&against(&addr, &[&get[..], &["--hex"]].concat()));
+    assert_eq!((ended.code, ended.stdout.len()), (Some(0), 3 << 21), "{}", ended.stderr);
+}
+
 /// Testees that send very long answers.
 #[cfg(unix)]
 #[test]
