@@ -1,7 +1,7 @@
 //! `ads-cnc explain`: shows bytes field by field.
 
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -22,10 +22,7 @@ use crate::explain::{
     ExplainQuery, ExplainSubject, Explanation, ServiceAddress, ValueFormat, candidates, explain,
     looks_like_frame, parse_hex, print, type_by_name,
 };
-use crate::text::did_you_mean;
-
-/// Maximum number of bytes that are read from a file or stdin (16 MiB).
-const INPUT_MAX: u64 = 0x100_0000;
+use crate::text::{FILE_MAX, did_you_mean, read_limited};
 
 /// Explain bytes field by field
 ///
@@ -249,7 +246,7 @@ impl Explain {
                 }
                 text(bytes)?
             }
-            (None, [stdin]) if stdin == "-" => text(read(io::stdin().lock(), "stdin")?)?,
+            (None, [stdin]) if stdin == "-" => text(read_stdin()?)?,
             (None, []) if self.group.is_some() && !self.frame => return Ok(None),
             (None, []) => return Err(format!("no bytes are given\n{EXPLAIN_HELP}")),
             (None, words) => words.join(" "),
@@ -295,19 +292,12 @@ fn text(bytes: Vec<u8>) -> Result<String, String> {
 
 fn read_file(file: &Path) -> Result<Vec<u8>, String> {
     if file == Path::new("-") {
-        return read(io::stdin().lock(), "stdin");
+        return read_stdin();
     }
-    let name = file.display().to_string();
-    let opened = File::open(file).map_err(|error| format!("{name}: {error}"))?;
-    read(opened, &name)
+    let bytes = File::open(file).and_then(|opened| read_limited(opened, FILE_MAX));
+    bytes.map_err(|error| format!("{}: {error}", file.display()))
 }
 
-fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    let most = INPUT_MAX + 1;
-    from.take(most).read_to_end(&mut bytes).map_err(|error| format!("{name}: {error}"))?;
-    match u64::try_from(bytes.len()) {
-        Ok(length) if length <= INPUT_MAX => Ok(bytes),
-        _ => Err(format!("{name} has more than {INPUT_MAX} bytes")),
-    }
+fn read_stdin() -> Result<Vec<u8>, String> {
+    read_limited(io::stdin().lock(), FILE_MAX).map_err(|error| format!("stdin: {error}"))
 }

@@ -1,7 +1,8 @@
 //! `ads-cnc report`: shows, converts and compares reports that were written as JSON.
 
 use std::ffi::OsStr;
-use std::io::{self, Read as _};
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::display::DisplayArgs;
@@ -10,7 +11,10 @@ use super::output::{is_stdout, lost, show, write};
 use super::report_output::ReportFormats;
 use crate::exit::Exit;
 use crate::report::{self, Report};
-use crate::text::utf8;
+use crate::text::{read_limited, utf8};
+
+/// Maximum number of bytes of a report that is read; a device or a pipe may never end.
+const REPORT_MAX: u64 = 256 * 1024 * 1024;
 
 /// Show a JSON report, write it in other formats, or compare it with an earlier one
 #[derive(Debug, clap::Args)]
@@ -89,13 +93,11 @@ fn statement_file(text: &str) -> Result<PathBuf, String> {
 
 fn read(file: &Path) -> Result<Report, String> {
     let failed = |why: String| format!("{}: {why}", file.display());
-    let mut bytes = Vec::new();
-    let read = if is_stdout(file) {
-        io::stdin().lock().read_to_end(&mut bytes).map(|_| ())
+    let bytes = if is_stdout(file) {
+        read_limited(io::stdin().lock(), REPORT_MAX)
     } else {
-        std::fs::read(file).map(|read| bytes = read)
+        File::open(file).and_then(|opened| read_limited(opened, REPORT_MAX))
     };
-    read.map_err(|error| failed(error.to_string()))?;
-    let text = utf8(bytes).map_err(failed)?;
+    let text = utf8(bytes.map_err(|error| failed(error.to_string()))?).map_err(failed)?;
     Report::from_json(&text).map_err(|error| failed(format!("not a report: {error}")))
 }

@@ -1,6 +1,6 @@
 //! The options of `run`, `check` and `report` for the formats of a report, and their output.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -165,7 +165,7 @@ fn writable(file: &Path) -> Result<(), String> {
 }
 
 fn waivers(file: &Path) -> Result<Waivers, String> {
-    let waivers = FileError::parse(file, fs::read(file), Waivers::from_toml)
+    let waivers = FileError::parse(file, File::open(file), Waivers::from_toml)
         .map_err(|error| error.to_string())?;
     if waivers.is_empty() {
         let file = file.display();

@@ -1,6 +1,6 @@
 //! Reads the file of `--allow-write`.
 
-use std::fs;
+use std::fs::File;
 use std::net::IpAddr;
 use std::path::Path;
 
@@ -25,7 +25,7 @@ impl Allowed {
     /// # Errors
     /// If the file cannot be read, or [`from_toml`](Self::from_toml) fails.
     pub fn from_file(file: &Path) -> Result<Self, FileError> {
-        FileError::parse(file, fs::read(file), Self::from_toml)
+        FileError::parse(file, File::open(file), Self::from_toml)
     }
 
     /// Parses the text of a file.

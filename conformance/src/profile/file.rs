@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
-use std::fs;
+use std::fs::File;
 use std::path::Path;
 use std::time::Duration;
 
@@ -28,7 +28,7 @@ impl Profile {
     /// # Errors
     /// If the file cannot be read, and the errors of [`from_toml`](Self::from_toml).
     pub fn from_file(file: &Path) -> Result<Self, FileError> {
-        FileError::parse(file, fs::read(file), Self::from_toml)
+        FileError::parse(file, File::open(file), Self::from_toml)
     }
 
     /// Parses the text of a file. Missing keys have the values of [`DEVICE`](Self::DEVICE).

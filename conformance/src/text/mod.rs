@@ -16,6 +16,7 @@ mod pattern;
 pub(crate) use duration::{duration, shown_time, some_time};
 pub(crate) use escape::{escape, escape_lines, is_escaped};
 pub use file_error::FileError;
+pub(crate) use file_error::{FILE_MAX, read_limited};
 pub use moment::Moment;
 pub(crate) use nearest::{did_you_mean, nearest};
 pub(crate) use parse_error::{found, in_words, json_error, toml_error};

@@ -15,6 +15,7 @@ mod parameter;
 mod types;
 mod variable;
 
+use std::fs::File;
 use std::path::Path;
 
 use ads_cnc::address::Class;
@@ -29,6 +30,7 @@ pub(super) use variable::{Variable, VariableRef, Variables, handle_at};
 
 use super::program::ProgramConfig;
 use crate::edition::{CncVersion, Edition};
+use crate::text::{FILE_MAX, read_limited};
 pub(super) use build::parameter_kind;
 use error::Source;
 
@@ -64,10 +66,12 @@ impl Model {
     /// Like [`with_settings`](Self::with_settings), but reads a file.
     ///
     /// # Errors
-    /// Those of [`from_toml`](Self::from_toml), or if the file cannot be read or is not UTF-8.
+    /// Those of [`from_toml`](Self::from_toml), or if the file cannot be read, is too
+    /// long or is not UTF-8.
     pub fn load(path: &Path, settings: Settings) -> Result<Self, ModelError> {
         let file = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| ModelError::of_file(&file, error))?;
+        let bytes = File::open(path).and_then(|opened| read_limited(opened, FILE_MAX));
+        let bytes = bytes.map_err(|error| ModelError::of_file(&file, error))?;
         match std::str::from_utf8(&bytes) {
             Ok(text) => Self::with_settings(text, &file, settings),
             Err(error) => Err(Source::not_text(&bytes, error.valid_up_to(), &file)),

@@ -4,6 +4,7 @@
 
 mod captures;
 mod deadline;
+mod files;
 
 use std::fs;
 use std::io::{Read as _, Write as _};
