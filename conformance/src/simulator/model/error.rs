@@ -1,5 +1,6 @@
 //! Errors in a data model, with their positions.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use crate::text::{UTF16, is_utf16};
@@ -41,6 +42,8 @@ impl ModelError {
 pub(super) struct Source<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
+    /// Number of bytes of memory that the values of the items read so far need.
+    pub(super) memory: &'a Cell<usize>,
 }
 
 impl Source<'_> {

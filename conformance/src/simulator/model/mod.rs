@@ -15,6 +15,7 @@ mod parameter;
 mod types;
 mod variable;
 
+use std::cell::Cell;
 use std::fs::File;
 use std::path::Path;
 
@@ -60,7 +61,7 @@ impl Model {
     /// # Errors
     /// Those of [`from_toml`](Self::from_toml).
     pub fn with_settings(text: &str, file: &str, settings: Settings) -> Result<Self, ModelError> {
-        build::build(Source { file, text }, settings)
+        build::build(Source { file, text, memory: &Cell::new(0) }, settings)
     }
 
     /// Like [`with_settings`](Self::with_settings), but reads a file.

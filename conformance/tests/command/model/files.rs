@@ -73,6 +73,35 @@ fn the_257th_axis_variable_needs_a_handle() {
     assert!(error.starts_with("m:261: only the first 256 axis variables"), "{error}");
 }
 
+/// Large values of many owners, many initial values, and the handles of axis variables at many places are
+/// rejected before they are allocated.
+#[test]
+fn the_memory_of_a_model_is_limited() {
+    let axes: String = (0..255).map(|axis| format!("[[axis]]\nname = \"A{axis}\"\n")).collect();
+    let channel = "[[channel]]\nnumber = 1\n";
+    let rows = |count, row: &dyn Fn(u32) -> String| -> String {
+        (0..count).map(|number| format!("{{ {} }},\n", row(number))).collect()
+    };
+    let large = |number| format!("name = \"e{number}\", type = \"STRING\", size = 65528");
+    let of_axes = format!("elements = [\n{}]\n", rows(4, &large));
+    let of_axes = axes + channel + "[class.interpolator.axis]\nname = \"{}\"\n" + &of_axes;
+    let values = format!("{}, offset = 1, values = [{}]", large(0), "\"\", ".repeat(1100));
+    let values =
+        format!("{channel}[platform-axis]\nobjects = [\n{}]\n", rows(1, &|_| values.clone()));
+    let variable = |number| format!("name = \"V.A.x{number}\", type = \"BOOLEAN\"");
+    let variables = format!("[channel-axis]\nvariables = [\n{}]\n", rows(20, &variable));
+    let places = "0, ".repeat(255);
+    let handles: String = (1..=255)
+        .map(|number| format!("[[channel]]\nnumber = {number}\nplaces = [{places}]\n"))
+        .collect::<String>()
+        + &variables;
+    for (model, line) in [(of_axes, 519), (values, 5), (handles, 783)] {
+        let error = Model::from_toml(&model, "m").map(drop).unwrap_err();
+        assert_eq!(error.line(), Some(line), "{error}");
+        assert!(error.reason().ends_with(" of memory; the maximum is 67108864"), "{error}");
+    }
+}
+
 /// A handle belongs to its channel, so two channels may have the same handle.
 #[test]
 fn channels_may_have_equal_handles() {

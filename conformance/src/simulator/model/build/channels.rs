@@ -61,7 +61,7 @@ impl Channels<'_> {
     ) -> Result<ChannelModel, ModelError> {
         let (source, span) = (self.source, table.number.span());
         let places = self.places(table, taken)?;
-        let objects = items::objects(source, &table.objects, None)?;
+        let objects = items::objects(source, &table.objects, None, 1)?;
         for (row, &element) in table.objects.iter().zip(&objects.elements) {
             // The group of the first channel also contains the platform's objects (COM-4).
             if self.platform.at(element).is_some() {

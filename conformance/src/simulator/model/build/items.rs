@@ -20,6 +20,13 @@ use crate::text::plural;
 /// after result and length.
 const CONTENT_MAX: usize = 0xFFF8;
 
+/// Maximum number of bytes of memory for all values of a model. A short file can declare large values
+/// for hundreds of axes, channels and spindles.
+const MEMORY_MAX: usize = 64 * 1024 * 1024;
+
+/// Approximate number of bytes of memory that a value needs in addition to its size.
+const VALUE_OVERHEAD: usize = 64;
+
 /// Size in bytes of a STRING without a declared size (VAR-25).
 pub(super) const STRING_DEFAULT: u32 = 21;
 
@@ -42,6 +49,8 @@ pub(super) struct DeclaredValue<'a> {
     pub(super) values: Option<&'a Spanned<Vec<Value>>>,
     /// Maximum size of the value in bytes.
     pub(super) max: usize,
+    /// Number of owners of the item, such as axes, each of which has its own value.
+    pub(super) owners: usize,
 }
 
 impl DeclaredValue<'_> {
@@ -70,6 +79,20 @@ impl DeclaredValue<'_> {
                 self.max
             )));
         }
+        // Check the memory before values are allocated. The model keeps the initial values as well.
+        let initial = self.values.map_or(1, |values| values.get_ref().len());
+        let count = self.owners.saturating_add(initial);
+        let memory = size.saturating_add(VALUE_OVERHEAD).saturating_mul(count);
+        let memory = memory.saturating_add(self.source.memory.get());
+        if memory > MEMORY_MAX {
+            return Err(error(format!(
+                "with the {} of this item, the values of the model need {} of memory; the maximum is \
+                 {MEMORY_MAX}",
+                plural(count, "value"),
+                plural(memory, "byte")
+            )));
+        }
+        self.source.memory.set(memory);
         let values = match (self.value, self.values) {
             (Some(_), Some(values)) => {
                 return Err(self.source.error(&values.span(), "expected either value or values"));
@@ -132,11 +155,12 @@ fn holds_numbers(
     Err(source.error(&span.span(), "axis-number needs an integer type of at least two bytes"))
 }
 
-/// The objects of a list; for `of`, see [`meaning`].
+/// The objects of each of `owners`; for `of`, see [`meaning`].
 pub(super) fn objects(
     source: Source<'_>,
     rows: &[ObjectRow],
     of: Option<&'static str>,
+    owners: usize,
 ) -> Result<Objects, ModelError> {
     let mut objects = Objects::default();
     for row in rows {
@@ -150,6 +174,7 @@ pub(super) fn objects(
             value: row.value.as_ref(),
             values: row.values.as_ref(),
             max: CONTENT_MAX,
+            owners,
         }
         .read()?;
         // The codec checks the length of names.
@@ -181,6 +206,9 @@ pub(super) fn objects(
 pub(super) fn classes(
     source: Source<'_>,
     tables: &ClassesTable,
+    axes: usize,
+    channels: usize,
+    spindles: usize,
 ) -> Result<[ClassModel; 6], ModelError> {
     let mut classes: [ClassModel; 6] = Default::default();
     let none = ElementTable::default();
@@ -198,8 +226,9 @@ pub(super) fn classes(
         let on_platform = matches!(class, Class::PositionController | Class::Hld);
         let of = Some(if on_platform { "number" } else { "place" });
         let max = if class == Class::Hld { HLD_AXIS_STRIDE } else { 0x1_0000 };
-        let channel = elements(source, channel, None, 0x1_0000)?;
-        let axis = elements(source, axis, of, max)?;
+        // Channels also have, without an address, the elements of spindles.
+        let channel = elements(source, channel, None, 0x1_0000, channels.saturating_add(spindles))?;
+        let axis = elements(source, axis, of, max, axes)?;
         if let Some(part) = classes.get_mut(class_place(class)) {
             *part = ClassModel { channel, axis };
         }
@@ -212,6 +241,7 @@ fn elements(
     table: &ElementTable,
     of: Option<&'static str>,
     max: usize,
+    owners: usize,
 ) -> Result<Elements, ModelError> {
     let mut elements = Elements::default();
     if let Some(name) = &table.name {
@@ -229,7 +259,7 @@ fn elements(
                 "too many elements: this number belongs to another axis",
             ));
         }
-        elements.items.push(element(source, row, of)?);
+        elements.items.push(element(source, row, of, owners)?);
     }
     Ok(elements)
 }
@@ -238,6 +268,7 @@ fn element(
     source: Source<'_>,
     row: &ElementRow,
     of: Option<&'static str>,
+    owners: usize,
 ) -> Result<Item, ModelError> {
     let (name, unit) = (text(source, &row.name)?, row.unit.as_ref());
     let unit = unit.map(|unit| Ok((text(source, unit)?, unit.span()))).transpose()?;
@@ -256,6 +287,7 @@ fn element(
         value: row.value.as_ref(),
         values: row.values.as_ref(),
         max: CONTENT_MAX,
+        owners,
     }
     .read()?;
     let meaning = meaning(source, row.is.as_ref(), row.writable, of)?;

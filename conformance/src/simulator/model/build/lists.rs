@@ -32,16 +32,18 @@ pub(super) fn fill(
         let mut tables = document.channel.iter();
         let table = tables.find(|table| *table.number.get_ref() == u32::from(channel.number));
         let rows = table.map(|table| table.objects.as_slice());
+        let of_places = channel.places.len() * model.channel_axis.items.len();
+        let count = channel.objects.items.len() + of_places + platform.len();
+        if count > OBJECTS_MAX {
+            let span = table.map(|table| table.number.span()).unwrap_or_default();
+            let why =
+                format!("{} in a list; the maximum is {OBJECTS_MAX}", plural(count, "object"));
+            return Err(source.error(&span, why));
+        }
         let list = of_channel(channel, &model.channel_axis, rows, &mut ids);
         let mut list: Vec<Descriptor> = list.map_err(unencodable)?;
         channel.list = list.iter().copied().collect();
         list.extend(&platform);
-        if list.len() > OBJECTS_MAX {
-            let span = table.map(|table| table.number.span()).unwrap_or_default();
-            let why =
-                format!("{} in a list; the maximum is {OBJECTS_MAX}", plural(list.len(), "object"));
-            return Err(source.error(&span, why));
-        }
         channel.list_of_first = list.into_iter().collect();
     }
     model.channels = channels;

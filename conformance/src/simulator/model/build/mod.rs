@@ -54,11 +54,16 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
         None => 0,
     };
     let axes = axes(source, &document.axis)?;
-    let platform = items::objects(source, &document.platform.objects, None)?;
-    let platform_axis = items::objects(source, &document.platform_axis.objects, Some("number"))?;
-    let channel_axis = items::objects(source, &document.channel_axis.objects, Some("place"))?;
-    let axis_variables = variables::of_axes(source, &document.channel_axis.variables)?;
-    let classes = items::classes(source, &document.class)?;
+    let platform = items::objects(source, &document.platform.objects, None, 1)?;
+    let platform_axis =
+        items::objects(source, &document.platform_axis.objects, Some("number"), axes.len())?;
+    let channel_axis =
+        items::objects(source, &document.channel_axis.objects, Some("place"), axes.len())?;
+    let places: usize = document.channel.iter().map(|channel| channel.places.len()).sum();
+    let axis_variables =
+        variables::of_axes(source, &document.channel_axis.variables, axes.len() + places)?;
+    let classes =
+        items::classes(source, &document.class, axes.len(), document.channel.len(), spindles)?;
     let (edition, version) = (settings.edition.unwrap_or(edition), settings.version.or(version));
     let channels = Channels {
         source,

@@ -26,7 +26,7 @@ use crate::text::plural;
 pub(super) const AXIS_NAME_MAX: usize = 64;
 
 /// Builds and checks a variable.
-fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelError> {
+fn variable(source: Source<'_>, row: &VariableRow, owners: usize) -> Result<Variable, ModelError> {
     let span = row.name.span();
     let name: CncString = text(source, &row.name)?;
     let path = VariablePath::from_text(name.as_cnc_str());
@@ -50,6 +50,7 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
         value: row.value.as_ref(),
         values: row.values.as_ref(),
         max: VARIABLE_MAX,
+        owners,
     }
     .read()?;
     let access = if row.writable { VariableAccess::READ_WRITE } else { VariableAccess::READ_ONLY };
@@ -115,12 +116,17 @@ fn extended(
     Ok(Some(ExtendedDescription { synchronisation, validity }))
 }
 
-/// Builds the variables of V.A, which every axis has.
-pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variables, ModelError> {
+/// Builds the variables of V.A. `owners` is the number of axes, which have the values, and of places,
+/// which have the handles.
+pub(super) fn of_axes(
+    source: Source<'_>,
+    rows: &[VariableRow],
+    owners: usize,
+) -> Result<Variables, ModelError> {
     let mut variables = Variables::default();
     for (number, row) in (0_u32..).zip(rows) {
         let span = row.name.span();
-        let mut variable = variable(source, row)?;
+        let mut variable = variable(source, row, owners)?;
         if !starts_with(&variable.name, "V.A.") {
             return Err(source.error(&span, "expected a V.A variable"));
         }
@@ -155,7 +161,7 @@ pub(super) fn of_channel(
     let mut of_kinds = HashMap::new();
     for row in rows {
         let span = row.name.span();
-        let mut variable = variable(source, row)?;
+        let mut variable = variable(source, row, 1)?;
         let named = |kind| starts_with(&variable.name, kind);
         let (external, global, cyclic) = (named("V.E."), named("V.G."), named("V.CYC."));
         if !(external || global || cyclic) {
