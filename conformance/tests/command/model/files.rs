@@ -1,5 +1,7 @@
 //! Data models in files: the default model that `serve` prints is valid, and invalid models are rejected.
 
+use std::time::{Duration, Instant};
+
 use ads_cnc_conformance::simulator::{DEFAULT_MODEL, Model};
 
 use super::{CHANNEL_1, Cnc};
@@ -100,6 +102,26 @@ fn the_memory_of_a_model_is_limited() {
         assert_eq!(error.line(), Some(line), "{error}");
         assert!(error.reason().ends_with(" of memory; the maximum is 67108864"), "{error}");
     }
+}
+
+/// The objects that parameters need are found in a time that is not proportional to the product of the
+/// numbers of parameters and objects.
+#[test]
+fn many_parameters_need_one_of_many_objects() {
+    let object =
+        |number| format!("{{ name = \"o{number}\", type = \"BOOL\", offset = {number} }},\n");
+    let parameter = |number| format!("{{ name = \"P{number}\", while = \"o20000\" }},\n");
+    let objects: String = (1..=20_000).map(object).collect();
+    let parameters: String = (1..=10_000).map(parameter).collect();
+    let model =
+        format!("[[channel]]\nnumber = 1\nobjects = [{objects}]\nparameters = [{parameters}]\n");
+    let begun = Instant::now();
+    let error = Model::from_toml(&model, "m").unwrap_err();
+    assert_eq!(error.reason(), "20000 objects in a list; the maximum is 780");
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+    let more = model.replace("parameters = [", "parameters = [\n{ name = \"P0\" },\n");
+    let error = Model::from_toml(&more, "m").unwrap_err();
+    assert_eq!(error.reason(), "10001 parameters of a channel; the maximum is 10000");
 }
 
 /// A handle belongs to its channel, so two channels may have the same handle.
@@ -254,6 +276,7 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("\"P1\", value = 4711", "\"P\", value = 4711", "begins with P, V.L., V.P. or V.S."),
     ("name = \"V.P.offset\"", "name = \"V.P.count\"", "configured twice"),
     ("while = \"example_subroutine_w\"", "while = \"nobody\"", "no own object \"nobody\""),
+    ("while = \"example_subroutine_w\"", "while = \"mc_program_stream_w\"", "is a STRING"),
     ("value = 4711 },\n  # While", "comes = \"2\" },\n  # While", "a number with the unit"),
     ("value = 4711 },\n  # While", "goes = 2 },\n  # While", "expected a text"),
     ("value = 4711 },\n  # While", "goes = \"0s\" },\n  # While", "goes must be later than comes"),

@@ -1,6 +1,6 @@
 //! Builds and checks dynamic parameters.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
@@ -9,9 +9,14 @@ use toml::Spanned;
 
 use super::super::document::ParameterRow;
 use super::super::error::Source;
-use super::super::item::Objects;
+use super::super::item::{Item, Objects};
 use super::super::{ModelError, Parameter, Times};
 use super::parse::{text, time};
+use crate::text::plural;
+
+/// Maximum number of parameters of a channel: a request for one of them examines all, and others wait
+/// meanwhile.
+const PARAMETERS_MAX: usize = 10_000;
 
 /// Builds the parameters of a channel. `objects` are the objects of the channel, which the key
 /// `while` of a parameter can name.
@@ -20,18 +25,30 @@ pub(super) fn of_channel(
     rows: &[ParameterRow],
     objects: &Objects,
 ) -> Result<Vec<Parameter>, ModelError> {
+    if let Some(row) = rows.get(PARAMETERS_MAX) {
+        let count = plural(rows.len(), "parameter");
+        let why = format!("{count} of a channel; the maximum is {PARAMETERS_MAX}");
+        return Err(source.error(&row.name.span(), why));
+    }
     let (mut parameters, mut names) = (Vec::new(), BTreeSet::new());
+    // In reverse, so that the first of several objects with the same name remains.
+    let named = objects.items.iter().enumerate().rev();
+    let named: HashMap<String, (usize, &Item)> =
+        named.map(|(place, item)| (item.name.to_string(), (place, item))).collect();
     for row in rows {
         let span = row.name.span();
         let name = text(source, &row.name)?;
         let kind = kind(&name).map_err(|why| source.error(&span, why))?;
         let needs = row.r#while.as_ref().map(|object| {
-            let named = |item: &&super::super::Item| item.name.to_string() == *object.get_ref();
-            let place = objects.items.iter().position(|item| named(&item));
-            place.ok_or_else(|| {
-                let why = format!("the channel has no own object {:?}", object.get_ref());
-                source.error(&object.span(), why)
-            })
+            let why = match named.get(object.get_ref()) {
+                // Each request compares the object with 0, which takes long for a long text.
+                Some((_, item)) if item.is_text() => {
+                    format!("expected an object with a number; {:?} is a STRING", object.get_ref())
+                }
+                Some((place, _)) => return Ok(*place),
+                None => format!("the channel has no own object {:?}", object.get_ref()),
+            };
+            Err(source.error(&object.span(), why))
         });
         if !names.insert(name.clone()) {
             return Err(source.error(&span, format!("{name} is configured twice")));
