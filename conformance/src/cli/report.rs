@@ -48,7 +48,9 @@ pub(super) struct ReportArgs {
 
 impl ReportArgs {
     pub(super) fn execute(&self) -> Exit {
-        let files = self.forms.check(self.statement.as_deref()).and_then(|()| {
+        let comparison = self.against.as_deref().map(|_| Path::new("-"));
+        let others = self.statement.as_deref().into_iter().chain(comparison);
+        let files = self.forms.check(others).and_then(|()| {
             let before = self.against.as_deref().map(read).transpose()?;
             Ok((read(&self.file)?, before))
         });

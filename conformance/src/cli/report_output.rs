@@ -75,12 +75,15 @@ impl ReportFormats {
         self.requested().map(|(file, _)| file)
     }
 
-    /// Checks that at most one of the requested formats and the file `json` goes to stdout.
-    pub(super) fn check(&self, json: Option<&Path>) -> Result<(), String> {
-        let files = json.into_iter().chain(self.files());
+    /// Checks that at most one of the requested formats and the other files goes to stdout.
+    pub(super) fn check<'a>(
+        &'a self,
+        others: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<(), String> {
+        let files = others.into_iter().chain(self.files());
         match files.filter(|file| is_stdout(file)).count() {
             0 | 1 => Ok(()),
-            _ => Err("only one report can be written to stdout".to_owned()),
+            _ => Err("only one report or comparison can be written to stdout".to_owned()),
         }
     }
 

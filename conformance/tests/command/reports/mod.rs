@@ -135,8 +135,12 @@ fn invalid_reports_are_rejected() {
         assert_eq!(output.status.code(), Some(2), "{stderr_text}");
         assert!(stderr_text.contains(why) && stderr_text.contains("odd.json"), "{stderr_text}");
     }
-    let both = ads_cnc(&["report", &odd, "--html", "-", "--junit", "-"]);
-    assert_eq!(both.status.code(), Some(2));
+    for more in [["--junit", "-"], ["--against", &odd]] {
+        let both = ads_cnc(&[&["report", &odd, "--html", "-"][..], &more].concat());
+        let stderr_text = String::from_utf8(both.stderr).unwrap();
+        assert_eq!(both.status.code(), Some(2));
+        assert!(stderr_text.contains("can be written to stdout"), "{stderr_text}");
+    }
     assert_eq!(ads_cnc(&["report", "/no/such/report.json"]).status.code(), Some(2));
 }
 
