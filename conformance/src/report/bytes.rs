@@ -11,7 +11,7 @@ use crate::text::hex::{compact, spaced};
 use crate::value_format::ValueFormat;
 
 /// Bytes field by field.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BytesReport {
     /// Name of the stream; `None` if no stream is known for the bytes.
@@ -26,7 +26,7 @@ pub struct BytesReport {
 }
 
 /// One field, or one item of a field with several items.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldReport {
     /// The offset in bytes in the data or, for the parts of a frame, in the frame.

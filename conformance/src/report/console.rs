@@ -398,13 +398,11 @@ fn orphans(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         return Ok(());
     }
     let failures = || report.cases.iter().flat_map(|case| &case.failures);
-    let fails = |id: &str| {
-        failures()
-            .any(|one| one.requirement == id && one.verdict.fails_run() && one.follows.is_none())
-    };
+    let failed = failures().filter(|one| one.verdict.fails_run() && one.follows.is_none());
+    let failed: BTreeSet<&str> = failed.map(|one| one.requirement.as_str()).collect();
     let mut all = BTreeSet::new();
     for one in failures() {
-        if let Some(cause) = one.follows.as_deref().filter(|cause| !fails(cause)) {
+        if let Some(cause) = one.follows.as_deref().filter(|cause| !failed.contains(cause)) {
             all.insert((one.requirement.as_str(), cause));
         }
     }

@@ -1,7 +1,8 @@
 //! The data of a report, which can be written to JSON and read back. The other formats use no other
 //! data of the run.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::hash::Hash;
 
 use ads_cnc_vectors::Level;
 use ads_cnc_vectors::ids::ADS_5;
@@ -12,7 +13,7 @@ use super::{BytesReport, DeviceReport, FoundReport};
 use crate::exit::Exit;
 use crate::judge::{CaseSubject, UnrestoredValue, Verdict, WaiverReport};
 use crate::text::hex::compact;
-use crate::text::json_error;
+use crate::text::{escape, json_error};
 
 /// Version of the format.
 pub const FORMAT: u32 = 1;
@@ -236,7 +237,7 @@ pub struct FailureReport {
 }
 
 /// The bytes on which a check is based.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EvidenceReport {
     /// The request in words, for example its service and address.
@@ -284,7 +285,26 @@ impl Report {
             return Err(format!("report format {format} instead of {FORMAT}"));
         }
         let report: Self = serde_json::from_str(text).map_err(|error| in_file(text, &error))?;
+        report.check_subjects()?;
         Ok(report.escaped())
+    }
+
+    /// Checks that each subject occurs once, and each requirement once in a subject, because most
+    /// formats list the cases of each of them.
+    fn check_subjects(&self) -> Result<(), String> {
+        let (mut subjects, mut requirements) = (HashSet::new(), HashSet::new());
+        for SubjectReport { subject, areas, .. } in &self.subjects {
+            if !subjects.insert(subject) {
+                return Err(format!("subjects contains {subject} twice"));
+            }
+            for one in areas.iter().flat_map(|area| &area.requirements) {
+                if !requirements.insert((subject, &one.requirement)) {
+                    let id = escape(&one.requirement);
+                    return Err(format!("the subject {subject} contains {id} twice"));
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -324,16 +344,15 @@ impl CaseReport {
     /// The failures, grouped by check, because one check may judge several requirements. Failures
     /// with the same texts, evidence, verdict, waiver and cause belong to the same check.
     pub(super) fn findings(&self) -> Vec<Vec<&FailureReport>> {
-        fn check(one: &FailureReport) -> impl PartialEq + '_ {
+        fn check(one: &FailureReport) -> impl Eq + Hash + '_ {
             let seen = (&one.expected, &one.found, &one.evidence);
             (seen, one.verdict, one.waived, &one.follows)
         }
         let mut findings: Vec<Vec<&FailureReport>> = Vec::new();
+        let mut indices = HashMap::new();
         for failure in &self.failures {
-            let same = findings
-                .iter_mut()
-                .find(|all| all.first().is_some_and(|first| check(first) == check(failure)));
-            match same {
+            let index = *indices.entry(check(failure)).or_insert(findings.len());
+            match findings.get_mut(index) {
                 Some(all) => all.push(failure),
                 None => findings.push(vec![failure]),
             }

@@ -1,6 +1,6 @@
 //! Groups the checks that did not pass by their causes.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{sequence, vector};
@@ -103,19 +103,27 @@ pub(super) fn groups(report: &Report) -> Vec<Group<'_>> {
         sorted.sort_by_key(|(clause, number)| (std::cmp::Reverse(*number), position(clause)));
         group.requirements = sorted.into_iter().map(|(clause, _)| clause).collect();
     }
+    // The index of the first failed group of each clause of a subject, and of each case. Waived groups
+    // come last; a waiver for a cause does not accept the checks that follow from it.
+    let (mut of_clause, mut of_case) = (HashMap::new(), HashMap::new());
+    let failed = all.iter().enumerate().filter(|(_, group)| group.verdict.is_failure());
+    let (waived, open): (Vec<_>, Vec<_>) = failed.partition(|(_, group)| group.waived);
+    for (index, group) in open.into_iter().chain(waived) {
+        for clause in &group.requirements {
+            of_clause.entry((group.subject(), *clause)).or_insert(index);
+        }
+        for case in group.cases() {
+            of_case.entry(case).or_insert(index);
+        }
+    }
     for (cause, failure, case) in followers {
-        let group = all.iter_mut().filter(|group| group.verdict.is_failure());
-        let group = group.filter(|group| group.subject() == Some(case.subject));
-        let group = group.filter(|group| group.requirements.contains(&cause));
-        // A waiver for the cause does not accept the checks that follow from it.
-        if let Some(group) = group.min_by_key(|group| group.waived) {
-            group.add_follower(case, failure);
+        if let Some(&index) = of_clause.get(&(Some(case.subject), cause)) {
+            all[index].add_follower(case, failure);
         }
     }
     for (sibling, failure, case) in vacuous {
-        let mut group = all.iter_mut().filter(|group| group.is_failure());
-        if let Some(group) = group.find(|group| group.cases().contains(&sibling.as_str())) {
-            group.add_follower(case, failure);
+        if let Some(&index) = of_case.get(sibling.as_str()) {
+            all[index].add_follower(case, failure);
         }
     }
     all

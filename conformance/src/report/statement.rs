@@ -1,5 +1,6 @@
 //! The conformance statement, which says for each requirement whether it is claimed and verified.
 
+use std::collections::HashSet;
 use std::io::{self, Write};
 
 use minijinja::value::Serde;
@@ -97,14 +98,11 @@ fn result(report: &Report) -> String {
     let all = report.subjects.iter().flat_map(|subject| &subject.areas);
     let all: Vec<&RequirementReport> = all.flat_map(|area| &area.requirements).collect();
     let named = |wanted: &[Verdict], waived: bool, most: usize| {
-        let mut ids: Vec<&str> = Vec::new();
+        let ids = all.iter().filter(|one| wanted.contains(&one.verdict) && one.waived == waived);
+        let ids = ids.map(|one| one.requirement.as_str());
         // Name a clause only once, because several subjects may have the same clause.
-        for one in all.iter().filter(|one| wanted.contains(&one.verdict) && one.waived == waived) {
-            if !ids.contains(&one.requirement.as_str()) {
-                ids.push(&one.requirement);
-            }
-        }
-        list(ids, most)
+        let mut seen = HashSet::new();
+        list(ids.filter(|id| seen.insert(*id)), most)
     };
     let mut open = vec![Verdict::Inconclusive, Verdict::Interrupted, Verdict::HarnessError];
     // With a selection, it is intended that other requirements were not run, so they are not

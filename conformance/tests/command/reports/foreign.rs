@@ -2,6 +2,7 @@
 //! foreign report, of a profile and of waivers.
 
 use std::fs;
+use std::time::{Duration, Instant};
 
 use ads_cnc_conformance::report::{self, Report};
 use serde_json::{Value, json};
@@ -134,6 +135,49 @@ fn all_texts_of_a_foreign_report_are_escaped() {
     let why = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{why}");
     assert!(why.contains("[2J") && !why.contains(['\u{1b}', '\u{9b}']), "{why:?}");
+}
+
+/// Thousands of failures of one case are grouped in linear time; a comparison of each pair takes more
+/// than 10 s.
+#[test]
+fn many_failures_are_grouped_in_linear_time() {
+    let folder = TestFolder::new();
+    let mut document = everything(&folder);
+    let cases = document["cases"].as_array_mut().unwrap();
+    let failed = cases.iter().position(|case| case.get("failures").is_some()).unwrap();
+    cases.swap(0, failed);
+    cases.truncate(1);
+    let mut failure = cases[0]["failures"][0].clone();
+    failure.as_object_mut().unwrap().remove("evidence");
+    let failures = (0..20_000).map(|number| {
+        failure["found"] = json!(format!("{number}"));
+        failure.clone()
+    });
+    cases[0]["failures"] = failures.collect();
+    let report = Report::from_json(&document.to_string()).unwrap();
+    let begun = Instant::now();
+    let mut text = Vec::new();
+    report::to_junit(&report, &mut text).unwrap();
+    report::to_markdown(&report, &mut text).unwrap();
+    assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+}
+
+/// A report with a subject twice, or with a requirement twice in a subject, is rejected.
+#[test]
+fn repeated_subjects_and_requirements_are_rejected() {
+    let document = super::run(&["--only", "VAR-1"]);
+    let rejected = |at: &str, why: &str| {
+        let mut twice = document.clone();
+        let list = twice.pointer_mut(at).unwrap().as_array_mut().unwrap();
+        list.push(list[0].clone());
+        assert_eq!(Report::from_json(&twice.to_string()).unwrap_err(), why);
+    };
+    let subject = document["subjects"][0]["subject"].as_str().unwrap();
+    let requirement = &document["subjects"][0]["areas"][0]["requirements"][0]["requirement"];
+    let requirement = requirement.as_str().unwrap();
+    rejected("/subjects", &format!("subjects contains {subject} twice"));
+    let why = format!("the subject {subject} contains {requirement} twice");
+    rejected("/subjects/0/areas/0/requirements", &why);
 }
 
 /// JSON pointers to all texts in a value.
