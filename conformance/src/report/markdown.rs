@@ -105,11 +105,11 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         }
         shown += 1;
         let title = group.example().map(|(case, failure)| {
-            format!("<code>{}</code> {}", html(&case.id), plain(&sentence(failure, TITLE_MAX)))
+            format!("<code>{}</code> {}", html(&case.id), html(&sentence(failure, TITLE_MAX)))
         });
         let title = title.unwrap_or_default();
         let verdict = worded(group.verdict, group.waived);
-        let clauses = plain(&list(group.requirements.iter().copied(), NAMES_MAX));
+        let clauses = html(&list(group.requirements.iter().copied(), NAMES_MAX));
         let fence = fence(&text);
         writeln!(out, "<details><summary>{verdict}: {clauses} {title}</summary>\n")?;
         writeln!(out, "{fence}text\n{}{fence}\n\n</details>\n", end_line(&text))?;
