@@ -154,15 +154,18 @@ impl Reports {
 
 /// Checks before the run that a report can be written; an existing file keeps its content.
 fn writable(file: &Path) -> Result<(), String> {
-    if is_stdout(file) {
+    let there = fs::metadata(file);
+    // Opening a FIFO waits for a reader, and closing it ends the reader's input, so a FIFO is only
+    // opened for the report.
+    if is_stdout(file) || there.as_ref().is_ok_and(|it| !it.is_file() && !it.is_dir()) {
         return Ok(());
     }
-    let was_there = file.exists();
     let opened = OpenOptions::new().create(true).append(true).open(file);
     opened.map_err(|error| format!("{}: {error}", file.display()))?;
-    if !was_there {
-        // Remove the empty file that the check created, because the run may not finish.
-        let _gone = fs::remove_file(file);
+    if there.is_err() {
+        // Remove the empty file that the check created, because the run may not finish. If `file`
+        // is a symbolic link, the created file is its target.
+        let _gone = fs::canonicalize(file).and_then(fs::remove_file);
     }
     Ok(())
 }

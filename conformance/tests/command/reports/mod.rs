@@ -417,3 +417,31 @@ fn badges_contain_the_result() {
     let keys: Vec<&String> = failed.as_object().unwrap().keys().collect();
     assert_eq!(keys, ["color", "isError", "label", "message", "schemaVersion"]);
 }
+
+/// A report is written through a symbolic link to a file that does not exist yet, and a FIFO is opened
+/// only once.
+#[cfg(unix)]
+#[test]
+fn reports_are_written_to_links_and_fifos() {
+    let folder = TestFolder::new();
+    let (link, target, fifo) =
+        (folder.file("link.json"), folder.file("target.json"), folder.file("fifo"));
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    let made = std::process::Command::new("mkfifo").arg(&fifo).status().unwrap();
+    assert!(made.success());
+    let reader = std::thread::spawn({
+        let fifo = fifo.clone();
+        move || {
+            let first = fs::read(&fifo).unwrap();
+            if first.is_empty() {
+                // A run that opens the FIFO twice would wait for a reader.
+                fs::read(&fifo).unwrap();
+            }
+            first
+        }
+    });
+    ads_cnc(&["run", "--only", "COM-1", "--json", &link, "--badge", &fifo]);
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(serde_json::from_str::<Value>(&folder.read("target.json")).unwrap()["format"], 1);
+    assert!(!reader.join().unwrap().is_empty());
+}
