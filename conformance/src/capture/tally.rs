@@ -80,6 +80,9 @@ pub struct CaptureTally {
     pub forgotten: u64,
     /// Facts about names, objects and elements that were not stored because of the limit of 24 MiB.
     pub unkept: u64,
+    /// Packets of NC programs that were not checked for loops and jumps back because of the limit
+    /// of 32 channels.
+    pub unchecked: u64,
     /// Replies whose request was not captured.
     pub unasked: u64,
     /// Frames that were incomplete at the end of a connection or of the capture.
@@ -160,6 +163,11 @@ impl CaptureTally {
                 self.unkept,
                 "fact",
                 " about names, objects and elements not compared: at most 24 MiB are stored",
+            ),
+            (
+                self.unchecked,
+                "packet",
+                " of NC programs not checked for loops and jumps back: at most 32 channels are checked",
             ),
             (self.unasked, "reply", " without a captured request"),
             (self.unfinished, "frame", " incomplete at the end of the connection or the capture"),

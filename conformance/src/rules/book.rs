@@ -40,7 +40,8 @@ impl RuleBook {
     }
 
     fn with_memory(is_lost: bool, left: usize) -> Self {
-        let budget = MemoryBudget { left, missed: 0 };
+        let programs = MemoryBudget::PROGRAMS;
+        let budget = MemoryBudget { left, missed: 0, programs, unchecked: 0 };
         Self { records: TopicRecords::new(), cncs: BTreeMap::new(), is_lost, budget }
     }
 
@@ -48,6 +49,12 @@ impl RuleBook {
     /// compared with them.
     pub(crate) const fn missed(&self) -> u64 {
         self.budget.missed
+    }
+
+    /// Number of packets of NC programs that were not checked for loops and jumps back, because too
+    /// many channels have programs.
+    pub(crate) const fn unchecked(&self) -> u64 {
+        self.budget.unchecked
     }
 
     /// Forgets the state of all CNCs, because requests that were not observed may have changed it.

@@ -44,11 +44,18 @@ pub(super) struct MemoryBudget {
     pub(super) left: usize,
     /// Number of entries that were not stored.
     pub(super) missed: u64,
+    /// Number of further channels whose NC programs can be checked.
+    pub(super) programs: usize,
+    /// Number of packets of NC programs that were not checked.
+    pub(super) unchecked: u64,
 }
 
 impl MemoryBudget {
     pub(super) const ALL: usize = 0x180_0000;
     pub(super) const OF_RUN: usize = 0x40_0000;
+    /// Maximum number of channels whose NC programs are checked, because the labels of one program
+    /// can need more than 1 MiB.
+    pub(super) const PROGRAMS: usize = 32;
 
     /// Reserves memory for an entry with `bytes` bytes of text and 512 bytes of overhead. Returns
     /// whether enough memory was left.
@@ -58,6 +65,14 @@ impl MemoryBudget {
             Some(left) => self.left = left,
             None => self.missed = self.missed.saturating_add(1),
         }
+        left.is_some()
+    }
+
+    /// Reserves the memory for the check of the NC programs of a channel. Returns whether the
+    /// maximum number of channels was not reached.
+    pub(super) fn take_program(&mut self) -> bool {
+        let left = self.programs.checked_sub(1);
+        self.programs = left.unwrap_or(0);
         left.is_some()
     }
 }
@@ -151,8 +166,8 @@ pub(super) struct ObservedProgramStream {
     /// The packet of the previous write and its time, if known; only if the write was rejected and
     /// the packet has whole lines and at most 992 bytes.
     pub(super) rejected: Option<(Vec<u8>, Option<Duration>)>,
-    /// Checks the current program; `None` before the first accepted packet of a program, and while
-    /// packets may be missing.
+    /// Checks the current program; `None` before the first accepted packet, while packets may be
+    /// missing, and after [`MemoryBudget::PROGRAMS`] other channels.
     pub(super) checker: Option<Checker>,
 }
 

@@ -59,8 +59,11 @@ impl ExchangeJudge<'_> {
         }
         // If packets are missing, the data may be inside a comment, where forbidden keywords are
         // permitted.
-        if accepted && !is_lost {
-            let checker = stream.checker.get_or_insert_with(Checker::new);
+        let is_complete = accepted && !is_lost;
+        if is_complete && stream.checker.is_none() && self.budget.take_program() {
+            stream.checker = Some(Checker::new());
+        }
+        if let Some(checker) = stream.checker.as_mut().filter(|_| is_complete) {
             let mut ended = false;
             for found in checker.check(data) {
                 match found {
@@ -78,8 +81,10 @@ impl ExchangeJudge<'_> {
             }
             record.pass(STM_8);
             if ended {
-                stream.checker = None;
+                *checker = Checker::new();
             }
+        } else if is_complete {
+            self.budget.unchecked = self.budget.unchecked.saturating_add(1);
         } else if !accepted && passed && whole {
             stream.rejected = Some((data.to_vec(), now));
         }

@@ -120,6 +120,7 @@ impl TrafficJudge {
     /// The outcomes of all cases, the tally, and the collected vectors.
     pub(super) fn finish(mut self) -> (Vec<CaseOutcome>, CaptureTally, Option<Collector>) {
         self.tally.unkept = self.rules.missed();
+        self.tally.unchecked = self.rules.unchecked();
         for line in self.tally.lines().into_iter().skip(1) {
             self.rules.records.note(Topic::CncFrames, line);
         }

@@ -70,6 +70,27 @@ fn requests_without_replies_are_dropped() {
     }
 }
 
+/// NC programs of more than 32 channels are not all checked, because the checks need much memory.
+#[test]
+fn programs_of_many_channels_are_limited() {
+    let file = TestFile::new(".pcapng", b"");
+    let mut capture = Capture::create(&file.0).unwrap();
+    capture.opened(end(50_000), end(48898));
+    for channel in 1..=35_u8 {
+        let mut header = request(Command::WRITE, channel.into());
+        header.target.port = AmsPort(553);
+        let data = b"N10 X1\r\n";
+        let address = [channel, 1, 0x12, 0, 0x90, 0, 0, 0, 8, 0, 0, 0];
+        capture.sent(&frame(header, &[&address[..], data].concat()));
+        capture.received(&frame(header.response(), &[0; 4]));
+    }
+    capture.closed();
+    capture.finish().unwrap();
+    let ended = run(&["check", file.path()]);
+    let told = "3 packets of NC programs not checked for loops and jumps back: at most 32 channels";
+    assert!(ended.stdout.contains(told), "{}", ended.stdout);
+}
+
 /// With wrong or missing replies, the check of a capture takes at most six times as long as with
 /// correct ones (plus 2 s): its time does not grow with the square of the number of requests.
 #[test]
