@@ -32,6 +32,8 @@ struct AmsClient {
 #[derive(Debug, Default)]
 pub(super) struct AmsClients {
     all: BTreeMap<AmsNetId, AmsClient>,
+    /// The keys of `all` by the number of the last frame of the conversation.
+    idle: BTreeMap<u64, AmsNetId>,
     frames: u64,
     /// Number of clients, including those that are no longer followed.
     clients: u64,
@@ -60,7 +62,9 @@ impl AmsClients {
             out.push(ConnectionEvent::Running(connection));
         }
         let Some(known) = self.all.get_mut(&client.net_id) else { return };
+        self.idle.remove(&known.last);
         known.last = self.frames;
+        self.idle.insert(known.last, client.net_id);
         known.packet = mark.packet;
         let [asked, replied] = &mut known.sent;
         let (sent, received) = if is_reply { (replied, asked) } else { (asked, replied) };
@@ -79,8 +83,8 @@ impl AmsClients {
     }
 
     fn end_oldest(&mut self, out: &mut Vec<ConnectionEvent>) {
-        let oldest = self.all.iter().min_by_key(|(_, one)| one.last).map(|(key, _)| *key);
-        if let Some(client) = oldest.and_then(|key| self.all.remove(&key)) {
+        let oldest = self.idle.pop_first().map(|(_, net_id)| net_id);
+        if let Some(client) = oldest.and_then(|net_id| self.all.remove(&net_id)) {
             out.push(ConnectionEvent::Ended(client.ending()));
         }
     }

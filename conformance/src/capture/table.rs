@@ -48,6 +48,8 @@ struct TcpConnection {
 pub(super) struct ConnectionTable {
     ports: Ports,
     open: BTreeMap<(Endpoint, Endpoint), TcpConnection>,
+    /// The keys of `open` by the number of the last segment of the connection.
+    idle: BTreeMap<u64, (Endpoint, Endpoint)>,
     connections: u64,
     buffered: usize,
     segments: u64,
@@ -57,8 +59,16 @@ pub(super) struct ConnectionTable {
 
 impl ConnectionTable {
     pub(super) const fn new(ports: Ports) -> Self {
-        let open = BTreeMap::new();
-        Self { ports, open, connections: 0, buffered: 0, segments: 0, repeated: 0, early: 0 }
+        Self {
+            ports,
+            open: BTreeMap::new(),
+            idle: BTreeMap::new(),
+            connections: 0,
+            buffered: 0,
+            segments: 0,
+            repeated: 0,
+            early: 0,
+        }
     }
 
     pub(super) const fn connections(&self) -> u64 {
@@ -119,7 +129,9 @@ impl ConnectionTable {
             self.open.insert(key, TcpConnection::new(self.connections, ends, is_ams));
         }
         let Some(connection) = self.open.get_mut(&key) else { return };
+        self.idle.remove(&connection.last);
         connection.last = self.segments;
+        self.idle.insert(connection.last, key);
         let before = connection.memory_size();
         let events = out.len();
         connection.push(segment, mark, self.ports == Ports::Any, out);
@@ -146,14 +158,14 @@ impl ConnectionTable {
         if self.open.len() < CONNECTIONS_MAX {
             return;
         }
-        let oldest = self.open.iter().min_by_key(|(_, one)| one.last).map(|(key, _)| *key);
-        if let Some(key) = oldest {
+        if let Some((_, &key)) = self.idle.first_key_value() {
             self.end(key, out);
         }
     }
 
     fn end(&mut self, key: (Endpoint, Endpoint), out: &mut Vec<ConnectionEvent>) {
         let Some(mut connection) = self.open.remove(&key) else { return };
+        self.idle.remove(&connection.last);
         self.buffered = self.buffered.saturating_sub(connection.memory_size());
         let events = out.len();
         connection.finish(out);
