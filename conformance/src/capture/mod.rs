@@ -47,7 +47,7 @@ pub use file::{FileEnd, FileError, RECORD_MAX};
 pub use table::Ports;
 pub use tally::CaptureTally;
 pub use time::Time;
-pub use vectors::{Collector, VECTORS_MAX};
+pub use vectors::{Collector, VECTOR_BYTES_MAX, VECTORS_MAX};
 pub use writer::Capture;
 
 use self::ams_clients::AmsClients;

@@ -17,6 +17,7 @@ use ads_cnc_vectors::{
 };
 use serde_json::json;
 
+use super::tally::count;
 use crate::ads_service;
 use crate::client::frame;
 use crate::codec::decode_stream;
@@ -24,8 +25,10 @@ use crate::number::{digest, digest_more, to_usize};
 use crate::rules::TargetVariable;
 use crate::text::json as json_text;
 
-/// Maximum number of vectors of a capture.
+/// Maximum number of vectors of a capture, and of bytes in them: a decoded vector needs up to 60
+/// bytes of memory for each of its bytes.
 pub const VECTORS_MAX: usize = 10_000;
+pub const VECTOR_BYTES_MAX: usize = 0x40_0000;
 
 /// The AMS address of the client, and the AMS NetId of the CNC, in every collected frame.
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 20, 1, 1]), port: AmsPort(0x8001) };
@@ -36,13 +39,18 @@ const CNC: AmsNetId = AmsNetId([192, 0, 2, 10, 1, 1]);
 pub struct Collector {
     keep_texts: bool,
     vectors: BTreeMap<String, Vector>,
+    /// Number of bytes in the vectors.
+    bytes: usize,
+    /// Number of streams and frames that were omitted because of [`VECTORS_MAX`] or
+    /// [`VECTOR_BYTES_MAX`].
+    omitted: u64,
 }
 
 impl Collector {
     /// Creates a collector. With `keep_texts`, it keeps captured texts and NC programs. Otherwise,
     /// it omits NC programs and replaces the letters of texts, except kinds and type names.
     pub fn new(keep_texts: bool) -> Self {
-        Self { keep_texts, vectors: BTreeMap::new() }
+        Self { keep_texts, ..Self::default() }
     }
 
     pub fn len(&self) -> usize {
@@ -51,6 +59,11 @@ impl Collector {
 
     pub fn is_empty(&self) -> bool {
         self.vectors.is_empty()
+    }
+
+    /// Number of streams and frames that exceeded the maximum number of vectors or of their bytes.
+    pub const fn omitted(&self) -> u64 {
+        self.omitted
     }
 
     /// Adds vectors of the data of a request, of the data of its reply, and of both frames. `reply`
@@ -178,9 +191,15 @@ impl Collector {
         if self.vectors.contains_key(&id) {
             return Some(id);
         }
-        if clauses.is_empty() || segments.is_empty() || self.vectors.len() >= VECTORS_MAX {
+        if clauses.is_empty() || segments.is_empty() {
             return None;
         }
+        let length = self.bytes.saturating_add(bytes.len());
+        if self.vectors.len() >= VECTORS_MAX || length > VECTOR_BYTES_MAX {
+            count(&mut self.omitted);
+            return None;
+        }
+        self.bytes = length;
         let canonical = (decoded.bytes != bytes).then_some(Hex(decoded.bytes));
         let vector = Vector {
             id: id.clone(),
@@ -320,4 +339,21 @@ fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
 /// A hash function that gives a vector the same ID on every machine.
 fn hash<const N: usize>(parts: [&[u8]; N]) -> u64 {
     parts.iter().fold(digest(b""), |hash, part| digest_more(digest_more(hash, part), &[0xFF]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bytes_of_all_vectors_are_limited() {
+        let mut collector = Collector::new(true);
+        let mut bytes = vec![0; VECTOR_BYTES_MAX / 2];
+        for number in [0, 1, 2, 1] {
+            bytes[0] = number;
+            let (way, context) = (Direction::Reply, Context::default());
+            collector.stream(Stream::Content, way, context, &bytes, COM_5.as_str());
+        }
+        assert_eq!((collector.len(), collector.omitted()), (2, 1));
+    }
 }

@@ -11,7 +11,9 @@ use super::message::{exit_with_error, print_error};
 use super::numbers::whole;
 use super::progress::Watch;
 use super::report_output::Reports;
-use crate::capture::{self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports};
+use crate::capture::{
+    self, AMS_TCP_PORT, CaptureOptions, Checked, Collector, Ports, VECTOR_BYTES_MAX, VECTORS_MAX,
+};
 use crate::edition::Edition;
 use crate::exit::Exit;
 use crate::judge::{Case, CaseSubject, Selection};
@@ -101,7 +103,7 @@ Limits:
   A record of 8 MiB; 1024 connections at the same time; 1 MiB of one direction that waits for
   missing bytes before it, and 32 MiB in all connections; frames of 4 MiB; 4096 unanswered requests
   of a connection, of which 512 with the same invoke ID are searched for the request of a reply;
-  24 MiB of names, objects and elements; 10000 vectors.
+  24 MiB of names, objects and elements; NC programs of 32 channels; 10000 vectors with 4 MiB.
 
 Removed from vectors:
   AMS NetIds, TCP and IP addresses, the client's AMS port, invoke IDs. Unless --keep-texts is given,
@@ -117,6 +119,8 @@ Exit codes, the first that applies:
 const LISTED_MAX: usize = 10;
 
 const KIB: u64 = 1024;
+
+const NO_VECTORS: &str = "the vectors could not be written";
 
 /// A file that counts the KiB read from it as steps of the progress.
 #[derive(Debug)]
@@ -143,6 +147,15 @@ impl CheckArgs {
             Ok(waivers) => waivers,
             Err(why) => return exit_with_error(Exit::Usage, why),
         };
+        // A new file in a folder is named after its stream, which is known only at the end.
+        if let Some(file) = &self.extract_vectors
+            && file.symlink_metadata().is_ok()
+            && !file.is_dir()
+        {
+            let why = io::Error::from(io::ErrorKind::AlreadyExists);
+            let why = format!("{NO_VECTORS}: {}: {why}", file.display());
+            return exit_with_error(Exit::Usage, why);
+        }
         let mut notes = Vec::new();
         let mut checked = match self.read(&mut notes) {
             Ok(checked) => checked,
@@ -194,14 +207,14 @@ impl CheckArgs {
             ended: None,
         };
         let report = Report::new(about, &outcomes, &left_out);
-        let extracted = match self.extract(&checked) {
-            Ok(extracted) => extracted,
-            Err(error) => {
-                let why = format!("the vectors could not be written: {error}");
-                return exit_with_error(Exit::Usage, why);
+        let extracted = self.extract(&checked);
+        let exit = self.write(&report, &checked, extracted.as_deref().unwrap_or_default());
+        match extracted {
+            Err(error) if exit != Exit::Internal => {
+                exit_with_error(Exit::Usage, format!("{NO_VECTORS}: {error}"))
             }
-        };
-        self.write(&report, &checked, &extracted)
+            _ => exit,
+        }
     }
 
     /// Reads the connections at the selected ports. If no port is selected, reads the connections
@@ -238,15 +251,23 @@ impl CheckArgs {
         capture::check(CountedRead { file, odd: 0 }, CaptureOptions { ports, vectors })
     }
 
-    /// Writes the vectors, and returns a line with their number and files. Without
-    /// --extract-vectors, writes nothing and returns no line.
+    /// Writes the vectors, and returns lines with their number and files, and with the number of
+    /// omitted ones. Without --extract-vectors, writes nothing and returns no line.
     fn extract(&self, checked: &Checked) -> io::Result<Vec<String>> {
         let (Some(place), Some(vectors)) = (&self.extract_vectors, &checked.vectors) else {
             return Ok(Vec::new());
         };
         let files = vectors.write(Path::new(place))?;
         let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        Ok(vec![format!("{}: {}", plural(vectors.len(), "vector"), files.join(", "))])
+        let mut lines = vec![format!("{}: {}", plural(vectors.len(), "vector"), files.join(", "))];
+        if vectors.omitted() > 0 {
+            lines.push(format!(
+                "{} not written: at most {VECTORS_MAX} with {} MiB are",
+                plural(vectors.omitted(), "more vector"),
+                VECTOR_BYTES_MAX >> 20
+            ));
+        }
+        Ok(lines)
     }
 
     fn write(&self, report: &Report, checked: &Checked, extracted: &[String]) -> Exit {

@@ -196,6 +196,7 @@ fn vectors_are_extracted() {
     let again = extract(&vectors, &[]);
     assert_eq!(again.status.code(), Some(2));
     assert!(text(&again.stderr).contains("vectors could not be written"));
+    assert!(again.stdout.is_empty(), "the file is found before the capture is read");
     assert_eq!(fs::read_to_string(&vectors).unwrap(), content);
     // Vectors can be written to a folder, with the original texts.
     let into = folder.file("folder");
@@ -203,6 +204,11 @@ fn vectors_are_extracted() {
     assert_eq!(extract(&into, &["--keep-texts"]).status.code(), Some(0));
     let names = fs::read_to_string(Path::new(&into).join("captured-variable-name.json")).unwrap();
     assert!(names.contains("V.E.Testvar"));
+    // If a file in the folder exists, the result of the check is shown nevertheless.
+    let again = extract(&into, &[]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(text(&again.stderr).contains("captured-"), "{}", text(&again.stderr));
+    assert!(text(&again.stdout).contains("\nPASSED"), "{}", text(&again.stdout));
 }
 
 #[test]
