@@ -22,7 +22,11 @@ use crate::explain::{
     ExplainQuery, ExplainSubject, Explanation, ServiceAddress, ValueFormat, candidates, explain,
     looks_like_frame, parse_hex, print, type_by_name,
 };
-use crate::text::{FILE_MAX, did_you_mean, read_limited};
+use crate::text::{did_you_mean, read_limited};
+
+/// Maximum number of bytes that are read from a file or stdin (1 MiB), because the explanation of a
+/// byte needs up to 400 bytes of memory.
+const INPUT_MAX: u64 = 0x10_0000;
 
 /// Explain bytes field by field
 ///
@@ -294,10 +298,10 @@ fn read_file(file: &Path) -> Result<Vec<u8>, String> {
     if file == Path::new("-") {
         return read_stdin();
     }
-    let bytes = File::open(file).and_then(|opened| read_limited(opened, FILE_MAX));
+    let bytes = File::open(file).and_then(|opened| read_limited(opened, INPUT_MAX));
     bytes.map_err(|error| format!("{}: {error}", file.display()))
 }
 
 fn read_stdin() -> Result<Vec<u8>, String> {
-    read_limited(io::stdin().lock(), FILE_MAX).map_err(|error| format!("stdin: {error}"))
+    read_limited(io::stdin().lock(), INPUT_MAX).map_err(|error| format!("stdin: {error}"))
 }

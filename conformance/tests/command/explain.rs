@@ -239,3 +239,12 @@ fn all_streams_are_listed() {
     let all: Vec<&str> = ads_cnc::layout::Stream::all().map(|one| one.layout().name).collect();
     assert_eq!(names, all);
 }
+
+#[test]
+fn a_long_input_is_rejected() {
+    let file = TestFile::new(".bin", &vec![0; 0x10_0001]);
+    let output = ads_cnc(&["--frame", "--file", file.path()]);
+    assert_eq!(output.status.code(), Some(2));
+    let why = text(&output.stderr);
+    assert!(why.contains("has more than 1048576 bytes: split it"), "{why}");
+}
