@@ -246,5 +246,5 @@ fn a_long_input_is_rejected() {
     let output = ads_cnc(&["--frame", "--file", file.path()]);
     assert_eq!(output.status.code(), Some(2));
     let why = text(&output.stderr);
-    assert!(why.contains("has more than 1048576 bytes: split it"), "{why}");
+    assert!(why.contains("expected at most 1048576 bytes, found more"), "{why}");
 }
