@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{RunningCommand, interrupt};
+use super::{POLL, RunningCommand, interrupt};
 use crate::mutex::lock;
 use crate::text::{escape_lines, json_error, plural, shorten};
 
@@ -64,11 +64,12 @@ pub enum RecvError {
 /// command started, see [`RunningCommand`].
 #[derive(Debug)]
 pub struct LineProcess {
-    child: RunningCommand,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
     /// Is disconnected when stderr has been read to its end.
     stderr_end: Receiver<()>,
+    /// Dropped last: a command that cannot be killed may end when its stdin is closed.
+    child: RunningCommand,
 }
 
 impl LineProcess {
@@ -102,7 +103,7 @@ impl LineProcess {
             };
             spawn("command's stderr", collect)?;
         }
-        Ok(Self { child, to, from, stderr_end })
+        Ok(Self { to, from, stderr_end, child })
     }
 
     /// Sends a line. If the command has ended, only [`recv`](Self::recv) reports that.
@@ -175,9 +176,6 @@ impl LineProcess {
         (status, unasked)
     }
 }
-
-/// Interval at which to check whether the command has ended.
-const POLL: Duration = Duration::from_millis(2);
 
 /// Maximum time to wait for the rest of the output after the command has ended.
 const OUTPUT_AFTER_EXIT: Duration = Duration::from_millis(200);

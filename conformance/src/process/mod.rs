@@ -9,7 +9,8 @@ mod subprocess;
 use std::io;
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
 use std::sync::{Arc, Mutex, Weak};
-use std::time::Duration;
+use std::thread;
+use std::time::{Duration, Instant};
 
 #[cfg(unix)]
 use process_wrap::std::ProcessGroup;
@@ -25,6 +26,12 @@ pub use subprocess::{GRACE, Reaction, Subprocess};
 
 /// Minimum time limit for the first line of a testee or client: some languages start slowly.
 pub const START: Duration = Duration::from_secs(20);
+
+/// Interval at which to check whether a command has ended.
+const POLL: Duration = Duration::from_millis(2);
+
+/// Time limit for a killed command to end: a command that runs as another user cannot be killed.
+const KILL_MAX: Duration = Duration::from_secs(1);
 
 /// The command that runs a command line in a shell: `sh`, or `cmd` on Windows.
 pub fn shell(line: &str) -> Command {
@@ -94,17 +101,32 @@ impl RunningCommand {
 
     /// The exit status, if the command has ended.
     pub fn try_wait(&self) -> io::Result<Option<ExitStatus>> {
-        lock(&self.0).try_wait()
+        // The wrapper would look only in the process group, which the command may have left.
+        lock(&self.0).inner_mut().try_wait()
     }
 }
 
 impl Drop for RunningCommand {
     fn drop(&mut self) {
-        let mut child = lock(&self.0);
-        // Even if the command has ended, processes that it started may still run, so the group is
-        // killed. It is assumed that the system does not reuse the ID of an empty group so quickly.
-        let _ended = child.start_kill();
-        let _waited = child.inner_mut().wait();
+        kill(&self.0);
+        // The lock is released between the polls, because `end_all` needs it.
+        let begun = Instant::now();
+        while matches!(self.try_wait(), Ok(None)) && begun.elapsed() < KILL_MAX {
+            thread::sleep(POLL);
+        }
+    }
+}
+
+/// Kills the processes that a command started and, if it has not ended, the command.
+fn kill(child: &SharedChild) {
+    let mut child = lock(child);
+    // Even if the command has ended, processes that it started may still run, so the group is
+    // killed. It is assumed that the system does not reuse the ID of an empty group so quickly.
+    let _ended = child.start_kill();
+    // The command itself may have left its group.
+    let command = child.inner_mut();
+    if matches!(command.try_wait(), Ok(None)) {
+        let _ended = command.start_kill();
     }
 }
 
@@ -112,9 +134,7 @@ impl Drop for RunningCommand {
 /// lock of `RUNNING`.
 pub(crate) fn end_all() {
     let running = lock(&RUNNING);
-    for child in running.iter().filter_map(Weak::upgrade) {
-        // Another thread holds this lock only for a short time, to end or to poll the child.
-        let _ended = lock(&child).start_kill();
-    }
+    // Another thread holds the lock of a child only for a short time, to kill or to poll the child.
+    running.iter().filter_map(Weak::upgrade).for_each(|child| kill(&child));
     std::mem::forget(running);
 }

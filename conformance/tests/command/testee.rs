@@ -271,6 +271,24 @@ fn a_command_ends_with_the_processes_it_started() {
     }
 }
 
+/// A command that has left its process group is ended, too.
+#[cfg(unix)]
+#[test]
+fn a_command_that_left_its_group_is_ended() {
+    let leave = "setpgrp(0, getpgrp(getppid())) or die; $| = 1; print \"$$\\n\"; sleep 60";
+    let mut command = shell(&format!("exec perl -e '{leave}'"));
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let running = RunningCommand::start(command).unwrap();
+    let mut id = String::new();
+    BufReader::new(running.take_stdout().unwrap()).read_line(&mut id).unwrap();
+    assert!(running.try_wait().unwrap().is_none());
+    let begun = Instant::now();
+    drop(running);
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+    let found = Command::new("kill").args(["-0", id.trim()]).stderr(Stdio::null()).status();
+    assert!(!found.unwrap().success(), "the process {id} still runs");
+}
+
 /// Tests with testees that are one line of shell.
 #[cfg(unix)]
 mod shell {
