@@ -31,6 +31,7 @@ pub(super) struct ScenarioScript {
     pub(super) response: Option<&'static str>,
     looks: Option<usize>,
     streamed: usize,
+    /// The last reply of each connection, if `tamper` is set.
     last: BTreeMap<usize, Vec<u8>>,
 }
 
@@ -72,10 +73,10 @@ impl ScenarioScript {
         if let Some(dispatched) = &dispatched {
             self.host(dispatched);
         }
+        let Some((at, tamper)) = self.tamper else { return Ok(vec![SendStep::Send(reply)]) };
         let before = self.last.insert(connection, reply.clone());
-        let function = dispatched.map(|dispatched| dispatched.function());
-        Ok(match self.tamper {
-            Some((at, tamper)) if function == Some(at) => tamper.steps(&reply, before.as_deref()),
+        Ok(match dispatched {
+            Some(one) if one.function() == at => tamper.steps(&reply, before.as_deref()),
             _ => vec![SendStep::Send(reply)],
         })
     }

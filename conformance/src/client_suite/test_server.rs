@@ -21,7 +21,8 @@ use crate::number::{to_usize, u32_at};
 use crate::simulator::{FRAME_MAX, NET_ID};
 use crate::text::plural;
 
-/// Maximum number of connections in a scenario; the server counts and closes further connections.
+/// Maximum number of open connections, each of which has a thread; the server counts and closes
+/// further connections.
 pub(super) const CONNECTIONS_MAX: usize = 64;
 
 /// After this many bytes of recorded requests and replies that wait to be judged, further requests
@@ -37,6 +38,8 @@ const LINGER: Duration = Duration::from_millis(200);
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct RecordedExchange {
     pub(super) connection: usize,
+    /// The address of the client, for the capture.
+    pub(super) peer: Option<SocketAddr>,
     /// The request; the last request of a connection may be incomplete.
     pub(super) request: Vec<u8>,
     pub(super) sent: Vec<u8>,
@@ -124,7 +127,7 @@ impl Overflow {
         });
         let connections = (self.connections > 0).then(|| {
             let count = plural(self.connections, "connection");
-            format!("closed at once: {count} after the first {CONNECTIONS_MAX}")
+            format!("closed at once: {count} while {CONNECTIONS_MAX} were open")
         });
         let exceeded: Vec<String> = [requests, connections].into_iter().flatten().collect();
         (!exceeded.is_empty()).then(|| Stop::Inconclusive(exceeded.join("; ")))
@@ -168,13 +171,14 @@ impl ClientCapture {
 struct TestRun {
     script: Mutex<ScenarioScript>,
     exchanges: Mutex<Recording>,
-    /// The accepted connections, so that the end of the scenario can close them.
-    streams: Mutex<Vec<TcpStream>>,
-    /// The address of the client for each connection number.
-    peers: Mutex<HashMap<usize, SocketAddr>>,
+    /// The open connections by number, so that the end of the scenario can close them.
+    streams: Mutex<HashMap<usize, TcpStream>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
+    /// Number of connections.
     count: AtomicUsize,
-    open: Mutex<usize>,
+    /// Number of connections that exceeded [`CONNECTIONS_MAX`].
+    beyond: AtomicUsize,
+    /// Is notified when a connection is removed from `streams`.
     closed: Condvar,
 }
 
@@ -209,13 +213,12 @@ impl TestServer {
             .map_or(Ok(()), |capture| capture.unwrap_or_else(PoisonError::into_inner).tap.finish())
     }
 
-    fn capture(&self, run: &TestRun, exchanges: &[RecordedExchange]) {
+    fn capture(&self, exchanges: &[RecordedExchange]) {
         let Some(mut capture) = self.capture.as_ref().map(lock) else { return };
         let mut all: Vec<&RecordedExchange> = exchanges.iter().collect();
         all.sort_by_key(|exchange| exchange.connection);
         for exchange in all {
-            let peer = lock(&run.peers).get(&exchange.connection).copied();
-            let Some(peer) = peer else { continue };
+            let Some(peer) = exchange.peer else { continue };
             capture.switch(Some((peer, self.addr())));
             capture.tap.sent(&exchange.request);
             capture.tap.received(&exchange.sent);
@@ -237,27 +240,26 @@ impl TestServer {
             script: Mutex::new(script),
             exchanges: Mutex::default(),
             streams: Mutex::default(),
-            peers: Mutex::default(),
             threads: Mutex::default(),
             count: AtomicUsize::new(0),
-            open: Mutex::new(0),
+            beyond: AtomicUsize::new(0),
             closed: Condvar::new(),
         }));
     }
 
-    /// Waits until a client has connected and all connections have been closed for [`LINGER`], or
-    /// `go_on` returns false.
+    /// Waits until a client has connected, all connections are closed and none was opened for
+    /// [`LINGER`], or until `go_on` returns false.
     pub(super) fn watch(&self, mut go_on: impl FnMut() -> bool) {
         let Some(run) = lock(&self.run).clone() else { return };
-        let mut quiet: Option<Instant> = None;
+        let (mut before, mut since) = (0, Instant::now());
         while go_on() {
-            let any = run.count.load(Ordering::SeqCst) > 0;
-            let idle = any && *lock(&run.open) == 0;
-            match (idle, quiet) {
-                (true, Some(since)) if since.elapsed() > LINGER => return,
-                (true, None) => quiet = Some(Instant::now()),
-                (false, _) => quiet = None,
-                _ => {}
+            // A connection may open and close between two polls.
+            let count = run.count.load(Ordering::SeqCst);
+            if count != before || !lock(&run.streams).is_empty() {
+                (before, since) = (count, Instant::now());
+            }
+            if count > 0 && since.elapsed() > LINGER {
+                return;
             }
             thread::sleep(Duration::from_millis(20));
         }
@@ -268,7 +270,7 @@ impl TestServer {
     pub(super) fn exchanges(&self) -> Vec<RecordedExchange> {
         let Some(run) = lock(&self.run).clone() else { return Vec::new() };
         let exchanges = lock(&run.exchanges).take_answered();
-        self.capture(&run, &exchanges);
+        self.capture(&exchanges);
         exchanges
     }
 
@@ -281,19 +283,19 @@ impl TestServer {
         };
         // Waits, for at most `LINGER`, until the server has read the bytes that a client sent
         // before it closed a connection.
-        drop(run.closed.wait_timeout_while(lock(&run.open), LINGER, |open| *open > 0));
-        for stream in lock(&run.streams).iter() {
+        drop(run.closed.wait_timeout_while(lock(&run.streams), LINGER, |open| !open.is_empty()));
+        for stream in lock(&run.streams).values() {
             let _closed = stream.shutdown(Shutdown::Both);
         }
         for thread in lock(&run.threads).drain(..) {
             let _panicked = thread.join();
         }
         let exchanges = lock(&run.exchanges).take_first(usize::MAX);
-        self.capture(&run, &exchanges);
+        self.capture(&exchanges);
         if let Some(mut capture) = self.capture.as_ref().map(lock) {
             capture.switch(None);
         }
-        let connections = run.count.load(Ordering::SeqCst).saturating_sub(CONNECTIONS_MAX);
+        let connections = run.beyond.load(Ordering::SeqCst);
         let beyond = Overflow { requests: lock(&run.exchanges).beyond, connections };
         let script = Arc::into_inner(run)
             .map(|run| run.script.into_inner().unwrap_or_else(PoisonError::into_inner));
@@ -311,47 +313,41 @@ impl Drop for TestServer {
 impl TestRun {
     fn connect(self: Arc<Self>, stream: TcpStream) -> io::Result<()> {
         let connection = self.count.fetch_add(1, Ordering::SeqCst);
-        if connection >= CONNECTIONS_MAX {
+        if lock(&self.streams).len() >= CONNECTIONS_MAX {
+            self.beyond.fetch_add(1, Ordering::SeqCst);
             return Ok(());
         }
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(Duration::from_secs(5)))?;
-        lock(&self.peers).insert(connection, stream.peer_addr()?);
-        lock(&self.streams).push(stream.try_clone()?);
-        self.opened(1);
+        let peer = Some(stream.peer_addr()?);
+        let blank = RecordedExchange { connection, peer, ..RecordedExchange::default() };
+        lock(&self.streams).insert(connection, stream.try_clone()?);
         let run = Arc::clone(&self);
         let thread = thread::Builder::new().name(format!("client-{connection}"));
         let spawned = thread.spawn(move || {
             // The client may close the connection at any time.
-            let _gone = run.serve(connection, &stream);
+            let _gone = run.serve(&blank, &stream);
             let _closed = stream.shutdown(Shutdown::Both);
-            run.opened(-1);
+            lock(&run.streams).remove(&connection);
             run.closed.notify_all();
         });
+        let mut threads = lock(&self.threads);
+        threads.retain(|thread| !thread.is_finished());
         match spawned {
-            Ok(thread) => lock(&self.threads).push(thread),
-            Err(_) => self.opened(-1),
+            Ok(thread) => threads.push(thread),
+            Err(_) => drop(lock(&self.streams).remove(&connection)),
         }
         Ok(())
     }
 
-    fn opened(&self, change: isize) {
-        let mut open = lock(&self.open);
-        *open = open.saturating_add_signed(change);
-    }
-
-    fn serve(&self, connection: usize, mut stream: &TcpStream) -> io::Result<()> {
+    /// Serves a connection; each recorded exchange is made from `blank`.
+    fn serve(&self, blank: &RecordedExchange, mut stream: &TcpStream) -> io::Result<()> {
         let (mut received, mut chunk) = (Vec::new(), [0; 4096]);
         loop {
             while let Some(len) = frame_len(&received) {
                 if len > FRAME_MAX {
                     let fault = Some(format!("a frame of {}", plural(len, "byte")));
-                    self.record(RecordedExchange {
-                        connection,
-                        request: received,
-                        fault,
-                        ..RecordedExchange::default()
-                    });
+                    self.record(RecordedExchange { request: received, fault, ..blank.clone() });
                     return Ok(());
                 }
                 if received.len() < len {
@@ -359,7 +355,7 @@ impl TestRun {
                 }
                 let rest = received.split_off(len);
                 let request = std::mem::replace(&mut received, rest);
-                if !self.exchange(connection, &request, stream)? {
+                if !self.exchange(blank, &request, stream)? {
                     return Ok(());
                 }
             }
@@ -367,13 +363,7 @@ impl TestRun {
                 Ok(0) | Err(_) => {
                     if !received.is_empty() {
                         let fault = Some("closed within a frame".to_owned());
-                        let exchange = RecordedExchange {
-                            connection,
-                            request: received,
-                            fault,
-                            ..RecordedExchange::default()
-                        };
-                        self.record(exchange);
+                        self.record(RecordedExchange { request: received, fault, ..blank.clone() });
                     }
                     return Ok(());
                 }
@@ -383,15 +373,17 @@ impl TestRun {
     }
 
     /// Records a frame and replies to it. Returns whether the connection stays open.
-    fn exchange(&self, connection: usize, request: &[u8], stream: &TcpStream) -> io::Result<bool> {
+    fn exchange(
+        &self,
+        blank: &RecordedExchange,
+        request: &[u8],
+        stream: &TcpStream,
+    ) -> io::Result<bool> {
         // The request is recorded before the reply is sent, because the scenario may end as soon as
         // the client has received the reply.
-        let number = lock(&self.exchanges).open(RecordedExchange {
-            connection,
-            request: request.to_vec(),
-            ..RecordedExchange::default()
-        });
-        let stays = self.reply(connection, request, number, stream);
+        let number = lock(&self.exchanges)
+            .open(RecordedExchange { request: request.to_vec(), ..blank.clone() });
+        let stays = self.reply(blank.connection, request, number, stream);
         lock(&self.exchanges).close(number);
         stays
     }

@@ -3,6 +3,8 @@
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use crate::common::ads_cnc;
 use crate::common::connect;
@@ -223,10 +225,11 @@ fn a_missing_answer_fails_only_the_protocol() {
     assert_eq!(ads_cnc(&["run", "--client", "x", "--only", "VRA"]).status.code(), Some(2));
 }
 
-/// A client that connects by itself is judged by its requests.
+/// A client that connects by itself is judged by its requests, even if it opens a new connection for
+/// every two requests.
 #[test]
 fn a_connecting_client_is_judged() {
-    let listen = |request: &[u8]| {
+    let listen = |request: &[u8], connections: usize| {
         let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
             .args(["run", "--client-listen", "127.0.0.1:0", "--json", "-"])
             .stdout(Stdio::piped())
@@ -236,10 +239,18 @@ fn a_connecting_client_is_judged() {
         let mut line = String::new();
         BufReader::new(process.stderr.take().unwrap()).read_line(&mut line).unwrap();
         let addr = line.split([' ', ',']).find(|word| word.starts_with("127.0.0.1:")).unwrap();
-        let mut stream = connect(addr.parse().unwrap());
-        stream.write_all(request).unwrap();
-        stream.read_exact(&mut [0; 38]).unwrap();
-        drop(stream);
+        for _ in 0..connections {
+            let mut stream = connect(addr.parse().unwrap());
+            for _ in 0..2 {
+                stream.write_all(request).unwrap();
+                let mut head = [0; 6];
+                stream.read_exact(&mut head).unwrap();
+                let len = u32::from_le_bytes(head[2..].try_into().unwrap());
+                stream.read_exact(&mut vec![0; usize::try_from(len).unwrap()]).unwrap();
+            }
+            drop(stream);
+            thread::sleep(Duration::from_millis(20));
+        }
         let output = process.wait_with_output().unwrap();
         (output.status.code(), serde_json::from_slice::<Value>(&output.stdout).unwrap())
     };
@@ -247,11 +258,13 @@ fn a_connecting_client_is_judged() {
         vec![0, 0, 44, 0, 0, 0, 127, 0, 0, 1, 1, 1, 0x29, 2, 10, 0, 0, 9, 1, 1, 0, 0x80];
     request.extend([2, 0, 4, 0, 12, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]);
     request.extend([1, 1, 0x13, 0, 0, 0, 0, 0, 4, 0, 0, 0]);
-    let (code, report) = listen(&request);
+    // More connections than may be open at the same time.
+    let (code, report) = listen(&request, 80);
     assert_eq!(code, Some(0), "{report:#}");
+    assert_eq!(report["frames"], 160, "{report:#}");
     // The client sends the same request to the port of another task.
     request[12] = 0x28;
-    let (code, report) = listen(&request);
+    let (code, report) = listen(&request, 1);
     assert_eq!(code, Some(1));
     assert_eq!(failures(&report, "client-requests")[0].0, "GEN-4");
 }
