@@ -1,5 +1,6 @@
 //! Judges each request of a client: its headers, and whether the CNC has the requested function.
 
+use std::collections::HashSet;
 use std::fmt::Display;
 
 use ads_cnc::ads::{AmsPort, Command, FrameRef};
@@ -17,12 +18,16 @@ use crate::rules::{Observation, RuleBook, function_at};
 use crate::simulator::{DATA_MAX, NET_ID};
 use crate::text::plural;
 
+/// Maximum number of requests without a reply that are stored, so that a client cannot exhaust the
+/// memory; the invoke IDs of further ones are not compared.
+const PENDING_MAX: usize = 1 << 16;
+
 /// Judges the requests of a client.
 #[derive(Debug)]
 pub(super) struct RequestJudge {
     rules: RuleBook,
-    /// The connection and the invoke ID of the previous request.
-    before: Option<(usize, u32)>,
+    /// The connections and invoke IDs of the requests without a reply.
+    pending: HashSet<(usize, u32)>,
     /// Whether requests are compared with earlier replies, for example with the types that they
     /// contained. False in a scenario, in which the suite tells the client the names and may change
     /// replies.
@@ -42,7 +47,7 @@ impl RequestJudge {
     }
 
     pub(super) fn of_scenario() -> Self {
-        Self { rules: RuleBook::new(false), before: None, learns: false }
+        Self { rules: RuleBook::new(false), pending: HashSet::new(), learns: false }
     }
 
     /// Adds the checks of the rule book to `scenario_checks`.
@@ -80,11 +85,14 @@ impl RequestJudge {
         let port = header.target.port;
         let has_task = Task::from_port(port).is_some();
         check(GEN_4.into(), has_task, "port 551, 552 or 553", &port);
-        // A client that repeats an invoke ID cannot distinguish a late reply to one request from
-        // the reply to the next.
-        let before = self.before.replace((exchange.connection, header.invoke_id));
-        let is_repeated = before.map(|before| before == (exchange.connection, header.invoke_id));
-        self.rules.records.request_headers(exchange, &header, is_repeated);
+        // A client that repeats the invoke ID of a pending request cannot distinguish a late reply
+        // to it from the reply to the next request.
+        let key = (exchange.connection, header.invoke_id);
+        let is_repeated = self.pending.contains(&key);
+        if self.pending.len() < PENDING_MAX && !is_answered(exchange, header.invoke_id) {
+            self.pending.insert(key);
+        }
+        self.rules.records.request_headers(exchange, &header, Some(is_repeated));
         let clause =
             service_of(command).map_or(Rule::CLIENT, |one| ads_service::clause(one).into());
         match Call::from_frame(&frame) {
@@ -123,6 +131,18 @@ impl RequestJudge {
     }
 }
 
+/// Whether the server has sent a frame with this invoke ID.
+fn is_answered(exchange: &RecordedExchange, invoke_id: u32) -> bool {
+    let mut sent = exchange.sent.as_slice();
+    while let Ok(Some((frame, len))) = FrameRef::split(sent, u32::MAX) {
+        if frame.header().invoke_id == invoke_id {
+            return true;
+        }
+        sent = sent.get(len..).unwrap_or_default();
+    }
+    false
+}
+
 fn name(command: Command) -> String {
     match service_of(command) {
         Some(service) => service.to_string(),
@@ -158,4 +178,30 @@ pub(super) fn writes(exchange: &RecordedExchange) -> Option<Rule> {
         let spec = request.function().spec();
         (spec.effect != Effect::Query).then(|| Rule::of(spec.clause))
     })?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An invoke ID may be used again after the reply, but not before.
+    #[test]
+    fn an_invoke_id_of_a_pending_request_is_found() {
+        let mut request = vec![0, 0, 32, 0, 0, 0, 127, 0, 0, 1, 1, 1, 0x28, 2, 10, 0, 0, 9, 1, 1];
+        request.extend([0, 0x80, 1, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0]);
+        let found = |sent: &[u8]| {
+            let exchange = RecordedExchange {
+                request: request.clone(),
+                sent: sent.to_vec(),
+                ..RecordedExchange::default()
+            };
+            let (mut checks, mut judge) = (ScenarioChecks::default(), RequestJudge::of_scenario());
+            judge.judge(&[exchange.clone(), exchange], &mut checks);
+            judge.finish(&mut checks);
+            let mut judgements = checks.record.judgements.iter();
+            judgements.any(|one| one.found == "the invoke ID 0x7 of a request without a reply")
+        };
+        assert!(found(&[]));
+        assert!(!found(&request));
+    }
 }

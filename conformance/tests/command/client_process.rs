@@ -262,6 +262,8 @@ fn a_connecting_client_is_judged() {
     let (code, report) = listen(&request, 80);
     assert_eq!(code, Some(0), "{report:#}");
     assert_eq!(report["frames"], 160, "{report:#}");
+    // Each request has the same invoke ID, but none is pending when the next is sent.
+    assert!(!report.to_string().contains("a request without a reply"), "{report:#}");
     // The client sends the same request to the port of another task.
     request[12] = 0x28;
     let (code, report) = listen(&request, 1);
