@@ -135,15 +135,18 @@ pub fn judge(
         outcomes.push(CaseOutcome { time: Some(begin.elapsed()), ..outcome });
         one_line(actor, &mut protocol);
     }
+    if lost < UNANSWERED_MAX && actor.over().is_none() && !interrupt::is_requested() {
+        let bye = actor.bye();
+        let passed = bye.is_ok();
+        // The deadline also ends the wait for the exit.
+        if passed || actor.over().is_none() {
+            let found = || bye.err().unwrap_or_default();
+            protocol.check(Rule::CLIENT, passed, None, "exit code 0 after bye", found);
+        }
+    }
     if interrupt::is_requested() {
         outcomes.push(CaseOutcome::interrupted(protocol_outcome(protocol).case));
         return JudgedClient { hello: Some(hello), outcomes, requests };
-    }
-    if lost < UNANSWERED_MAX && actor.over().is_none() {
-        let bye = actor.bye();
-        let passed = bye.is_ok();
-        let found = || bye.err().unwrap_or_default();
-        protocol.check(Rule::CLIENT, passed, None, "exit code 0 after bye", found);
     }
     one_line(actor, &mut protocol);
     outcomes.push(protocol_outcome(protocol));

@@ -145,6 +145,9 @@ pub fn judge(
     if stop.is_none()
         && testee.over().is_none()
         && let Err(why) = testee.bye()
+        // A signal or the deadline ends the wait for the exit.
+        && testee.over().is_none()
+        && !interrupt::is_requested()
     {
         protocol.fault("it ends with exit code 0 after bye", why);
     }

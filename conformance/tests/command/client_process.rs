@@ -9,6 +9,11 @@ use std::time::Duration;
 use crate::common::ads_cnc;
 use crate::common::connect;
 use crate::common::file::TestFile;
+use ads_cnc_conformance::client_suite::{
+    Action, ClientHello, ClientReaction, ClientUnderTest, CncAddress, ReferenceClient, TestServer,
+    judge,
+};
+use ads_cnc_conformance::judge::Verdict;
 use serde_json::Value;
 
 /// Runs the suite with this project's client; returns the exit code and the report.
@@ -208,6 +213,39 @@ fn a_second_line_is_reported() {
         assert_eq!(told(stays, one), [""; 0], "stays: {stays}");
         assert_eq!(told(stays, two), ["the additional line \"more\""; 2], "stays: {stays}");
     }
+}
+
+/// A client that is still running when the deadline ends the wait after `bye`.
+#[derive(Default)]
+struct LateClient(ReferenceClient, bool);
+
+impl ClientUnderTest for LateClient {
+    fn hello(&mut self, cnc_address: &CncAddress) -> Result<ClientHello, ClientReaction> {
+        self.0.hello(cnc_address)
+    }
+
+    fn act(&mut self, cnc: &CncAddress, scenario: &str, action: &Action) -> ClientReaction {
+        self.0.act(cnc, scenario, action)
+    }
+
+    fn bye(&mut self) -> Result<(), String> {
+        self.1 = true;
+        Err("it did not end after bye".to_owned())
+    }
+
+    fn over(&self) -> Option<String> {
+        self.1.then(|| "the deadline has passed".to_owned())
+    }
+}
+
+/// A missing exit is not judged if the deadline has ended the wait for it.
+#[test]
+fn an_exit_after_the_deadline_is_not_judged() {
+    let server = TestServer::new(([127, 0, 0, 1], 0).into()).unwrap();
+    let mut client = LateClient::default();
+    let judged = judge(&mut client, &server, &[], None);
+    assert!(client.1);
+    assert_eq!(judged.outcomes[0].verdict(), Verdict::Pass);
 }
 
 /// The message that tells a running client to exit.

@@ -14,7 +14,8 @@ use ads_cnc_conformance::judge::{
 use ads_cnc_conformance::process::{RunningCommand, shell};
 use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
-    CodecTestee, JudgedTestee, JudgementOptions, Miniature, Testee, TesteeProcess, judge,
+    Answer, CodecTestee, JudgedTestee, JudgementOptions, Miniature, Question, Testee, TesteeHello,
+    TesteeProcess, TesteeReaction, judge,
 };
 
 const OF_A_TESTEE: JudgementOptions<'static> =
@@ -287,6 +288,49 @@ fn a_command_that_left_its_group_is_ended() {
     assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     let found = Command::new("kill").args(["-0", id.trim()]).stderr(Stdio::null()).status();
     assert!(!found.unwrap().success(), "the process {id} still runs");
+}
+
+/// This project's codec, whose rejections contain the number of the question, and which is still
+/// running when the deadline ends the wait after `bye`.
+#[derive(Default)]
+struct Counting {
+    codec: CodecTestee,
+    asked: usize,
+    is_over: bool,
+}
+
+impl Testee for Counting {
+    fn hello(&mut self) -> Result<TesteeHello, TesteeReaction> {
+        Testee::hello(&mut self.codec)
+    }
+
+    fn ask(&mut self, question: &Question) -> TesteeReaction {
+        self.asked += 1;
+        let mut reaction = self.codec.ask(question);
+        if let TesteeReaction::Answer(Answer::Reject(reject)) = &mut reaction {
+            reject.message = Some(self.asked.to_string());
+        }
+        reaction
+    }
+
+    fn bye(&mut self) -> Result<(), String> {
+        self.is_over = true;
+        Err("it did not end after bye".to_owned())
+    }
+
+    fn over(&self) -> Option<String> {
+        self.is_over.then(|| "the deadline has passed".to_owned())
+    }
+}
+
+/// The message of a rejection may change during the run, and a missing exit is not judged if the
+/// deadline has ended the wait for it.
+#[test]
+fn messages_and_an_exit_after_the_deadline_are_not_judged() {
+    let mut testee = Counting::default();
+    let judged = judge(&mut testee, some(), OF_A_TESTEE);
+    assert!(testee.is_over);
+    assert_eq!(exit(&judged), Exit::Success, "{:?}", judged.outcomes.last());
 }
 
 /// Tests with testees that are one line of shell.
