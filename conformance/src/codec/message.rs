@@ -243,6 +243,15 @@ impl Rejection {
 }
 
 impl Output {
+    /// The output without the members of other ops, which are not judged.
+    pub(crate) fn of_op(self, op: &str) -> Self {
+        match op {
+            "decode" => Self { hex: None, packets: None, ..self },
+            "encode" => Self { value: None, packets: None, ..self },
+            _ => self,
+        }
+    }
+
     /// Estimated memory of the output in bytes.
     pub(crate) fn weight(&self) -> usize {
         let packets = self.packets.iter().flatten().map(|packet| packet.len().saturating_add(NODE));

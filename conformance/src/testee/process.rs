@@ -92,7 +92,12 @@ impl Testee for TesteeProcess {
         if !in_step {
             self.process.running = None;
         }
-        reaction
+        match reaction {
+            TesteeReaction::Answer(Answer::Ok(output)) => {
+                TesteeReaction::Answer(Answer::Ok(output.of_op(&question.op)))
+            }
+            other => other,
+        }
     }
 
     fn bye(&mut self) -> Result<(), String> {

@@ -337,7 +337,7 @@ fn messages_and_an_exit_after_the_deadline_are_not_judged() {
 #[cfg(unix)]
 mod shell {
     use ads_cnc_conformance::testee::{
-        Question, Testee as _, TesteeProcess, TesteeReaction, check_protocol,
+        Answer, Output, Question, Testee as _, TesteeProcess, TesteeReaction, check_protocol,
     };
 
     use super::WAIT_MAX;
@@ -397,6 +397,19 @@ mod shell {
         ] {
             let TesteeReaction::Garbled(found) = says(line) else { panic!("{line}") };
             assert!(found.contains(why), "{line}: {found}");
+        }
+    }
+
+    /// The bytes of an answer to `encode` are judged even if the answer also has a value.
+    #[test]
+    fn members_of_other_ops_are_ignored() {
+        let line = r#"{"seq":1,"ok":{"hex":"01","value":{},"packets":[]}}"#;
+        for (op, expected) in [
+            ("encode", Output { hex: Some(vec![1]), ..Output::default() }),
+            ("decode", Output { value: Some(serde_json::json!({})), ..Output::default() }),
+        ] {
+            let answer = shell("", line).ask(&Question::new(op, "object-count", "en-1.05"));
+            assert_eq!(answer, TesteeReaction::Answer(Answer::Ok(expected)));
         }
     }
 
