@@ -1,6 +1,6 @@
 //! A client in its own process, which the suite starts once or for each action.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::action::VOCABULARY;
 use super::message::{
@@ -68,10 +68,17 @@ impl ClientProcess {
             self.process
                 .send(action_command(cnc_address, scenario, action).to_string().into_bytes());
         }
+        let begun = Instant::now();
         let line = self.recv(self.process.timeout)?;
         if !self.stays {
-            match self.process.finish(GRACE) {
-                (None, _) => return Err(ClientReaction::Silent(GRACE)),
+            let left = self.process.timeout.saturating_sub(begun.elapsed()).max(GRACE);
+            match self.process.finish(left) {
+                (None, _) => {
+                    let limit = left.as_millis();
+                    return Err(ClientReaction::Garbled(format!(
+                        "it did not exit within {limit} ms after its answer"
+                    )));
+                }
                 (_, unasked) => self.unasked.extend(unasked),
             }
         }

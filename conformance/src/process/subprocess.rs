@@ -124,6 +124,7 @@ impl Subprocess {
     /// Closes the program's stdin and waits for its end. Returns the exit status if the program
     /// ended in time, and the first line that the program sent before.
     pub fn finish(&mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
+        let limit = self.limit(limit);
         self.running.take().map_or((None, None), |running| running.finish(limit))
     }
 
@@ -134,7 +135,7 @@ impl Subprocess {
             return (Ok(()), None);
         }
         self.send(line);
-        let (status, unasked) = self.finish(self.limit(GRACE.max(self.timeout)));
+        let (status, unasked) = self.finish(GRACE.max(self.timeout));
         let end = match status {
             Some(status) if status.success() => Ok(()),
             Some(status) => Err(format!("it ended with {status} after bye")),

@@ -215,6 +215,29 @@ fn a_second_line_is_reported() {
     }
 }
 
+/// Runs one action of a client in shell that is started for each action.
+#[cfg(unix)]
+fn run_action(action: &str, timeout: &str) -> Value {
+    let hello = r#"{"protocol":1,"client":{"name":"sh"},"actions":["read-by-name"]}"#;
+    let client = format!("if test $ADS_CNC_DO = hello; then echo '{hello}'; else {action}; fi");
+    let only = ["--only", "client-name-more", "--client-timeout", timeout];
+    let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"][..], &only].concat());
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The time limit of an action includes the exit of a client that is started for each action.
+#[cfg(unix)]
+#[test]
+fn a_client_may_exit_until_the_time_limit() {
+    let report = run_action("echo '{\"error\":\"x\"}'; sleep 3", "10000");
+    let failed = failures(&report, "client-name-more");
+    assert!(failed.iter().all(|(id, ..)| id != "CLIENT"), "{failed:?}");
+    let report = run_action("echo '{\"error\":\"x\"}'; sleep 60", "1000");
+    let failed = failures(&report, "client-name-more");
+    let found = "invalid answer: it did not exit within 2000 ms after its answer";
+    assert!(failed.iter().any(|(id, why, _)| id == "CLIENT" && why == found), "{failed:?}");
+}
+
 /// A client that is still running when the deadline ends the wait after `bye`.
 #[derive(Default)]
 struct LateClient(ReferenceClient, bool);
