@@ -260,7 +260,8 @@ impl Run {
             }
             let mut exit = Exit::Success;
             let checked = show(|out| {
-                exit = run_testee::check(command, self.target.timeout(), out)?;
+                let deadline = self.deadline.begin();
+                exit = run_testee::check(command, self.target.timeout(), deadline, out)?;
                 Ok(())
             });
             return checked.map_or_else(lost, |()| exit);

@@ -74,9 +74,14 @@ pub(super) fn target(
 
 /// Checks the protocol step by step. Prints each step and, for a wrong step, the fault and the
 /// lines sent and received; then the end of stderr. Prints no step if a signal interrupts the
-/// check.
-pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
-    let mut process = TesteeProcess::new(command, timeout);
+/// check, and only the steps before the deadline.
+pub(super) fn check(
+    command: &str,
+    timeout: Duration,
+    deadline: Deadline,
+    out: &mut dyn Write,
+) -> io::Result<Exit> {
+    let mut process = TesteeProcess::new(command, timeout).with_deadline(deadline);
     let findings = check_protocol(&mut process);
     let faults = findings.iter().filter(|finding| finding.fault.is_some()).count();
     if interrupt::is_requested() {
@@ -103,8 +108,12 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
             writeln!(out, "       {line}")?;
         }
     }
-    match faults {
-        0 => {
+    match (faults, deadline.is_over()) {
+        (0, true) => {
+            writeln!(out, "Not all steps were checked: {deadline}.")?;
+            Ok(Exit::Nothing)
+        }
+        (0, false) => {
             writeln!(out, "The protocol is correct. To judge the codec, omit --check-protocol.")?;
             Ok(Exit::Success)
         }

@@ -33,7 +33,8 @@ const SAMPLES: [&str; 8] = [
 /// The edition in the questions. The samples are the same in both editions.
 const EDITION: &str = "en-1.05";
 
-/// Tries the steps of the protocol with a testee, except for the ops `packets` and `check`.
+/// Tries the steps of the protocol with a testee, except for the ops `packets` and `check`. After
+/// the deadline of the testee, the results of further steps are not returned.
 pub fn check_protocol(process: &mut TesteeProcess) -> Vec<ProtocolStepResult> {
     let mut steps = Steps { process, findings: Vec::new() };
     let hello = steps.process.hello();
@@ -70,7 +71,8 @@ pub fn check_protocol(process: &mut TesteeProcess) -> Vec<ProtocolStepResult> {
     }
     steps.unknown("an unknown op", "melt", "object-count");
     steps.unknown("an unknown stream", "decode", "no-such-stream");
-    let end = steps.process.bye();
+    let running = steps.process.ensure_running().map_err(|reaction| describe(&reaction));
+    let end = running.and_then(|()| steps.process.bye());
     steps.note("bye ends it with exit code 0", end.err());
     steps.findings
 }
@@ -82,6 +84,9 @@ struct Steps<'p> {
 
 impl Steps<'_> {
     fn note(&mut self, what: impl Into<String>, fault: Option<String>) {
+        if self.process.over().is_some() {
+            return;
+        }
         let (sent, received) = self.process.last();
         let [sent, received, fault] =
             [sent, received, fault].map(|text| text.map(|text| escape(&text)));

@@ -45,6 +45,17 @@ impl TesteeProcess {
         self.process.stderr()
     }
 
+    /// Starts the testee if it is not running.
+    ///
+    /// # Errors
+    /// If the testee cannot be started, or does not answer `hello`.
+    pub(super) fn ensure_running(&mut self) -> Result<(), TesteeReaction> {
+        match self.process.running {
+            Some(_) => Ok(()),
+            None => self.hello().map(drop),
+        }
+    }
+
     /// The last line sent to the testee, except for `bye`, and the answer to it, each truncated to
     /// 400 characters; `None` for a line that was not sent or received.
     pub fn last(&self) -> (Option<String>, Option<String>) {
@@ -77,9 +88,7 @@ impl Testee for TesteeProcess {
     }
 
     fn ask(&mut self, question: &Question) -> TesteeReaction {
-        if self.process.running.is_none()
-            && let Err(reaction) = self.hello()
-        {
+        if let Err(reaction) = self.ensure_running() {
             return reaction;
         }
         self.seq = self.seq.saturating_add(1);

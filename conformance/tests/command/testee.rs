@@ -336,11 +336,14 @@ fn messages_and_an_exit_after_the_deadline_are_not_judged() {
 /// Tests with testees that are one line of shell.
 #[cfg(unix)]
 mod shell {
+    use std::time::Duration;
+
     use ads_cnc_conformance::testee::{
         Answer, Output, Question, Testee as _, TesteeProcess, TesteeReaction, check_protocol,
     };
 
     use super::WAIT_MAX;
+    use crate::common::ads_cnc;
 
     /// A testee in shell that claims these ops and answers each case with this line.
     fn shell(ops: &str, line: &str) -> TesteeProcess {
@@ -411,6 +414,23 @@ mod shell {
             let answer = shell("", line).ask(&Question::new(op, "object-count", "en-1.05"));
             assert_eq!(answer, TesteeReaction::Answer(Answer::Ok(expected)));
         }
+    }
+
+    /// The protocol check ends at the deadline, and tests `bye` even if the testee has crashed at the
+    /// last question.
+    #[test]
+    fn the_protocol_check_has_a_deadline_and_tests_bye() {
+        let check = ["run", "--testee", "sleep 60", "--check-protocol", "--deadline", "1"];
+        let output = ads_cnc(&check);
+        let shown = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{shown}");
+        assert!(shown.contains("Not all steps were checked: the deadline of 1 s"), "{shown}");
+
+        let hello = r#"{"protocol":1,"testee":{"name":"sh"},"capabilities":{"ops":["decode"],"streams":[]}}"#;
+        let command = format!("read l; echo '{hello}'; read l; exit 7");
+        let findings = check_protocol(&mut TesteeProcess::new(command, Duration::from_secs(20)));
+        let bye = findings.last().unwrap().fault.clone().unwrap();
+        assert!(bye.contains("exit status: 7 after bye"), "{bye}");
     }
 
     /// Lines in addition to the answers are reported, even after the last answer.
