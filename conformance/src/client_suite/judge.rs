@@ -263,6 +263,7 @@ fn judge_reaction(
                 "support for the action, which its hello claims",
                 found,
             );
+            scenario_checks.follow_all(CLIENT);
             return Some(Stop::NotApplicable(format!("the client has no {what}")));
         }
         ClientReaction::Answer(ActionResult::Result(value)) => {

@@ -238,6 +238,16 @@ fn a_client_may_exit_until_the_time_limit() {
     assert!(failed.iter().any(|(id, why, _)| id == "CLIENT" && why == found), "{failed:?}");
 }
 
+/// If a client does not support an action that its hello claims, only the protocol fails.
+#[cfg(unix)]
+#[test]
+fn a_claimed_action_without_support_fails_only_the_protocol() {
+    let report = run_action("echo '{\"unsupported\":\"read-by-name\"}'", "10000");
+    let failed = failures(&report, "client-name-more");
+    let ids: Vec<&str> = failed.iter().map(|(id, ..)| id.as_str()).collect();
+    assert_eq!(ids, ["CLIENT"], "{failed:?}");
+}
+
 /// A client that is still running when the deadline ends the wait after `bye`.
 #[derive(Default)]
 struct LateClient(ReferenceClient, bool);
