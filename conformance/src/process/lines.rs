@@ -23,24 +23,50 @@ const VALUES_MAX: usize = 1 << 13;
 /// Maximum number of bytes of stderr that are stored; only the last bytes are stored.
 const STDERR_MAX: usize = 64 << 10;
 
-/// The end of a command's output to stderr.
+/// The end of the output to stderr of a command, also of its earlier starts.
 #[derive(Clone, Debug, Default)]
-pub struct Stderr(Arc<Mutex<VecDeque<u8>>>);
+pub struct Stderr(Arc<Mutex<StderrBytes>>);
+
+#[derive(Debug, Default)]
+struct StderrBytes {
+    kept: VecDeque<u8>,
+    /// Number of the last bytes of `kept` that were written since the last start.
+    latest: usize,
+}
 
 impl Stderr {
     /// The stored bytes as printable text.
     pub fn text(&self) -> String {
-        let kept = lock(&self.0);
-        escape_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
+        self.last(usize::MAX)
+    }
+
+    /// The stored bytes since the last start as printable text.
+    pub(super) fn latest(&self) -> String {
+        let latest = lock(&self.0).latest;
+        self.last(latest)
+    }
+
+    fn last(&self, count: usize) -> String {
+        let kept = &lock(&self.0).kept;
+        let skipped = kept.len().saturating_sub(count);
+        escape_lines(&String::from_utf8_lossy(
+            &kept.iter().skip(skipped).copied().collect::<Vec<u8>>(),
+        ))
+    }
+
+    /// Marks a start of the command.
+    pub(super) fn begin(&self) {
+        lock(&self.0).latest = 0;
     }
 
     fn collect(&self, mut from: impl Read) {
         let mut chunk = [0; 4096];
         while let Ok(len @ 1..) = from.read(&mut chunk) {
-            let mut kept = lock(&self.0);
-            kept.extend(chunk.iter().take(len));
-            let over = kept.len().saturating_sub(STDERR_MAX);
-            kept.drain(..over);
+            let mut bytes = lock(&self.0);
+            bytes.latest = bytes.latest.saturating_add(len);
+            bytes.kept.extend(chunk.iter().take(len));
+            let over = bytes.kept.len().saturating_sub(STDERR_MAX);
+            bytes.kept.drain(..over);
         }
     }
 }

@@ -71,6 +71,7 @@ impl Subprocess {
         if interrupt::is_requested() {
             return Err(Reaction::Broken("interrupted".to_owned()));
         }
+        self.stderr.begin();
         let mut command = shell(&self.line);
         command.envs(variables);
         let started = LineProcess::start(command, &self.stderr);
@@ -113,7 +114,7 @@ impl Subprocess {
                     Some(status) => format!("it ended, {status}"),
                     None => "it closed its stdout".to_owned(),
                 };
-                let stderr = self.stderr();
+                let stderr = self.stderr.latest();
                 let last = stderr.lines().rev().find(|line| !line.trim().is_empty());
                 let last = last.map(|last| format!("; its stderr ends with: {}", cut(last)));
                 Err(Reaction::Died(end + &last.unwrap_or_default()))

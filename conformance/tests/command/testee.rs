@@ -416,6 +416,21 @@ mod shell {
         }
     }
 
+    /// The message about a crash quotes only the stderr of the process that crashed.
+    #[test]
+    fn a_crash_quotes_its_own_stderr() {
+        let file = crate::common::file::TestFile::new(".started", b"");
+        let command = format!("test -e {0} && rm {0} && echo first >&2; exit 3", file.path());
+        let mut testee = TesteeProcess::new(command, WAIT_MAX);
+        let mut crash = || match testee.hello() {
+            Err(TesteeReaction::Died(how)) => how,
+            other => panic!("{other:?}"),
+        };
+        assert!(crash().contains("first"));
+        assert!(!crash().contains("first"));
+        assert!(testee.stderr().contains("first"));
+    }
+
     /// The protocol check ends at the deadline, and tests `bye` even if the testee has crashed at the
     /// last question.
     #[test]
