@@ -188,7 +188,9 @@ fn host(
     }
     let read = all.iter().take(first_write).any(|one| one.variable == Request);
     scenario_checks.check(SVC_1, read, exchanges.last(), "REQUEST read", "not read");
-    let (response, state) = (written(Response), written(ResponseState));
+    // A service may clear RESPONSE_STATE before it writes the response.
+    let state = all.iter().position(|one| one.variable == ResponseState && is_set(one));
+    let (response, state) = (written(Response), state.or_else(|| written(ResponseState)));
     let at = |place: Option<usize>| place.and_then(|place| all.get(place));
     let exchange = at(state).or(at(response)).map(|one| one.exchange).or(exchanges.last());
     let in_order = matches!((response, state), (Some(response), Some(state)) if response < state);
