@@ -25,9 +25,10 @@ use crate::number::{digest, digest_more, to_usize};
 use crate::rules::TargetVariable;
 use crate::text::json as json_text;
 
-/// Maximum number of vectors of a capture, and of bytes in them: a decoded vector needs up to 60
-/// bytes of memory for each of its bytes.
+/// Maximum number of vectors of a capture.
 pub const VECTORS_MAX: usize = 10_000;
+/// Maximum number of bytes in all vectors of a capture: a decoded vector needs up to 60 bytes of
+/// memory for each of its bytes.
 pub const VECTOR_BYTES_MAX: usize = 0x40_0000;
 
 /// The AMS address of the client, and the AMS NetId of the CNC, in every collected frame.
@@ -41,8 +42,8 @@ pub struct Collector {
     vectors: BTreeMap<String, Vector>,
     /// Number of bytes in the vectors.
     bytes: usize,
-    /// Number of streams and frames that were omitted because of [`VECTORS_MAX`] or
-    /// [`VECTOR_BYTES_MAX`].
+    /// Number of streams and frames, repetitions included, that were omitted because of
+    /// [`VECTORS_MAX`] or [`VECTOR_BYTES_MAX`].
     omitted: u64,
 }
 
@@ -61,7 +62,8 @@ impl Collector {
         self.vectors.is_empty()
     }
 
-    /// Number of streams and frames that exceeded the maximum number of vectors or of their bytes.
+    /// Number of streams and frames, repetitions included, that exceeded the maximum number of
+    /// vectors or of their bytes.
     pub const fn omitted(&self) -> u64 {
         self.omitted
     }

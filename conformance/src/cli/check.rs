@@ -262,8 +262,9 @@ impl CheckArgs {
         let mut lines = vec![format!("{}: {}", plural(vectors.len(), "vector"), files.join(", "))];
         if vectors.omitted() > 0 {
             lines.push(format!(
-                "{} not written: at most {VECTORS_MAX} with {} MiB are",
-                plural(vectors.omitted(), "more vector"),
+                "{} not written, repetitions included: the maximum is {VECTORS_MAX} vectors with \
+                 {} MiB in total",
+                plural(vectors.omitted(), "stream or frame"),
                 VECTOR_BYTES_MAX >> 20
             ));
         }

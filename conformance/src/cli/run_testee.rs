@@ -108,12 +108,12 @@ pub(super) fn check(
             writeln!(out, "       {line}")?;
         }
     }
-    match (faults, deadline.is_over()) {
-        (0, true) => {
-            writeln!(out, "Not all steps were checked: {deadline}.")?;
-            Ok(Exit::Nothing)
-        }
-        (0, false) => {
+    if deadline.is_over() {
+        writeln!(out, "Not all steps were checked: {deadline}.")?;
+    }
+    match faults {
+        0 if deadline.is_over() => Ok(Exit::Nothing),
+        0 => {
             writeln!(out, "The protocol is correct. To judge the codec, omit --check-protocol.")?;
             Ok(Exit::Success)
         }

@@ -273,3 +273,44 @@ fn saw(exchange: &RecordedExchange) -> bool {
 /// The text of the request in the scenarios of the Service Interface. A client that answers the
 /// request must repeat it in its response.
 pub(super) const REQUEST: &str = "some-command";
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc::address::Channel;
+    use ads_cnc::ads::{AmsAddr, AmsHeader, AmsPort};
+    use ads_cnc::operation::WriteByName;
+
+    use super::*;
+    use crate::client::frame;
+    use crate::judge::Verdict;
+    use crate::simulator::{Cnc, NET_ID};
+
+    fn write(variable: ServiceVariable, value: &[u8]) -> RecordedExchange {
+        let write = WriteByName::new(Channel::new(1).unwrap(), variable.name(), value).unwrap();
+        let request = Request::from(write);
+        let mut buf = vec![0; request.encoded_len()];
+        let call = request.encode(&mut buf).unwrap();
+        let [target, source] =
+            [call.port, AmsPort(0x8000)].map(|port| AmsAddr { net_id: NET_ID, port });
+        let header = AmsHeader::request(target, source, call.service.command(), 7);
+        RecordedExchange { request: frame(header, &call).unwrap(), ..RecordedExchange::default() }
+    }
+
+    /// A service may clear RESPONSE_STATE before it writes the response, but not set it.
+    #[test]
+    fn only_a_set_response_state_must_follow_the_response() {
+        let script = ScenarioScript::new(Cnc::with_default_model().unwrap());
+        for (first, fails) in [(0, false), (1, true)] {
+            let exchanges = [
+                write(ServiceVariable::ResponseState, &[first, 0, 0, 0]),
+                write(ServiceVariable::Response, REQUEST.as_bytes()),
+                write(ServiceVariable::ResponseState, &[1, 0, 0, 0]),
+            ];
+            let mut checks = ScenarioChecks::default();
+            host(&script, &exchanges, &mut checks);
+            let mut failed =
+                checks.record.judgements.iter().filter(|one| one.verdict == Verdict::Fail);
+            assert_eq!(failed.any(|one| one.requirement == SVC_5.as_str()), fails);
+        }
+    }
+}

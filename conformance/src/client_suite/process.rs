@@ -76,7 +76,7 @@ impl ClientProcess {
                 (None, _) => {
                     let limit = left.as_millis();
                     return Err(ClientReaction::Garbled(format!(
-                        "it did not exit within {limit} ms after its answer"
+                        "the client did not exit within {limit} ms after it"
                     )));
                 }
                 (_, unasked) => self.unasked.extend(unasked),

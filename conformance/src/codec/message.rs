@@ -248,6 +248,8 @@ impl Output {
         match op {
             "decode" => Self { hex: None, packets: None, ..self },
             "encode" => Self { value: None, packets: None, ..self },
+            "packets" => Self { value: None, hex: None, ..self },
+            "check" => Self::default(),
             _ => self,
         }
     }

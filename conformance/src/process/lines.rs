@@ -30,7 +30,9 @@ pub struct Stderr(Arc<Mutex<StderrBytes>>);
 #[derive(Debug, Default)]
 struct StderrBytes {
     kept: VecDeque<u8>,
-    /// Number of the last bytes of `kept` that were written since the last start.
+    /// Number of starts of the command.
+    starts: u64,
+    /// Number of the last bytes of `kept` that the process of the last start has written.
     latest: usize,
 }
 
@@ -56,14 +58,20 @@ impl Stderr {
 
     /// Marks a start of the command.
     pub(super) fn begin(&self) {
-        lock(&self.0).latest = 0;
+        let mut bytes = lock(&self.0);
+        bytes.starts = bytes.starts.wrapping_add(1);
+        bytes.latest = 0;
     }
 
     fn collect(&self, mut from: impl Read) {
         let mut chunk = [0; 4096];
+        let start = lock(&self.0).starts;
         while let Ok(len @ 1..) = from.read(&mut chunk) {
             let mut bytes = lock(&self.0);
-            bytes.latest = bytes.latest.saturating_add(len);
+            // A process that an earlier process started may still write.
+            if bytes.starts == start {
+                bytes.latest = bytes.latest.saturating_add(len);
+            }
             bytes.kept.extend(chunk.iter().take(len));
             let over = bytes.kept.len().saturating_sub(STDERR_MAX);
             bytes.kept.drain(..over);

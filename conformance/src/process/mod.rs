@@ -59,8 +59,8 @@ type SharedChild = Mutex<Box<dyn ChildWrapper>>;
 static RUNNING: Mutex<Vec<Weak<SharedChild>>> = Mutex::new(Vec::new());
 
 /// A running command. Dropping it ends the command and the processes that it started, even if the
-/// command has already ended: on Unix its process group (a process that created its own group or
-/// session continues), on Windows its job.
+/// command has already ended: on Unix its process group (a process that the command started, and that
+/// created its own group or session, continues), on Windows its job.
 ///
 /// Because the command has its own process group, Ctrl-C in a terminal reaches only this tool,
 /// which then ends the command.

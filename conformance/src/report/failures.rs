@@ -41,20 +41,24 @@ pub(super) fn blocks(
     let (failed, others): (Vec<&Group<'_>>, Vec<&Group<'_>>) =
         all.iter().partition(|group| group.is_failure());
     let verbose = display.detail == Detail::Verbose;
-    // If there are failures, show fewer warnings and differences.
+    // If there are failures, show fewer warnings and differences, but all groups that fail the run or
+    // from which other checks follow.
+    let (others, notes): (Vec<_>, Vec<_>) = others.into_iter().partition(|group| {
+        !group.followers.is_empty() || group.verdict.fails_run() && !group.waived
+    });
     let shown = if verbose || failed.is_empty() { usize::MAX } else { NOTES_MAX };
-    for group in others.iter().take(shown) {
+    for group in notes.iter().take(shown).chain(&others) {
         brief(group, display, out)?;
         if let Some(location) = report.target.file.as_ref().and_then(|_| location(group)) {
             writeln!(out, "  {location}")?;
         }
     }
-    if let Some(more) = others.get(shown..).filter(|more| !more.is_empty()) {
+    if let Some(more) = notes.get(shown..).filter(|more| !more.is_empty()) {
         let names: BTreeSet<&str> = more.iter().map(|group| group.requirement()).collect();
         let number = plural(more.len(), "other deviation");
         writeln!(out, "{number} (-v shows all): {}", list(names, usize::MAX))?;
     }
-    if !others.is_empty() {
+    if !(notes.is_empty() && others.is_empty()) {
         writeln!(out)?;
     }
     let most = if verbose { usize::MAX } else { GROUPS_MAX };

@@ -60,7 +60,14 @@ impl RuleBook {
     /// Forgets the state of all CNCs, because requests that were not observed may have changed it.
     pub(crate) fn forget_cncs(&mut self) {
         self.cncs.clear();
+        self.budget.programs = MemoryBudget::PROGRAMS;
         self.is_lost = true;
+    }
+
+    /// Number of channels whose NC programs are checked.
+    fn programs(&self) -> usize {
+        let streams = self.cncs.values().flat_map(|cnc| cnc.streams.values());
+        streams.filter(|stream| stream.checker.is_some()).count()
     }
 
     /// Judges a reply, alone and together with earlier replies of the same CNC.
@@ -79,6 +86,7 @@ impl RuleBook {
         if !answer.ams_error.is_ok() {
             // After an AMS error, another CNC may have this NetId, so the stored state is removed.
             self.cncs.remove(&cnc);
+            self.budget.programs = MemoryBudget::PROGRAMS.saturating_sub(self.programs());
             return;
         }
         if !self.cncs.contains_key(&cnc) && self.cncs.len() >= CNCS_MAX {

@@ -48,9 +48,10 @@ impl TesteeProcess {
     /// Starts the testee if it is not running.
     ///
     /// # Errors
-    /// If the testee cannot be started, or does not answer `hello`.
+    /// If the deadline is over, the testee cannot be started, or it does not answer `hello`.
     pub(super) fn ensure_running(&mut self) -> Result<(), TesteeReaction> {
         match self.process.running {
+            _ if self.over().is_some() => Err(TesteeReaction::Silent(Duration::ZERO)),
             Some(_) => Ok(()),
             None => self.hello().map(drop),
         }

@@ -38,14 +38,13 @@ fn run_against(
     suite::run(cases, Some(&mut session), seeded.as_ref(), 0)
 }
 
-/// The IDs of the cases that fail, have a warning, or have a failure that follows from another clause.
+/// The IDs of the cases with a failure, a warning, or a failure that follows from another clause.
 fn failed(outcomes: &[CaseOutcome]) -> Vec<&str> {
-    let follows = |outcome: &CaseOutcome| {
-        let mut judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
-        judged.any(|judgement| judgement.follows.is_some())
-    };
     let failed = outcomes.iter().filter(|outcome| {
-        matches!(outcome.verdict(), Verdict::Fail | Verdict::Warning) || follows(outcome)
+        let mut judged = outcome.verdicts.iter().flat_map(|one| &one.judgements);
+        judged.any(|one| {
+            matches!(one.verdict, Verdict::Fail | Verdict::Warning) || one.follows.is_some()
+        })
     });
     failed.map(|outcome| outcome.case.id.as_str()).collect()
 }

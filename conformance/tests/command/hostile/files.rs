@@ -24,7 +24,6 @@ fn a_file_that_is_too_long_is_not_read() {
             "127.0.0.1.1.1",
             "--allow-write",
         ],
-        &["explain", "--frame", "--file"],
     ] {
         let ended = run(&[args, &[file.path()]].concat());
         assert_eq!(ended.code, Some(2), "{args:?}: {}", ended.stderr);

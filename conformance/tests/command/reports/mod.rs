@@ -308,13 +308,30 @@ fn run_waived(only: &str, waived: &[[&str; 3]]) -> (Value, TestFolder) {
 /// and the report names it.
 #[test]
 fn a_waiver_does_not_accept_what_follows() {
-    let (document, folder) = run_waived(
+    let (mut document, folder) = run_waived(
         "com-descriptors,printed-descriptor-printed",
         &[["printed-descriptor-printed", "COM-2", "fail"]],
     );
     assert_eq!(document["exit_code"], 3);
+    // With another failure, some of the warnings are not shown.
+    let cases = document["cases"].as_array_mut().unwrap();
+    let mut other = cases[0].clone();
+    let failure = other["failures"][0].clone();
+    let all = ["COM-1", "COM-3", "COM-4", "COM-5", "COM-6"].map(|requirement| {
+        let mut failure = failure.clone();
+        failure["requirement"] = json!(requirement);
+        failure["verdict"] = json!(if requirement == "COM-1" { "fail" } else { "warning" });
+        failure["follows"] = Value::Null;
+        failure["waived"] = json!(false);
+        failure["expected"] = json!(requirement);
+        failure
+    });
+    (other["id"], other["failures"]) = (json!("other"), json!(all));
+    cases.push(other);
+    fs::write(folder.file("run.json"), document.to_string()).unwrap();
     let shown = ads_cnc(&["report", &folder.file("run.json")]).stdout;
     let shown = String::from_utf8(shown).unwrap();
+    assert!(shown.contains("1 other deviation"), "{shown}");
     let cause = "FAIL, WAIVED  COM-2  printed-descriptor-printed: size: 0 where 1 is expected\n  \
                  follows from it: com-descriptors (GEN-5)\n";
     assert!(shown.contains(cause), "{shown}");

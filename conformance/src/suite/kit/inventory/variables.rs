@@ -110,19 +110,27 @@ impl Probe<'_> {
                 self.read_unjudged(DescribeByIndex::new(channel, index, kind))?;
             let variable = requestable(variable);
             all.extend(variable.clone());
-            self.store(key, index, variable)?;
+            if !self.store(key, index, variable) {
+                // Without the stored descriptions, each case would request them again.
+                return Err(Stop::Inconclusive(format!(
+                    "{name} channel {channel}, index {index}: the descriptions of all channels that \
+                     were read need more than {} MiB, which is the limit",
+                    DESCRIPTIONS_MAX >> 20
+                )));
+            }
         }
         Ok(all)
     }
 
-    /// Stores a description; `None` for a variable whose name is too long for a request. Ends the
-    /// case as inconclusive if the descriptions of all channels exceed [`DESCRIPTIONS_MAX`].
+    /// Stores a description; `None` for a variable whose name is too long for a request. Stores
+    /// nothing and returns false if the descriptions of all channels would exceed
+    /// [`DESCRIPTIONS_MAX`].
     fn store(
         &mut self,
         key: (u32, &'static str),
         index: u32,
         variable: Option<Description>,
-    ) -> Step {
+    ) -> bool {
         let lists = self.target.variables.values();
         let stored = lists.fold(0_usize, |sum, list| sum.saturating_add(list.bytes));
         let more = variable.as_ref().map_or(0, |variable| {
@@ -131,17 +139,12 @@ impl Probe<'_> {
         });
         let more = more.saturating_add(size_of::<Option<Description>>());
         if stored.saturating_add(more) > DESCRIPTIONS_MAX {
-            let (channel, kind) = key;
-            return Err(Stop::Inconclusive(format!(
-                "{kind} channel {channel}, index {index}: the descriptions of all channels that \
-                 were read need more than {} MiB, which is the limit",
-                DESCRIPTIONS_MAX >> 20
-            )));
+            return false;
         }
         let list = self.target.variables.entry(key).or_default();
         list.bytes = list.bytes.saturating_add(more);
         list.read.insert(index, variable);
-        Ok(())
+        true
     }
 
     /// Returns a description that the case judges. A stored description is returned without a
@@ -158,9 +161,10 @@ impl Probe<'_> {
         if let Some(Some(known)) = known {
             return Ok(known.clone());
         }
+        let is_new = known.is_none() && self.target.variables.contains_key(&key);
         let variable: Description = self.read(rule, DescribeByIndex::new(channel, index, kind))?;
-        if self.target.variables.contains_key(&key) {
-            self.store(key, index, requestable(variable.clone()))?;
+        if is_new {
+            self.store(key, index, requestable(variable.clone()));
         }
         Ok(variable)
     }
