@@ -29,7 +29,7 @@ use detection::{CheckedTable, PairFigures, Scope};
 pub use parallel::SelfTestProgress;
 use parallel::parallel;
 pub use show::print;
-use trial::{Candidate, judge, whole};
+use trial::{Candidate, detecting, judge, whole};
 pub use trial::{SelfTestGroup, Trial, TrialResult};
 pub use undetectable::UNSEEN;
 
@@ -157,7 +157,7 @@ fn by_level(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialRe
     let (failed, result) = judge(targets, outcomes);
     let broken: Vec<&str> = targets.iter().map(|id| whole(id)).collect();
     let noticed = outcomes.iter().flat_map(|outcome| &outcome.verdicts).any(|one| {
-        matches!(one.verdict, Verdict::Warning | Verdict::Differs)
+        matches!(detecting(one), Verdict::Warning | Verdict::Differs)
             && broken.contains(&one.requirement)
     });
     match result {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::judge::{CaseOutcome, Verdict};
+use crate::judge::{CaseOutcome, RequirementVerdict, Verdict};
 use crate::session::ToolError;
 use crate::text::named;
 
@@ -98,13 +98,25 @@ pub(super) fn whole(id: &str) -> &str {
     id.split_once('.').map_or(id, |(of, _)| of)
 }
 
+/// The verdict on a requirement, or a warning if a check has a warning and none fails: the warning
+/// detects a defect even if other checks are inconclusive.
+pub(super) fn detecting(judged: &RequirementVerdict) -> Verdict {
+    let mut checks = judged.judgements.iter();
+    match judged.verdict {
+        Verdict::Inconclusive if checks.any(|one| one.verdict == Verdict::Warning) => {
+            Verdict::Warning
+        }
+        verdict => verdict,
+    }
+}
+
 /// The failed requirements and the result of the trial. After a harness error, the requirements
 /// with a harness error are returned instead of the failed requirements.
 pub(super) fn judge(targets: &[&str], outcomes: &[CaseOutcome]) -> (Vec<String>, TrialResult) {
     let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
         let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
         let mut found: Vec<&'static str> = judged
-            .filter(|one| verdicts.contains(&one.verdict))
+            .filter(|one| verdicts.contains(&detecting(one)))
             .map(|one| one.requirement)
             .collect();
         found.sort_unstable();

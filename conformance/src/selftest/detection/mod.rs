@@ -22,7 +22,7 @@ use crate::faults::SeededDefect;
 use crate::judge::Verdict;
 use crate::session::ToolError;
 
-use super::trial::{TrialResult, judge};
+use super::trial::{TrialResult, detecting, judge};
 pub use check::{CheckedTable, SAMPLE, Scope};
 pub use detection_result::{Detection, DetectionResult, Mode};
 use device::{answers, devices};
@@ -99,7 +99,8 @@ fn detect(defect: &SeededDefect, mode: Mode) -> Result<Detection, ToolError> {
     };
     let (mut requirements, mut cases) = (BTreeSet::new(), BTreeSet::new());
     for outcome in &outcomes {
-        for one in outcome.verdicts.iter().filter(|one| counts(one.requirement, one.verdict)) {
+        let verdicts = outcome.verdicts.iter();
+        for one in verdicts.filter(|one| counts(one.requirement, detecting(one))) {
             requirements.insert(one.requirement.to_owned());
             cases.insert(outcome.case.id.clone());
         }
