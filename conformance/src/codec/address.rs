@@ -55,13 +55,14 @@ pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Co
 /// and `base`, the group of the number 0.
 fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, CodecError> {
     let lacks = || CodecError::Unsupported(format!("{base} is not the base of {group}"));
-    let number = group.get().checked_sub(base.get()).ok_or_else(lacks)?;
+    // The number of a group below the base is out of every range.
+    let number = group.get().wrapping_sub(base.get());
     Ok(match base.parts().ok_or_else(lacks)? {
+        // The base itself: the group of the platform, or a group without an axis or a channel.
+        _ if number == 0 => base,
         Group::Com(com) if com.table == ComTable::Axis => {
             PlatformAxis::new(number)?.com(com.access)
         }
-        // The number 0 is the platform, which is not a channel.
-        Group::Com(_) if number == 0 => base,
         Group::Com(com) => channel(com.addressing, number)?.com(com.access),
         Group::Class(class) if class.class == Class::Spindle => {
             Spindle::new(number)?.class(class.attribute)
@@ -156,5 +157,23 @@ fn stride(context: &Context) -> Result<AxisStride, CodecError> {
         Some(0x1_0000) => Ok(AxisStride::X10000),
         Some(0x1000) => Ok(AxisStride::X1000),
         other => Err(CodecError::Unsupported(format!("the axis stride {other:?}"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A group is its base plus a number of at most 255.
+    #[test]
+    fn a_group_belongs_to_its_base() {
+        for base in [0x12_0200, 0x13_0200, 0x12_1300, 0x02_1300] {
+            let of = |group| of_base(IndexGroup::new(base), IndexGroup::new(group));
+            assert_eq!(of(base).unwrap(), IndexGroup::new(base));
+            assert_eq!(of(base + 1).unwrap(), IndexGroup::new(base + 1));
+            for other in [base - 1, base + 0x100, 0] {
+                assert!(matches!(of(other), Err(CodecError::Error(_))), "{base:#x}, {other:#x}");
+            }
+        }
     }
 }
