@@ -65,7 +65,7 @@ pub(super) struct CheckArgs {
     keep_texts: bool,
 
     /// Judge only this: an area (VAR), a requirement (VAR-11), a section of a manual with all
-    /// sections below it (ads:4.3) or the ID of a case; * stands for any characters, ? for one;
+    /// sections below it (ads:4.3) or the ID of a case; * matches any characters, ? one;
     /// repeatable [default: all]
     #[arg(long, value_name = "AREA|SECTION|ID")]
     only: Vec<String>,
@@ -112,7 +112,7 @@ Removed from vectors:
   you pass them on. Existing files are not overwritten.
 
 Exit codes, the first that applies:
-  70 internal error, 2 wrong usage or no capture, 1 a fail, 5 an invalid waiver, 3 nothing judged or
+  70 internal error, 2 wrong usage or no capture, 1 a fail, 5 a stale waiver, 3 nothing judged or
   a case is inconclusive, 0 passed. Warnings and differences do not change the exit code.";
 
 /// Maximum number of exchanges that are shown without -v.

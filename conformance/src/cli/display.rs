@@ -31,7 +31,7 @@ impl Color {
 /// Options for the result on the console.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct DisplayArgs {
-    /// Show every case and every requirement
+    /// Show every case, and the requirements that did not pass
     #[arg(long, short)]
     verbose: bool,
 

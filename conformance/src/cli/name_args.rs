@@ -20,8 +20,8 @@ use crate::value_format::type_by_name;
 /// The arguments that identify a variable, parameter, object or element.
 #[derive(Args, Clone, Debug)]
 pub(super) struct NameArgs {
-    /// Name of a variable (V.E.list, V.E.list[3], V.G.NP[0].V), of a parameter (P1, V.P.count), of
-    /// a COM object or of an element of SDA and GEO
+    /// Name of a variable (V.E.list, V.E.list[3], V.G.NP[0].V), of a parameter (V.P.count; P1, which
+    /// only `get` accepts), of a COM object or of an element of SDA and GEO
     #[arg(value_name = "NAME", value_parser = given_name)]
     name: String,
 

@@ -98,7 +98,8 @@ pub(super) struct Run {
     ///
     /// The effect on a CNC that accepts them is unknown. Needs `malformed = true` in the file of
     /// --allow-write and a target on loopback. Loopback does not guarantee that no machine moves:
-    /// the CNC of an industrial PC and a device behind an SSH tunnel are also reached through it.
+    /// the CNC of an industrial PC and a device at the other end of an SSH tunnel are also reached
+    /// through it.
     #[arg(long, hide_short_help = true, requires = "target", conflicts_with_all = ["testee", "client", "client_listen"])]
     malformed: bool,
 
@@ -176,9 +177,10 @@ fn after_long_help() -> String {
 
 Known failures, a file for --waivers:
 {WAIVER}
-  A waiver is invalid if it has expired, if the case has no verdict on the requirement, or if the
-  verdict is a different one. An invalid waiver makes the run end with 5 unless a case fails. An unknown case is
-  wrong usage. With --waivers or -v, the run prints such an entry for each failure.
+  A waiver is stale if it has expired, if the case has no verdict on the requirement, or if the
+  verdict is a different one. A stale waiver makes the run end with 5 unless a case fails. An unknown
+  case is wrong usage. With --waivers or -v, the run prints such an entry for each of up to 20
+  failures.
 
 Signals:
   On SIGINT (Ctrl-C), SIGTERM and SIGHUP, the run restores the value under test and reads it back,
@@ -187,7 +189,7 @@ Signals:
 
 Exit codes, the first that applies:
   70 internal error, 6 a value was changed and could not be restored, 2 wrong usage, 4 rejected for
-  safety, 1 a fail or a vacuous verdict, 5 an invalid waiver, 3 nothing judged, or a case is
+  safety, 1 a fail or a vacuous verdict, 5 a stale waiver, 3 nothing judged, or a case is
   inconclusive or interrupted, 0 passed. Warnings and differences do not change the exit code."
     )
 }

@@ -65,7 +65,8 @@ pub(super) struct TargetArgs {
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "ID", requires = "target", value_parser = net_id)]
     source_net_id: Option<AmsNetId>,
 
-    /// Timeout for a connection to a device and for its replies, in milliseconds [default: 2000]
+    /// Timeout for a connection to a device, for each of its replies and for each answer of a testee,
+    /// in milliseconds [default: 2000]
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "MS",
         allow_negative_numbers = true, value_parser = time())]
     timeout: Option<u64>,
@@ -104,7 +105,8 @@ pub(super) struct TargetArgs {
 /// The deadline of commands that may send many requests.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct DeadlineArgs {
-    /// Deadline for all requests, in seconds; the rest is reported as not requested
+    /// Deadline for all requests, in seconds; what was not requested by then is reported as
+    /// inconclusive (`run`) or missing
     #[arg(long, hide_short_help = true, help_heading = TARGET, value_name = "SECONDS", default_value_t = DEADLINE,
         allow_negative_numbers = true, value_parser = time())]
     deadline: u64,

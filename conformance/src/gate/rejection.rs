@@ -165,7 +165,8 @@ impl GateRejection {
                 "Use the NetId that the router of the device shows in the file.".to_owned()
             }
             (Reason::NoMalformed(target), _) => format!(
-                "If this is safe, allow it in a file for --allow-write:\n\n\
+                "If this is safe, add malformed = true to the file of --allow-write, above its first \
+                 table. A new file needs these lines:\n\n\
                  target = \"{target}\"\n\
                  expires = {}  # no writes from then on\n\
                  malformed = true",
@@ -237,7 +238,11 @@ impl fmt::Display for GateRejection {
                 name(function)
             ),
             Reason::NoMalformed(target) => {
-                write!(f, "no file permits malformed requests to {target}")
+                write!(
+                    f,
+                    "no file of --allow-write permits malformed requests to {target} by \
+                     malformed = true"
+                )
             }
             Reason::Expired(moment) => {
                 // A write is rejected before the expiry if its value could not be restored in time.

@@ -25,7 +25,7 @@ use crate::text::did_you_mean;
 ///
 /// let only = vec!["VRA".to_owned()];
 /// let nothing = Selection { edition: None, only }.plan(suite::cases(), 1).unwrap_err();
-/// let why = "no requirement, section, stream or case is called VRA - did you mean VAR?";
+/// let why = "no area, requirement, section, stream or case is called VRA - did you mean VAR?";
 /// assert_eq!(nothing.to_string(), why);
 /// # Ok::<(), Unmatched>(())
 /// ```
@@ -42,7 +42,7 @@ pub struct Selection {
 
 /// A word that selects no case.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no requirement, section, stream or case is called {word}{near}")]
+#[error("no area, requirement, section, stream or case is called {word}{near}")]
 pub struct Unmatched {
     word: String,
     /// The most similar names.
@@ -364,7 +364,8 @@ mod tests {
         ] {
             let only = vec![word.to_owned()];
             let error = Selection { edition: None, only }.plan(cases(), 1).unwrap_err();
-            let why = format!("no requirement, section, stream or case is called {word}{near}");
+            let why =
+                format!("no area, requirement, section, stream or case is called {word}{near}");
             assert!(error.to_string().starts_with(&why), "{error}");
         }
     }

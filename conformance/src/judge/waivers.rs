@@ -82,7 +82,7 @@ impl WaiverState {
             Self::NotRun => "not run",
             Self::Expired => "stale: expired",
             Self::Unmatched => "stale: no such case or requirement was run",
-            Self::Otherwise => "stale: the verdict differs",
+            Self::Otherwise => "stale: another verdict was found",
         }
     }
 }

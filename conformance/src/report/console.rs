@@ -233,7 +233,11 @@ fn reasons(cases: &[&CaseReport], out: &mut dyn Write) -> io::Result<()> {
     }
     match more {
         0 => Ok(()),
-        _ => writeln!(out, "    and {} (-v shows all)", plural(more, "other reason")),
+        _ => writeln!(
+            out,
+            "    and {} (-v shows the reason of each case)",
+            plural(more, "other reason")
+        ),
     }
 }
 
@@ -432,7 +436,7 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
             "correctly rejected, but the matching valid vector is rejected too; a failure",
         ),
         (Verdict::Inconclusive, "not decided by the replies, or follows from another failure"),
-        (Verdict::NotObserved, "no case in this run tests it"),
+        (Verdict::NotObserved, "no case that was run tested it"),
         (Verdict::Interrupted, "the run ended before the case was complete"),
     ] {
         if known(verdict) {

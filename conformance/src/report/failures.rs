@@ -117,7 +117,7 @@ fn location<'r>(group: &Group<'r>) -> Option<&'r str> {
 pub(super) fn alike(group: &Group<'_>) -> String {
     match group.checks().saturating_sub(1) {
         0 => String::new(),
-        more => format!(" and {more} alike"),
+        more => format!(" and {more} similar"),
     }
 }
 
@@ -188,11 +188,11 @@ pub(super) fn block(
     let cases = group.cases();
     match (group.checks().saturating_sub(1), cases.len()) {
         (0, _) => {}
-        (more, 1) => writeln!(out, "  {more} alike in this case")?,
+        (more, 1) => writeln!(out, "  {more} similar in this case")?,
         (more, _) => {
             let others = cases.iter().copied().filter(|one| *one != case.id);
             let names = list(others, if verbose { usize::MAX } else { NAMES_MAX });
-            let text = wrap(&format!("{more} alike, also in {names}"), WIDTH);
+            let text = wrap(&format!("{more} similar, also in {names}"), WIDTH);
             text.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
         }
     }

@@ -35,7 +35,7 @@ pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
 /// assert_eq!(plain(&ty, &bytes).as_deref(), Some("1,-2,16"));
 /// assert_eq!(
 ///     parse(&ty, "1,2,40000").unwrap_err().to_string(),
-///     "40000 is not of type SGN16, which has -32768 to 32767"
+///     "40000 is not of type SGN16, whose range is -32768 to 32767"
 /// );
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

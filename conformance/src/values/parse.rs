@@ -59,7 +59,7 @@ fn boolean(text: &str) -> Result<Boolean, InvalidValue> {
         "TRUE" | "1" => Ok(Boolean::TRUE),
         "FALSE" | "0" => Ok(Boolean::FALSE),
         _ => Err(InvalidValue(format!(
-            "{text} is not of type BOOLEAN, which has TRUE and FALSE, or 1 and 0"
+            "{text} is not of type BOOLEAN, which has the values TRUE, FALSE, 1 and 0"
         ))),
     }
 }
@@ -83,7 +83,7 @@ where
     let number = i128::from_str_radix(digits, radix).unwrap_or(i128::MAX).checked_mul(sign);
     number.and_then(|number| T::try_from(number).ok()).ok_or_else(|| {
         let (least, most) = (least.into(), most.into());
-        InvalidValue(format!("{text} is not of type {name}, which has {least} to {most}"))
+        InvalidValue(format!("{text} is not of type {name}, whose range is {least} to {most}"))
     })
 }
 
@@ -117,7 +117,7 @@ fn within<T: std::fmt::Debug>(
         Ok(number)
     } else {
         Err(InvalidValue(format!(
-            "{text} is not of type {}, which has {least:?} to {most:?}",
+            "{text} is not of type {}, whose range is {least:?} to {most:?}",
             ty.name()
         )))
     }
@@ -138,7 +138,11 @@ fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, InvalidValue> {
         let hint = if is_real && count == 2 { "; the decimal separator is a point" } else { "" };
         Err(InvalidValue(format!("{ty} is a single element, but {count} are given{hint}")))
     } else {
-        Err(InvalidValue(format!("{ty} has {}, but {count} are given", plural(needed, "element"))))
+        let verb = if count == 1 { "is" } else { "are" };
+        Err(InvalidValue(format!(
+            "{ty} has {}, but {count} {verb} given",
+            plural(needed, "element")
+        )))
     }
 }
 
@@ -313,13 +317,13 @@ mod tests {
     #[test]
     fn an_error_says_what_the_type_permits() {
         for (ty, text, why) in [
-            (DataType::Sgn08, "128", "128 is not of type SGN08, which has -128 to 127"),
-            (DataType::Uns32, "-1", "-1 is not of type UNS32, which has 0 to 4294967295"),
+            (DataType::Sgn08, "128", "128 is not of type SGN08, whose range is -128 to 127"),
+            (DataType::Uns32, "-1", "-1 is not of type UNS32, whose range is 0 to 4294967295"),
             (DataType::Lint, "0x1_0", "0x1_0 is not of type LINT, which is a whole number"),
             (
                 DataType::Lword,
                 "99999999999999999999999999999999999999999999",
-                "99999999999999999999999999999999999999999999 is not of type LWORD, which has 0 to \
+                "99999999999999999999999999999999999999999999 is not of type LWORD, whose range is 0 to \
                  18446744073709551615",
             ),
             (DataType::Uns16, "1.5", "1.5 is not of type UNS16, which is a whole number"),
@@ -331,7 +335,7 @@ mod tests {
             (
                 DataType::Real32,
                 "1e39",
-                "1e39 is not of type REAL32, which has -3.4028235e38 to 3.4028235e38",
+                "1e39 is not of type REAL32, whose range is -3.4028235e38 to 3.4028235e38",
             ),
             (
                 DataType::Real64,
@@ -346,7 +350,7 @@ mod tests {
             (
                 DataType::Boolean,
                 "2",
-                "2 is not of type BOOLEAN, which has TRUE and FALSE, or 1 and 0",
+                "2 is not of type BOOLEAN, which has the values TRUE, FALSE, 1 and 0",
             ),
             (DataType::Uns08, "1,2", "UNS08 is a single element, but 2 are given"),
         ] {

@@ -43,7 +43,7 @@ fn a_failure_is_shown_with_its_clause_and_bytes() {
         "\n  The size of a description is the whole variable's in bytes",
         "\n  var-descriptions: V.G.NP[0].V: expected ",
         "; found ",
-        " alike, also in ",
+        " similar, also in ",
         "\n  again: ads-cnc run --defect variable-description.size.flip --only var-descriptions --seed ",
         "\n  sent      ReadWrite 0x122301, 0x45 at port 552",
         "V.G·              kind",

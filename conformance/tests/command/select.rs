@@ -71,7 +71,7 @@ fn an_unknown_selection_is_not_a_success() {
         assert!(
             String::from_utf8(output.stderr)
                 .unwrap()
-                .contains("no requirement, section, stream or case is called")
+                .contains("no area, requirement, section, stream or case is called")
         );
     }
     let output = ads_cnc(&["run", "--edition", "fr-1.0"]);
@@ -191,7 +191,7 @@ fn known_failures_are_waived_until_they_expire() {
         ("used", good.clone(), &[], 0, "used: var-descriptions [VAR-8]"),
         ("expired", good.replace("9999", "2020"), &[], 1, "stale: expired"),
         ("over", waiver("var-descriptions", "VAR-3", "fail", "2020-01-01"), &[], 1, "stale: exp"),
-        ("other", good.replace("fail", "warning"), &[], 1, "stale: the verdict differs"),
+        ("other", good.replace("fail", "warning"), &[], 1, "stale: another verdict was found"),
         (
             "unmatched",
             format!("{good}{}", waiver("com-count", "VAR-8", "fail", "9999-01-01")),
