@@ -107,12 +107,27 @@ class Cnc:
 
 
 def kind_of(name):
-    """Splits a type such as `SGN16[2,3]` into its name and the number of elements."""
-    name, inside = re.fullmatch(r"(\w+)(?:\[(.*)\])?", name).groups()
+    """Splits a type such as `SGN16[2,3]` into its name and the number of elements.
+
+    >>> kind_of("SGN16[2,3]")
+    ('SGN16', 6)
+    >>> kind_of("STRING")
+    ('STRING', 1)
+    >>> for name in "SGN99", "STRING(32)", "":
+    ...     try:
+    ...         kind_of(name)
+    ...     except Wrong as wrong:
+    ...         print(wrong)
+    the type 'SGN99' is unknown
+    the type 'STRING(32)' is unknown
+    the type '' is unknown
+    """
+    parts = re.fullmatch(r"(\w+)(?:\[(.*)\])?", name)
+    check(parts and parts[1] in (*TYPES, "STRING"), f"the type {name!r} is unknown")
     count = 1
-    for size in (inside or "1").split(","):
+    for size in (parts[2] or "1").split(","):
         count *= int(size)
-    return name, count
+    return parts[1], count
 
 
 def decode(kind, data):
