@@ -174,17 +174,68 @@ def handled(handle, indices):
     return struct.pack(f"<II{len(places)}I", int(handle), len(places), *places)
 
 
-def stream(cnc, channel, file):
-    lines = open(file, "rb").read().replace(b"\r\n", b"\n").removesuffix(b"\n").split(b"\n")
+def without_comments(line):
+    """Returns a line with spaces instead of comments and quoted text; parentheses nest.
+
+    >>> without_comments(b'N10 (a (b) " c) "d ; (" G1 ;e').split()
+    [b'N10', b'G1']
+    """
+    kept, depth = b"", 0
+    while line:
+        token = re.match(rb"." if depth else rb'"[^"]*"|;.*|.', line)[0]
+        line = line[len(token):]
+        depth += token == b"("
+        kept += b" " if depth or len(token) > 1 else token
+        depth -= token == b")" and depth > 0
+    return kept
+
+
+def has_loop(lines):
+    """Returns whether a line contains a keyword of a loop outside comments and quoted text.
+
+    >>> all(has_loop([line]) for line in (b"N10 $FOR", b"X1 $for", b"(a (b)) $Do", b'"(" $DO', b"$UNTIL1"))
+    True
+    >>> any(has_loop([line]) for line in (b"N10 ;$FOR", b"(a (b) $FOR", b'#MSG ["$FOR"]', b"$FORX", b"FOR"))
+    False
+    >>> has_loop([b"N1 #comment begin", b"$DO", b"/ N2 #COMMENT END", b"X1"])
+    False
+    >>> has_loop([b"#COMMENT BEGIN", b"#COMMENT END", b"$DO"])
+    True
+    """
+    in_comment = False
+    for line in lines:
+        block = re.match(rb"\s*(?:/\d*\s*)?(?:N\s*\d+\s*)?#COMMENT\s+(BEGIN|END)(?![\w.])", line, re.I)
+        if block:
+            in_comment = block[1].upper() == b"BEGIN"
+        elif not in_comment and re.search(
+                rb"\$(FOR|ENDFOR|DO|ENDDO|REPEAT|UNTIL|WHILE|ENDWHILE)(?![A-Z])", without_comments(line), re.I):
+            return True
+    return False
+
+
+def packets_of(program):
+    """Divides a program into packets of whole lines. CR LF, LF and CR each end a line.
+
+    >>> packets_of(b"N10\\rN20\\n\\r\\nM30")
+    [b'N10\\r\\nN20\\r\\n\\r\\nM30\\r\\n']
+    >>> [len(packet) for packet in packets_of(b"x" * 489 + b"\\r" + b"x" * 499 + b"\\ny")]
+    [992, 3]
+    """
+    lines = program.splitlines()
     can_stream = [len(line) <= 990 and line.isascii() and b"\0" not in line for line in lines]
     check(all(can_stream), "a line cannot be streamed")
-    loops = rb"\$(FOR|ENDFOR|DO|ENDDO|REPEAT|UNTIL|WHILE|ENDWHILE)\b"
-    check(not any(re.match(loops, line.strip()) for line in lines), "the program contains a loop")
-    packets = [b""]
+    check(not has_loop(lines), "the program contains a loop")
+    packets = []
     for line in lines:
-        if len(packets[-1] + line) + 2 > 992:
+        if not packets or len(packets[-1] + line) + 2 > 992:
             packets.append(b"")
         packets[-1] += line + b"\r\n"
+    return packets
+
+
+def stream(cnc, channel, file):
+    with open(file, "rb") as program:
+        packets = packets_of(program.read())
     for packet in packets:
         for tries in range(100):
             try:
