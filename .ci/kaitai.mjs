@@ -23,8 +23,8 @@ if (action === "compile") {
   const { KaitaiStream } = require("kaitai-struct");
   const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
   const plain = (value) => {
-    // JSON cannot represent infinity and -0, so these values are printed as their bytes.
-    if (Object.is(value, -0) || value === Infinity || value === -Infinity) {
+    // JSON cannot represent NaN, infinity and -0, so these values are printed as their bytes.
+    if (Object.is(value, -0) || (typeof value === "number" && !Number.isFinite(value))) {
       return plain(new Uint8Array(Float64Array.of(value).buffer));
     }
     if (value instanceof Uint8Array) return { hex: Buffer.from(value).toString("hex") };
