@@ -95,7 +95,7 @@ typedef enum AdsCncErrorKind {
     ADS_CNC_NO_FIELD = 35,
     ADS_CNC_ARGUMENT = 36,     /* value that the function does not accept; name is the argument or field */
     ADS_CNC_ROOM = 37,         /* items or bytes needed, room available */
-    ADS_CNC_NOT_STARTED = 38,  /* sender or host that was never started */
+    ADS_CNC_NOT_STARTED = 38,  /* sender or host that is not started */
     ADS_CNC_LINE = 39,         /* line; length of the line if it is too long, otherwise the invalid byte;
                                   `offset` is the column */
     /* errors of a received call */
@@ -366,7 +366,8 @@ bool ads_cnc_call_read(const AdsCncFrame *frame, AdsCncCall *call, AdsCncError *
 /* ------------------------------------------------------------- sender of an NC program */
 
 /* A sender in memory of the caller; the contents are private to the library. A sender may be copied. Before
- * ads_cnc_sender_start, the memory must be zero; the other functions then return false. */
+ * ads_cnc_sender_start, the memory must be zero; the other functions then return false. They also return false
+ * after an error of ads_cnc_sender_start, even if the sender was started before. */
 typedef struct AdsCncSender {
     uint64_t opaque[152];
 } AdsCncSender;
@@ -463,7 +464,7 @@ bool ads_cnc_host_event(AdsCncHost *host, uint32_t event);
 
 /* The outcome of the last answer: ADS_CNC_ANSWERED, or ADS_CNC_ABANDONED if the variables no longer contained the
  * request. It is ADS_CNC_NO_OUTCOME before the first answer, until the outcome of an answer is known, and if
- * the host was never started. */
+ * the host is not started. */
 uint32_t ads_cnc_host_outcome(const AdsCncHost *host);
 
 #ifdef __cplusplus

@@ -47,7 +47,7 @@ pub(crate) enum Fault {
     Argument(&'static str),
     /// The memory of the caller is too small: the numbers of items needed and available.
     Room(u32, u32),
-    /// The sender or host was never started.
+    /// The sender or host is not started.
     NotStarted,
     /// A line of an NC program that cannot be sent: line, column, the number found, and a
     /// description.
@@ -123,7 +123,7 @@ impl AdsCncError {
                 named(of(36, "argument not accepted by the function"), "call", name)
             }
             Fault::Room(needed, given) => numbers(of(37, "too little room"), 0, needed, given),
-            Fault::NotStarted => of(38, "never started"),
+            Fault::NotStarted => of(38, "not started"),
             Fault::Line(line, column, found, text) => {
                 named(numbers(of(39, text), column, line, found), "nc-text", "line")
             }

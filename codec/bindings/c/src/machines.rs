@@ -29,13 +29,15 @@ macro_rules! machine {
             /// # Safety
             /// `it` is null, or points to memory for a machine that is not accessed elsewhere
             /// during the call.
-            unsafe fn start(it: *mut Self, state: $state) -> Result<(), Fault> {
+            unsafe fn start(it: *mut Self, state: Result<$state, Fault>) -> Result<(), Fault> {
                 if it.is_null() {
                     return Err(Fault::Pointer);
                 }
                 // SAFETY: not null, and the state fits; the rest is the caller's contract.
                 unsafe {
-                    (&raw mut (*it).state).cast::<$state>().write(state);
+                    // The data of an earlier start may be freed, so an error must not leave it in use.
+                    (&raw mut (*it).started).write(0);
+                    (&raw mut (*it).state).cast::<$state>().write(state?);
                     (&raw mut (*it).started).write($started);
                 }
                 Ok(())
@@ -157,7 +159,8 @@ fn line_fault(kind: LineErrorKind) -> (u32, &'static str) {
 }
 
 /// Starts sending an NC program. The text must stay in place while the sender is used. If a line
-/// cannot be sent, `expected` of the error is the line, and `offset` the column.
+/// cannot be sent, `expected` of the error is the line, and `offset` the column. After an error, the
+/// sender is not started, even if it was before.
 ///
 /// # Safety
 /// `sender` points to memory for a sender; `text` points to `length` bytes, which stay valid as
@@ -169,21 +172,20 @@ pub unsafe extern "C" fn ads_cnc_sender_start(
     length: u32,
     error: *mut AdsCncError,
 ) -> bool {
-    let start = || -> Result<(), Fault> {
+    let new = || -> Result<Sender<'static>, Fault> {
         // SAFETY: the caller's contract: the bytes last as long as the sender.
         let text = NcText::new(unsafe { bytes(text, length)? }).map_err(|error| {
             let (found, text) = line_fault(error.kind());
             Fault::Line(error.line(), error.column(), found, text)
         })?;
-        // SAFETY: the caller's contract.
-        unsafe { AdsCncSender::start(sender, Sender::new(text)) }
+        Ok(Sender::new(text))
     };
     // SAFETY: the caller's contract.
-    unsafe { told(start(), error) }
+    unsafe { told(AdsCncSender::start(sender, new()), error) }
 }
 
 /// Writes the packet that is to be sent now to `packet`. Returns false if all packets were
-/// accepted, a packet was rejected, or the sender was never started.
+/// accepted, a packet was rejected, or the sender is not started.
 ///
 /// # Safety
 /// `sender` points to memory that is zero, or to a sender that was started and whose text is still
@@ -231,7 +233,7 @@ pub extern "C" fn ads_cnc_acknowledgement(ads_error: u32) -> u32 {
     }
 }
 
-/// Returns the progress of a sender in `progress`; returns false if the sender was never started.
+/// Returns the progress of a sender in `progress`; returns false if the sender is not started.
 ///
 /// # Safety
 /// `sender` points to memory that is zero, or to a sender that was started and whose text is still
@@ -286,7 +288,8 @@ pub unsafe extern "C" fn ads_cnc_service_id(
     unsafe { told(parse(), error) }
 }
 
-/// Starts a host of services on one channel.
+/// Starts a host of services on one channel. After an error, the host is not started, even if it was
+/// before.
 ///
 /// # Safety
 /// `host` points to memory for a host; `ids` points to `count` IDs, which stay valid as long as the
@@ -298,19 +301,15 @@ pub unsafe extern "C" fn ads_cnc_host_start(
     count: u32,
     error: *mut AdsCncError,
 ) -> bool {
-    let start = || -> Result<(), Fault> {
-        // SAFETY: the caller's contract: the IDs last as long as the host. `AdsCncServiceId` is
-        // transparent.
-        let ids = unsafe { slice(ids.cast::<ServiceId>(), count)? };
-        // SAFETY: the caller's contract.
-        unsafe { AdsCncHost::start(host, Services::new(ids)) }
-    };
+    // SAFETY: the caller's contract: the IDs last as long as the host. `AdsCncServiceId` is
+    // transparent.
+    let new = unsafe { slice(ids.cast::<ServiceId>(), count) }.map(Services::new);
     // SAFETY: the caller's contract.
-    unsafe { told(start(), error) }
+    unsafe { told(AdsCncHost::start(host, new), error) }
 }
 
 /// Returns the next step in `step`. The step stays the same until a read value, an answer or an
-/// event is reported. Returns false if the host was never started.
+/// event is reported. Returns false if the host is not started.
 ///
 /// # Safety
 /// `host` points to memory that is zero, or to a host that was started and whose IDs are still
@@ -399,7 +398,7 @@ pub unsafe extern "C" fn ads_cnc_host_answer(
 }
 
 /// Reports an event: `ADS_CNC_WRITTEN`, `ADS_CNC_FAILED`, `ADS_CNC_POLL` or `ADS_CNC_RESTART`.
-/// Returns false for an unknown event, or if the host was never started.
+/// Returns false for an unknown event, or if the host is not started.
 ///
 /// # Safety
 /// `host` points to memory that is zero, or to a host that was started and whose IDs are still
@@ -419,7 +418,7 @@ pub unsafe extern "C" fn ads_cnc_host_event(host: *mut AdsCncHost, event: u32) -
 }
 
 /// The outcome of the last answer: `ADS_CNC_ANSWERED`, `ADS_CNC_ABANDONED`, or `ADS_CNC_NO_OUTCOME`
-/// before the first answer, until the outcome of an answer is known, and if the host was never
+/// before the first answer, until the outcome of an answer is known, and if the host is not
 /// started.
 ///
 /// # Safety

@@ -100,6 +100,26 @@ fn a_program_is_sent_in_packets() {
     }
 }
 
+/// After a failed start, a machine does not use the data of an earlier start, which may be freed.
+#[test]
+fn a_failed_start_leaves_a_machine_not_started() {
+    let (mut sender, mut host) = (zero::<AdsCncSender>(), zero::<AdsCncHost>());
+    // SAFETY: all pointers are valid, or null.
+    unsafe {
+        for (text, length) in [(b"N20 \xE4".as_ptr(), 5), (null(), 1)] {
+            let program = b"N10 G0 X0".to_vec();
+            assert!(ads_cnc_sender_start(&mut sender, program.as_ptr(), 9, null_mut()));
+            assert!(!ads_cnc_sender_start(&mut sender, text, length, null_mut()));
+            drop(program);
+            assert!(!ads_cnc_sender_packet(&mut sender, null_mut()));
+            assert!(!ads_cnc_sender_progress(&sender, null_mut()));
+        }
+        assert!(ads_cnc_host_start(&mut host, null(), 0, null_mut()));
+        assert!(!ads_cnc_host_start(&mut host, null(), 1, null_mut()));
+        assert!(!ads_cnc_host_step(&host, null_mut()));
+    }
+}
+
 #[test]
 fn a_host_serves_a_request() {
     const UUID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
