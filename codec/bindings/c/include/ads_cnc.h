@@ -435,7 +435,8 @@ typedef struct AdsCncHostStep {
     uint32_t service;        /* to serve a request: index of the service in the IDs, from 0 */
     uint32_t request_state;  /* to serve a request: its state */
     AdsCncBytes variable;    /* name of a variable */
-    AdsCncBytes data;        /* a value, or the text of a request in CP1252; valid until the next call */
+    AdsCncBytes data;        /* a value, or the text of a request in CP1252; valid until the next call,
+                                to which it can be passed */
 } AdsCncHostStep;
 
 enum { ADS_CNC_WRITTEN = 0, ADS_CNC_FAILED = 1, ADS_CNC_POLL = 2, ADS_CNC_RESTART = 3 };

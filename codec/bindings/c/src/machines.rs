@@ -85,6 +85,7 @@ machine! {
 }
 
 /// A host, its services, and the text of the last request that it has read.
+#[derive(Clone)]
 struct Services {
     host: Host<'static>,
     ids: &'static [ServiceId],
@@ -367,8 +368,13 @@ pub unsafe extern "C" fn ads_cnc_host_read(
 ) -> bool {
     let read = || -> Result<(), Fault> {
         // SAFETY: the caller's contract.
-        let (it, value) = unsafe { (AdsCncHost::get_mut(host)?, bytes(value, length)?) };
-        Ok(it.read(value)?)
+        let (it, value) = unsafe { (AdsCncHost::get(host)?, bytes(value, length)?) };
+        // The value may be in the host, so a copy of the host reads it.
+        let mut changed = it.clone();
+        let result = changed.read(value);
+        // SAFETY: the caller's contract.
+        unsafe { *AdsCncHost::get_mut(host)? = changed };
+        Ok(result?)
     };
     // SAFETY: the caller's contract.
     unsafe { told(read(), error) }
@@ -390,8 +396,13 @@ pub unsafe extern "C" fn ads_cnc_host_answer(
 ) -> bool {
     let answer = || -> Result<(), Fault> {
         // SAFETY: the caller's contract.
-        let (it, response) = unsafe { (AdsCncHost::get_mut(host)?, bytes(response, length)?) };
-        Ok(it.host.answer(CncStr::from_bytes(response)?, response_state)?)
+        let (it, response) = unsafe { (AdsCncHost::get(host)?, bytes(response, length)?) };
+        // The response may be the request in the host, so a copy of the host is answered.
+        let mut changed = it.host.clone();
+        changed.answer(CncStr::from_bytes(response)?, response_state)?;
+        // SAFETY: the caller's contract.
+        unsafe { AdsCncHost::get_mut(host)?.host = changed };
+        Ok(())
     };
     // SAFETY: the caller's contract.
     unsafe { told(answer(), error) }

@@ -174,3 +174,30 @@ fn a_host_serves_a_request() {
         assert!(!ads_cnc_host_read(&mut host, b"".as_ptr(), 0, &mut error));
     }
 }
+
+/// The data of a step is in the host, and a service may pass it back. Under Miri, this test detects
+/// that the host is changed while the data is borrowed.
+#[test]
+fn a_host_accepts_its_own_data() {
+    let id = *b"560AACBF-6335-44a9-895A-8B27F3ED5E47";
+    let (mut host, mut step) = (zero::<AdsCncHost>(), zero::<AdsCncHostStep>());
+    let host = &raw mut host;
+    // SAFETY: all pointers are valid.
+    unsafe {
+        assert!(ads_cnc_host_start(host, id.as_ptr().cast(), 1, null_mut()));
+        let values: [&[u8]; 6] = [&[7, 0, 0, 0], &id, b"echo\0", &[7, 0, 0, 0], &id, b"echo\0"];
+        for value in values {
+            assert!(ads_cnc_host_step(host, &mut step));
+            assert!(ads_cnc_host_read(host, value.as_ptr(), value.len() as u32, null_mut()));
+        }
+        assert!(ads_cnc_host_step(host, &mut step) && step.kind == 3);
+        assert!(ads_cnc_host_read(host, step.data.data, step.data.length, null_mut()));
+        assert!(ads_cnc_host_step(host, &mut step) && step.kind == 3);
+        assert!(ads_cnc_host_answer(host, step.data.data, step.data.length, 1, null_mut()));
+        for value in [&[7, 0, 0, 0], &id[..], b"echo\0"] {
+            assert!(ads_cnc_host_read(host, value.as_ptr(), value.len() as u32, null_mut()));
+        }
+        assert!(ads_cnc_host_step(host, &mut step) && step.kind == 2);
+        assert_eq!(step.data.get().unwrap_or_default(), b"echo\0");
+    }
+}
