@@ -63,7 +63,7 @@ impl From<Error> for Fault {
 }
 
 /// The number and the description of each kind of errors of the codec.
-fn class(kind: ErrorKind) -> (u32, &'static str) {
+pub(crate) fn class(kind: ErrorKind) -> (u32, &'static str) {
     match kind {
         ErrorKind::Truncated => (1, "truncated"),
         ErrorKind::Trailing => (2, "trailing bytes"),
@@ -85,7 +85,7 @@ fn class(kind: ErrorKind) -> (u32, &'static str) {
 }
 
 impl AdsCncError {
-    fn new(fault: Fault) -> Self {
+    pub(crate) fn new(fault: Fault) -> Self {
         let of = |kind, text: &str| Self {
             kind,
             stream: ADS_CNC_NONE,

@@ -22,6 +22,7 @@ use crate::*;
 use common::{CALLS, SAMPLES};
 
 mod common;
+mod enumerators;
 mod invalid;
 mod layouts;
 mod machines;
