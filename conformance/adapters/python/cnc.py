@@ -191,7 +191,8 @@ def without_comments(line):
 
 
 def has_loop(lines):
-    """Returns whether a line contains a keyword of a loop outside comments and quoted text.
+    """Returns whether a line contains a keyword of a loop outside comments and quoted text. A block of comments
+    without an end continues to the last line.
 
     >>> all(has_loop([line]) for line in (b"N10 $FOR", b"X1 $for", b"(a (b)) $Do", b'"(" $DO', b"$UNTIL1"))
     True
@@ -201,10 +202,12 @@ def has_loop(lines):
     False
     >>> has_loop([b"#COMMENT BEGIN", b"#COMMENT END", b"$DO"])
     True
+    >>> has_loop([b"\\x0b#COMMENT BEGIN", b"$DO"])
+    True
     """
     in_comment = False
     for line in lines:
-        block = re.match(rb"\s*(?:/\d*\s*)?(?:N\s*\d+\s*)?#COMMENT\s+(BEGIN|END)(?![\w.])", line, re.I)
+        block = re.match(rb"[ \t]*(?:/\d*[ \t]*)?(?:N[ \t]*\d+[ \t]*)?#COMMENT[ \t]+(BEGIN|END)(?![\w.])", line, re.I)
         if block:
             in_comment = block[1].upper() == b"BEGIN"
         elif not in_comment and re.search(
