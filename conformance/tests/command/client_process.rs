@@ -308,7 +308,7 @@ fn a_connecting_client_is_judged() {
         let mut line = String::new();
         BufReader::new(process.stderr.take().unwrap()).read_line(&mut line).unwrap();
         let addr = line.split([' ', ',']).find(|word| word.starts_with("127.0.0.1:")).unwrap();
-        // The previous connection stays open until the next is open, because the run ends when none is.
+        // Open each connection before closing the previous one: the run ends when no connection is open.
         let mut before = None;
         for _ in 0..connections {
             let mut stream = connect(addr.parse().unwrap());
@@ -333,7 +333,7 @@ fn a_connecting_client_is_judged() {
     let (code, report) = listen(&request, 80);
     assert_eq!(code, Some(0), "{report:#}");
     assert_eq!(report["frames"], 160, "{report:#}");
-    // Each request has the same invoke ID, but none is pending when the next is sent.
+    // All requests have the same invoke ID, but each is answered before the client sends the next one.
     assert!(!report.to_string().contains("a request without a reply"), "{report:#}");
     // The client sends the same request to the port of another task.
     request[12] = 0x28;
